@@ -8,12 +8,9 @@
 #include "graph.glsl"
 #include "lanes.glsl"
 
-layout(constant_id = 1) const bool kFetchesTexels = true;
-
-layout(set = 0, binding = 0, rgba32ui) uniform writeonly uimageBuffer rowTexels;
+layout(set = 0, binding = 0) writeonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 4) readonly buffer InverseRoots { float inverseRoots[]; };
-layout(set = 0, binding = 5) writeonly buffer Rows { uvec4 rowBlocks[]; };
-layout(set = 0, binding = 6) writeonly buffer Couplings { float couplings[]; };
+layout(set = 0, binding = 5) writeonly buffer Couplings { float couplings[]; };
 
 // Bits are the same in both directions: the product of the roots comes first.
 float couplingOf(uint face, uint arc) {
@@ -33,14 +30,7 @@ void main() {
       heads[arc - begin] = couplingOf(face, arc);
     }
     for (uint arc = headEnd; arc < end; ++arc) couplings[arc] = couplingOf(face, arc);
-    const uvec4 t0 = uvec4(columns, headEnd), t1 = uvec4(floatBitsToUint(heads), end - headEnd);
-    const uint block = face * kPoissonRowTexelCount;
-    if (kFetchesTexels) {
-      imageStore(rowTexels, int(block), t0);
-      imageStore(rowTexels, int(block) + 1, t1);
-    } else {
-      rowBlocks[block] = t0;
-      rowBlocks[block + 1u] = t1;
-    }
+    rowBlocks[face * kPoissonRowBlockCount] = uvec4(columns, headEnd);
+    rowBlocks[face * kPoissonRowBlockCount + 1u] = uvec4(floatBitsToUint(heads), end - headEnd);
   }
 }

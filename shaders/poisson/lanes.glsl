@@ -3,7 +3,7 @@
 #ifndef PUSH_STRUCT
 #define PUSH_STRUCT PoissonPush
 #endif
-layout(local_size_x_id = 2) in;                      // kLaneCount: an id is used once only.
+layout(local_size_x_id = 1) in;                      // kLaneCount: an id is used once only.
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
 layout(push_constant) uniform Push { PUSH_STRUCT push; };

@@ -1,16 +1,10 @@
-// The matrix S: bindings 0 to 2 and 8 of every kernel that multiplies by it. Either the image or the buffer holds the
-// rows, as in bvh_fetch.glsl.
-layout(constant_id = 1) const bool kFetchesTexels = true;
-
-layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rowTexels;
-layout(set = 0, binding = 8) readonly buffer Rows { uvec4 rowBlocks[]; };
+// The matrix S: bindings 0 to 2 of every kernel that multiplies by it.
+layout(set = 0, binding = 0) readonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer TailColumns { uint tailColumns[]; };
 layout(set = 0, binding = 2) readonly buffer TailCouplings { float tailCouplings[]; };
 
 PoissonRow loadRow(uint row) {
-  const uint block = row * kPoissonRowTexelCount;
-  if (kFetchesTexels) return decodePoissonRow(imageLoad(rowTexels, int(block)), imageLoad(rowTexels, int(block) + 1));
-  return decodePoissonRow(rowBlocks[block], rowBlocks[block + 1u]);
+  return decodePoissonRow(rowBlocks[row * kPoissonRowBlockCount], rowBlocks[row * kPoissonRowBlockCount + 1u]);
 }
 
 // sum += (S v)(row). v: the name of an array.

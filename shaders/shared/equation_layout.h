@@ -8,8 +8,6 @@
 #define ASDFVK_EQUATION_LAYOUT_H
 
 #ifdef __cplusplus
-#include <cstddef>
-
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
@@ -31,10 +29,8 @@ struct EquationPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(EquationStart) == 12 && offsetof(EquationStart, base) == 0);
-static_assert(offsetof(EquationStart, difference) == 4 && offsetof(EquationStart, flags) == 8);
-static_assert(sizeof(EquationPush) == 12 && offsetof(EquationPush, faceCount) == 0);
-static_assert(offsetof(EquationPush, workgroupCount) == 4 && offsetof(EquationPush, scale) == 8);
+static_assert(sizeof(EquationStart) == 12);
+static_assert(sizeof(EquationPush) == 12);
 }  // namespace asdfvk
 #endif
 

@@ -8,16 +8,14 @@
 #define ASDFVK_POISSON_LAYOUT_H
 
 #ifdef __cplusplus
-#include <cstddef>
-
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
 #endif
 
-// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries and the location of the others. On a
+// A row of S, two blocks of 16 bytes: its first three entries and the location of the others. On a
 // manifold mesh a row has at most three. An absent entry has coupling 0 and the column of the row.
-const uint kPoissonRowTexelCount = 2u;
+const uint kPoissonRowBlockCount = 2u;
 const uint kPoissonRowHeadLength = 3u;  // Entries in the row itself.
 struct PoissonRow {
   uint column0, column1, column2;
@@ -138,23 +136,11 @@ struct CgRules {
 #ifdef __cplusplus
 };
 
-static_assert(sizeof(PoissonRow) == 16 * kPoissonRowTexelCount);
-static_assert(offsetof(PoissonRow, column0) == 0 && offsetof(PoissonRow, column1) == 4);
-static_assert(offsetof(PoissonRow, column2) == 8 && offsetof(PoissonRow, tailBegin) == 12);
-static_assert(offsetof(PoissonRow, coupling0) == 16 && offsetof(PoissonRow, coupling1) == 20);
-static_assert(offsetof(PoissonRow, coupling2) == 24 && offsetof(PoissonRow, tailCount) == 28);
+static_assert(sizeof(PoissonRow) == 16 * kPoissonRowBlockCount);
 static_assert(sizeof(CgState) == 16);
-static_assert(offsetof(CgState, residualSquared) == 0 && offsetof(CgState, toleranceSquared) == 4);
-static_assert(offsetof(CgState, iterationCount) == 8 && offsetof(CgState, status) == 12);
 static_assert(sizeof(DispatchSize) == 12);
-static_assert(offsetof(DispatchSize, x) == 0 && offsetof(DispatchSize, y) == 4 && offsetof(DispatchSize, z) == 8);
 static_assert(sizeof(PoissonSums) == 6144);
-static_assert(offsetof(PoissonSums, directionSquared) == 0 && offsetof(PoissonSums, productDot) == 1024);
-static_assert(offsetof(PoissonSums, productSquared) == 2048 && offsetof(PoissonSums, residualProduct) == 3072);
-static_assert(offsetof(PoissonSums, residualDot) == 4096 && offsetof(PoissonSums, residualSquared) == 5120);
 static_assert(sizeof(PoissonPush) == 12);
-static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
-static_assert(offsetof(PoissonPush, workgroupCount) == 8);
 }  // namespace asdfvk
 #else
 #undef Real

@@ -53,8 +53,7 @@ PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, 
       if (std::isfinite(divergence[face])) whole[face] += divergence[face];
     divergence = std::move(whole);
   }
-  return buildPoissonSystem(graph, weights, problem.constraints, divergence,
-                            {.firstGuess = problem.firstGuess, .componentOf = problem.componentOf});
+  return buildPoissonSystem(graph, weights, problem.constraints, divergence, problem.componentOf, problem.firstGuess);
 }
 
 std::unique_ptr<PoissonSolver> makeCpuCgSolver(const Device*) { return std::make_unique<CpuSolver>(solveByCpuCg); }

@@ -50,25 +50,6 @@ double finiteOrZero(std::span<const double> perFace, uint32_t face) {
   return !perFace.empty() && std::isfinite(perFace[face]) ? perFace[face] : 0;
 }
 
-/// #F: 1 for a face that is constrained or that a path of arcs connects to a constraint. Breadth-first search.
-std::vector<uint8_t> searchReachableFaces(const DualGraph& graph, std::span<const double> constraints) {
-  std::vector<uint8_t> isReachable(graph.faceCount(), 0);
-  std::vector<uint32_t> queue;
-  queue.reserve(graph.faceCount());
-  for (uint32_t face = 0; face < graph.faceCount(); ++face)
-    if (std::isfinite(constraints[face])) {
-      isReachable[face] = 1;
-      queue.push_back(face);
-    }
-  for (size_t next = 0; next < queue.size(); ++next)
-    for (uint32_t neighbour : graph.neighboursOf(queue[next]))
-      if (!isReachable[neighbour]) {
-        isReachable[neighbour] = 1;
-        queue.push_back(neighbour);
-      }
-  return isReachable;
-}
-
 /// Fills all of `system` but faces, firstGuess and constraintMean. unknownOf: #F, kNotUnknown for the other faces.
 void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> constraints,
               std::span<const double> divergence, PoissonSystem& system) {
@@ -143,29 +124,27 @@ double meanOfConstraints(std::span<const double> constraints) {
 
 PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                  std::span<const double> constraints, std::span<const double> divergence,
-                                 const PoissonOptions& options) {
+                                 std::span<const uint32_t> componentOf, std::span<const double> firstGuess) {
   const size_t faceCount = graph.faceCount();
   ASDFVK_CHECK_OP(weights.size(), ==, graph.neighbours.size());
   ASDFVK_CHECK_OP(constraints.size(), ==, faceCount);
   if (!divergence.empty()) ASDFVK_CHECK_OP(divergence.size(), ==, faceCount);
-  if (!options.firstGuess.empty()) ASDFVK_CHECK_OP(options.firstGuess.size(), ==, faceCount);
-  if (!options.componentOf.empty()) ASDFVK_CHECK_OP(options.componentOf.size(), ==, faceCount);
+  if (!firstGuess.empty()) ASDFVK_CHECK_OP(firstGuess.size(), ==, faceCount);
+  ASDFVK_CHECK_OP(componentOf.size(), ==, faceCount);
 
   PoissonSystem system;
   system.constraintMean = meanOfConstraints(constraints);
-  const std::vector<uint8_t> isReachable = options.componentOf.empty()
-                                               ? searchReachableFaces(graph, constraints)
-                                               : reachableFaces(options.componentOf, constraints);
+  const std::vector<uint8_t> isReachable = reachableFaces(componentOf, constraints);
   std::vector<uint32_t> unknownOf(faceCount, kNotUnknown);
   for (uint32_t face = 0; face < faceCount; ++face)
     if (isReachable[face] && !std::isfinite(constraints[face])) {
       unknownOf[face] = system.unknownCount();
       system.faces.push_back(face);
     }
-  if (!options.firstGuess.empty()) {
+  if (!firstGuess.empty()) {
     system.firstGuess.resize(system.faces.size());
     forEachInParallel(system.faces.size(), [&](size_t row) {
-      const double guess = options.firstGuess[system.faces[row]];
+      const double guess = firstGuess[system.faces[row]];
       system.firstGuess[row] = std::isfinite(guess) ? guess : system.constraintMean;
     });
   }

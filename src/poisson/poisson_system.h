@@ -39,11 +39,6 @@ struct PoissonSystem {
   [[nodiscard]] uint32_t unknownCount() const { return static_cast<uint32_t>(faces.size()); }
 };
 
-struct PoissonOptions {
-  std::span<const double> firstGuess;     ///< #F, or empty. Non-finite entries are replaced by the constraintMean.
-  std::span<const uint32_t> componentOf;  ///< #F, Components::componentOf, or empty: components are searched.
-};
-
 /// The interpolation of the ASDF paper, section 4.1:
 ///
 ///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g)
@@ -56,10 +51,12 @@ struct PoissonOptions {
 /// as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a
 /// constrained face (Dirichlet), NaN elsewhere. divergence: #F, or empty for none; non-finite entries count as 0. It is
 /// minus the curvature for the paper's guidance, and divergenceOf(field) for guidance by any field: if the constraints
-/// are values of the field, the field is the solution.
+/// are values of the field, the field is the solution. componentOf: #F, see Components::componentOf. firstGuess: #F, or
+/// empty; non-finite entries are replaced by the constraintMean.
 [[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                                std::span<const double> constraints, std::span<const double> divergence,
-                                               const PoissonOptions& options = {});
+                                               std::span<const uint32_t> componentOf,
+                                               std::span<const double> firstGuess = {});
 
 /// #F: 1 for the faces of components with a finite constraint.
 [[nodiscard]] std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf,

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "dense_twin.h"
-#include "mesh/components.h"
 #include "poisson/poisson_system.h"
 #include "sample_problems.h"
 #include "support/bits.h"
@@ -41,7 +40,8 @@ TEST_CASE("matrix and right-hand side are those of dense algebra, for all weight
     const auto& [problem, kind, weights] = setting;
     std::vector<double> divergence = randomField(problem.values.size());
     divergence[3] = kNoValue;
-    const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, divergence);
+    const PoissonSystem system =
+        buildPoissonSystem(problem.graph, weights, problem.values, divergence, searchComponents(problem.graph));
     const DenseTwin twin(problem.graph, weights, problem.values, divergence);
     REQUIRE(std::equal(system.faces.begin(), system.faces.end(), twin.faces.begin(), twin.faces.end()));
     REQUIRE(system.unknownCount() > 40);
@@ -69,8 +69,9 @@ TEST_CASE("with constraints and divergence of a field, the field is the solution
     std::vector<double> values = problem.values;
     for (size_t f = 0; f < values.size(); ++f)
       if (std::isfinite(values[f])) values[f] = field[f];
-    const PoissonSystem system = buildPoissonSystem(problem.graph, weights, values,
-                                                    divergenceOf(problem.graph, weights, field), {.firstGuess = field});
+    const PoissonSystem system =
+        buildPoissonSystem(problem.graph, weights, values, divergenceOf(problem.graph, weights, field),
+                           searchComponents(problem.graph), field);
     CHECK(relativeResidual(system, system.firstGuess) < 1e-13);
     const Eigen::VectorXd solution = denseMatrix(system).ldlt().solve(
         Eigen::Map<const Eigen::VectorXd>(system.rightHandSide.data(), system.unknownCount()));
@@ -88,7 +89,8 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
       const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
       const std::vector<double> divergence = divergenceOf(problem.graph, weights, field);
-      PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, divergence);
+      PoissonSystem system =
+          buildPoissonSystem(problem.graph, weights, problem.values, divergence, searchComponents(problem.graph));
       numbers[threadCount - 1] = {weights, divergence};
       for (const auto& ofSystem : {system.entries, system.diagonal, system.rightHandSide})
         numbers[threadCount - 1].emplace_back(ofSystem.begin(), ofSystem.end());
@@ -103,26 +105,9 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
 TEST_CASE("a first guess that is not finite is replaced by the mean of the constraints") {
   const HandGraph hand(std::vector<Vec3d>(4), {{0, 1}, {1, 2}, {2, 3}});
   const std::vector<double> weights(6, 1.0), values{2, kNoValue, kNoValue, 4};
-  CHECK(buildPoissonSystem(hand.graph, weights, values, {}).firstGuess.empty());
+  const std::vector<uint32_t> componentOf(4, 0);
+  CHECK(buildPoissonSystem(hand.graph, weights, values, {}, componentOf).firstGuess.empty());
   const PoissonSystem system =
-      buildPoissonSystem(hand.graph, weights, values, {}, {.firstGuess = std::vector<double>{9, kNoValue, 7, 9}});
+      buildPoissonSystem(hand.graph, weights, values, {}, componentOf, std::vector<double>{9, kNoValue, 7, 9});
   CHECK(system.firstGuess == std::vector<double>{3, 7});
-}
-
-TEST_CASE("given components lead to the same system as searched ones") {
-  const Mesh mesh = randomFaces(60, 300, 1);
-  SampleProblem problem("random faces", mesh);
-  const std::vector<double> weights(problem.graph.neighbours.size(), 1.0);
-  const Components components = findComponents(mesh, surveyEdges(mesh));
-  REQUIRE(components.components.size() > 3);
-  const PoissonSystem searched = buildPoissonSystem(problem.graph, weights, problem.values, {});
-  const PoissonSystem given =
-      buildPoissonSystem(problem.graph, weights, problem.values, {}, {.componentOf = components.componentOf});
-  const auto unknownCount =
-      std::count_if(problem.values.begin(), problem.values.end(), [](double value) { return !std::isfinite(value); });
-  REQUIRE(searched.unknownCount() < unknownCount);  // Some component has no constraint.
-  CHECK(given.faces == searched.faces);
-  CHECK(given.columns == searched.columns);
-  CHECK(test::haveSameBits(given.entries, searched.entries));
-  CHECK(test::haveSameBits(given.rightHandSide, searched.rightHandSide));
 }

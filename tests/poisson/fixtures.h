@@ -60,12 +60,6 @@ struct HandGraph {
   }
 };
 
-/// The paper's system: weights 1 / distance.
-inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& geometry,
-                                    std::span<const double> values, std::span<const double> divergence = {}) {
-  return buildPoissonSystem(graph, arcWeights(ArcWeights::Distance, graph, geometry), values, divergence);
-}
-
 /// The component of each face.
 inline std::vector<uint32_t> searchComponents(const DualGraph& graph) {
   std::vector<uint32_t> componentOf(graph.faceCount(), UINT32_MAX);
@@ -87,6 +81,13 @@ inline std::vector<uint32_t> searchComponents(const DualGraph& graph) {
   return componentOf;
 }
 
+/// The paper's system: weights 1 / distance.
+inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& geometry,
+                                    std::span<const double> values, std::span<const double> divergence = {}) {
+  return buildPoissonSystem(graph, arcWeights(ArcWeights::Distance, graph, geometry), values, divergence,
+                            searchComponents(graph));
+}
+
 /// An interpolation, and its system by which solutions are judged.
 struct Equation {
   DualGraph graph;
@@ -103,7 +104,7 @@ struct Equation {
         divergence(std::move(theDivergence)),
         firstGuess(std::move(theFirstGuess)),
         componentOf(searchComponents(graph)),
-        system(buildPoissonSystem(graph, weights, constraints, divergence, {.firstGuess = firstGuess})) {
+        system(buildPoissonSystem(graph, weights, constraints, divergence, componentOf, firstGuess)) {
     if (firstGuess.empty()) firstGuess.assign(constraints.size(), kNoValue);
   }
 

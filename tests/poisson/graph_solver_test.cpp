@@ -46,8 +46,7 @@ struct GraphCase {
   }
   [[nodiscard]] PoissonSystem system(const DualGraph& graph, std::span<const double> weights) const {
     const std::vector<double> begin = start();
-    return buildPoissonSystem(graph, weights, constraints, wholeDivergence(graph, weights),
-                              {.firstGuess = begin, .componentOf = componentOf});
+    return buildPoissonSystem(graph, weights, constraints, wholeDivergence(graph, weights), componentOf, begin);
   }
 };
 

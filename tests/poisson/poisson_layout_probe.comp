@@ -7,7 +7,7 @@ layout(local_size_x = 8) in;
 layout(set = 0, binding = 0) readonly buffer States { CgState states[2]; };
 layout(set = 0, binding = 1) readonly buffer Sums { PoissonSums sums; };
 layout(set = 0, binding = 2) writeonly buffer Words { uint words[]; };
-layout(set = 0, binding = 3, rgba32ui) uniform readonly uimageBuffer rows;
+layout(set = 0, binding = 3) readonly buffer Rows { uvec4 rows[]; };
 layout(set = 0, binding = 4) readonly buffer Size { DispatchSize dispatchSize; };
 layout(push_constant) uniform Push { PoissonPush push; };
 
@@ -25,7 +25,7 @@ void main() {
   words[11] = dispatchSize.x;
   words[12] = dispatchSize.y;
   words[13] = dispatchSize.z;
-  const PoissonRow row = decodePoissonRow(imageLoad(rows, 0), imageLoad(rows, 1));
+  const PoissonRow row = decodePoissonRow(rows[0], rows[1]);
   words[14] = row.column0;
   words[15] = row.column1;
   words[16] = row.column2;

@@ -58,8 +58,8 @@ class VulkanCgSolver final : public VulkanSolver {
 }  // namespace
 
 VulkanCgKernels::VulkanCgKernels(const Device& device)
-    : product(device, describePoissonKernel(device.facts(), "cg_product.comp", k_cg_product_comp, 9, true)),
-      step(device, describePoissonKernel(device.facts(), "cg_step.comp", k_cg_step_comp, 7, false)) {}
+    : product(device, describePoissonKernel(device.facts(), "cg_product.comp", k_cg_product_comp, 8)),
+      step(device, describePoissonKernel(device.facts(), "cg_step.comp", k_cg_step_comp, 7)) {}
 
 VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
                    const Buffer& rightHandSide, double reduction)
@@ -75,10 +75,9 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
       size_(uploadBuffer(device, bytesOf(DispatchSize{matrix.grid.workgroupCount, 1, 1}), kSizeUsage)),
       statesOnHost_(device, 2 * sizeof(CgState), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
-      productBindings_(
-          device, kernels.product,
-          std::array<Binding, 9>{matrix.rowTexels, matrix.tailColumns, matrix.tailCouplings, matrix.residualWeights,
-                                 residual_, direction_, product_, sums_, matrix.storageRows}),
+      productBindings_(device, kernels.product,
+                       std::array<Binding, 8>{matrix.rows, matrix.tailColumns, matrix.tailCouplings,
+                                              matrix.residualWeights, residual_, direction_, product_, sums_}),
       stepBindings_(device, kernels.step,
                     std::array<Binding, 7>{product_, solution_, residual_, direction_, sums_, states_, size_}),
       commands_(device) {

@@ -20,8 +20,8 @@ namespace {
 constexpr double kMinScaledWeight = 1e-30, kMaxScaledWeight = 1e30;
 
 ComputePipelineDescription describeKernel(const DeviceFacts& facts, const std::string& name,
-                                          std::span<const uint32_t> spirv, uint32_t bindingCount, bool withTexels) {
-  ComputePipelineDescription description = describePoissonKernel(facts, name, spirv, bindingCount, withTexels);
+                                          std::span<const uint32_t> spirv, uint32_t bindingCount) {
+  ComputePipelineDescription description = describePoissonKernel(facts, name, spirv, bindingCount);
   description.pushConstantByteCount = sizeof(EquationPush);
   return description;
 }
@@ -59,11 +59,11 @@ double largestMagnitude(std::span<const double> values) {
 }  // namespace
 
 VulkanEquationKernels::VulkanEquationKernels(const Device& device)
-    : diagonal(device, describeKernel(device.facts(), "equation_diagonal.comp", k_equation_diagonal_comp, 4, false)),
-      rows(device, describeKernel(device.facts(), "equation_rows.comp", k_equation_rows_comp, 7, true)),
-      begin(device, describeKernel(device.facts(), "equation_begin.comp", k_equation_begin_comp, 8, false)),
-      residual(device, describeKernel(device.facts(), "equation_residual.comp", k_equation_residual_comp, 8, false)),
-      correct(device, describeKernel(device.facts(), "equation_correct.comp", k_equation_correct_comp, 4, false)) {}
+    : diagonal(device, describeKernel(device.facts(), "equation_diagonal.comp", k_equation_diagonal_comp, 4)),
+      rows(device, describeKernel(device.facts(), "equation_rows.comp", k_equation_rows_comp, 6)),
+      begin(device, describeKernel(device.facts(), "equation_begin.comp", k_equation_begin_comp, 8)),
+      residual(device, describeKernel(device.facts(), "equation_residual.comp", k_equation_residual_comp, 8)),
+      correct(device, describeKernel(device.facts(), "equation_correct.comp", k_equation_correct_comp, 4)) {}
 
 VulkanGraph::VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
                          std::span<const double> arcWeights)
@@ -74,9 +74,9 @@ VulkanGraph::VulkanGraph(const Device& device, const VulkanEquationKernels& kern
   const Buffer inverseRoots = makePoissonVector(device, faceCount);
   const BindingSet diagonalBindings(device, kernels.diagonal,
                                     std::array<Binding, 4>{inverseRoots, arcOffsets, matrix.tailColumns, weights});
-  const BindingSet rowBindings(device, kernels.rows,
-                               std::array<Binding, 7>{matrix.rowTexels, arcOffsets, matrix.tailColumns, weights,
-                                                      inverseRoots, matrix.storageRows, matrix.tailCouplings});
+  const BindingSet rowBindings(
+      device, kernels.rows,
+      std::array<Binding, 6>{matrix.rows, arcOffsets, matrix.tailColumns, weights, inverseRoots, matrix.tailCouplings});
   const EquationPush push{.faceCount = faceCount, .workgroupCount = matrix.grid.workgroupCount, .scale = 1};
   CommandList commands(device);
   commands.begin();

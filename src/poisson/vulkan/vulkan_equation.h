@@ -35,7 +35,7 @@ struct VulkanGraph {
   uint32_t faceCount;
   double weightScale;  ///< Factor of the weights on the device.
   Buffer arcOffsets, weights;
-  VulkanMatrix matrix;  ///< Its tailColumns are the neighbours. Each VulkanEquation sets its residual weights.
+  VulkanMatrix matrix;  ///< tailColumns are the neighbours. Each VulkanEquation sets the residual weights.
 };
 
 /// One equation, and a solution in float32 as differences from a base: the guide, or the first guess without one. Norms

@@ -16,7 +16,7 @@ namespace {
 constexpr double kJacobiMinReduction = 1e-2;
 // Fixed: the end of the iteration depends on it, and the same input must give the same bits.
 constexpr uint32_t kBatch = 32;
-constexpr uint32_t kBindingCount = 9;
+constexpr uint32_t kBindingCount = 8;
 
 Buffer uploadZeros(const Device& device, size_t count) {
   return uploadBuffer(device, std::as_bytes(std::span<const float>(std::vector<float>(count, 0.0f))),
@@ -25,15 +25,7 @@ Buffer uploadZeros(const Device& device, size_t count) {
 
 std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer& rightHandSide, const Buffer& from,
                                         const Buffer& to, const Buffer& sums) {
-  return {matrix.rowTexels,
-          matrix.tailColumns,
-          matrix.tailCouplings,
-          rightHandSide,
-          matrix.residualWeights,
-          from,
-          to,
-          sums,
-          matrix.storageRows};
+  return {matrix.rows, matrix.tailColumns, matrix.tailCouplings, rightHandSide, matrix.residualWeights, from, to, sums};
 }
 
 class VulkanJacobiSolver final : public VulkanSolver {
@@ -60,8 +52,7 @@ class VulkanJacobiSolver final : public VulkanSolver {
 }  // namespace
 
 VulkanJacobiKernel::VulkanJacobiKernel(const Device& device)
-    : sweep(device,
-            describePoissonKernel(device.facts(), "jacobi_sweep.comp", k_jacobi_sweep_comp, kBindingCount, true)) {}
+    : sweep(device, describePoissonKernel(device.facts(), "jacobi_sweep.comp", k_jacobi_sweep_comp, kBindingCount)) {}
 
 VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
                            const Buffer& rightHandSide)

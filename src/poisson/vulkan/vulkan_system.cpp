@@ -18,7 +18,6 @@ namespace {
 // has lanes to fill and adds 256 sums in one step; a CPU device has neither advantage.
 constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
 constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
-constexpr uint64_t kRowBlockByteCount = sizeof(PoissonRow) / kPoissonRowTexelCount;
 // The rest is a margin for loops that the compiler adds.
 constexpr uint64_t kMaxKernelIterationCount = kMaxLoopIterationCount / 10 * 9;
 
@@ -46,11 +45,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
     throw Error(ErrorCode::EquationLimit, fmt::format("the Poisson system of {} unknowns exceeds a limit of {}: {}",
                                                       unknownCount, facts.name, reason));
   };
-  const uint64_t blockCount = unknownCount * kPoissonRowTexelCount;
-  if (prefersTexels(facts) && blockCount > facts.maxTexelBufferElements)
-    refuse(fmt::format("{} texels in one buffer, at most {}", blockCount, facts.maxTexelBufferElements));
-  const uint64_t byteCount = std::max(sizeof(uint32_t) * std::max(unknownCount, tailCount),
-                                      prefersTexels(facts) ? 0 : blockCount * kRowBlockByteCount);
+  const uint64_t byteCount = std::max(sizeof(uint32_t) * tailCount, sizeof(PoissonRow) * unknownCount);
   if (byteCount > facts.maxStorageBufferRange)
     refuse(fmt::format("{} MiB in one buffer, at most {}", (byteCount >> 20) + 1, facts.maxStorageBufferRange >> 20));
   const uint64_t laneCount = poissonLaneCount(facts);
@@ -64,33 +59,21 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
 }
 
 ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
-                                                 std::span<const uint32_t> spirv, uint32_t bindingCount,
-                                                 bool withMatrix) {
-  std::vector<VkDescriptorType> bindings(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  if (withMatrix) bindings[0] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+                                                 std::span<const uint32_t> spirv, uint32_t bindingCount) {
   return {name,
           spirv,
-          bindings,
+          std::vector(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
           sizeof(PoissonPush),
-          {/* kLaneCount= */ poissonLaneCount(facts), /* kFetchesTexels= */ prefersTexels(facts) ? VK_TRUE : VK_FALSE,
-           /* LOCAL_SIZE_X= */ poissonLaneCount(facts)}};
+          {/* kLaneCount= */ poissonLaneCount(facts), /* LOCAL_SIZE_X= */ poissonLaneCount(facts)}};
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, uint32_t count, Buffer columns, Buffer couplings)
     : rowCount(count),
       grid(choosePoissonGrid(device.facts(), rowCount)),
+      rows(device, rowCount * sizeof(PoissonRow), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::DeviceLocal),
       tailColumns(std::move(columns)),
       tailCouplings(std::move(couplings)),
-      residualWeights(makePoissonVector(device, rowCount)) {
-  const uint64_t byteCount = rowCount * sizeof(PoissonRow);
-  const bool asTexels = prefersTexels(device.facts());
-  const auto makeRows = [&](bool isUsed, VkBufferUsageFlags usage) {
-    return Buffer(device, isUsed ? byteCount : sizeof(PoissonRow), usage, MemoryKind::DeviceLocal);
-  };
-  texelRows = makeRows(asTexels, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-  rowTexels = TexelView(device, texelRows);
-  storageRows = makeRows(!asTexels, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-}
+      residualWeights(makePoissonVector(device, rowCount)) {}
 
 Buffer makePoissonVector(const Device& device, uint64_t count) {
   return {device, std::max<uint64_t>(count, 1) * sizeof(float), kPoissonVectorUsage, MemoryKind::DeviceLocal};

@@ -49,12 +49,11 @@ template <typename Vector>
   return uploadBuffer(device, std::as_bytes(std::span(vector)), usage);
 }
 
-/// The pipeline of a Poisson kernel. withMatrix: it has the bindings of shaders/poisson/matrix.glsl.
+/// The pipeline of a Poisson kernel.
 [[nodiscard]] ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
-                                                               std::span<const uint32_t> spirv, uint32_t bindingCount,
-                                                               bool withMatrix);
+                                                               std::span<const uint32_t> spirv, uint32_t bindingCount);
 
-/// The matrix on the device, bindings 0 to 2 and 8 of shaders/poisson/matrix.glsl, and the residual weights.
+/// The matrix on the device, bindings 0 to 2 of shaders/poisson/matrix.glsl, and the residual weights.
 struct VulkanMatrix {
   /// A matrix with unspecified rows and residual weights, for kernels that write them. Precondition:
   /// requireSystemFits().
@@ -62,9 +61,7 @@ struct VulkanMatrix {
 
   uint32_t rowCount;
   PoissonGrid grid;
-  Buffer texelRows, storageRows;  ///< The rows are in one of the two.
-  TexelView rowTexels;
-  Buffer tailColumns, tailCouplings;
+  Buffer rows, tailColumns, tailCouplings;
   /// Weight 0 excludes a row and its column: the unknown stays 0. Precondition: the right-hand side is 0 there.
   Buffer residualWeights;
 };
