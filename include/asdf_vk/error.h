@@ -50,7 +50,6 @@ enum class ErrorCode {
   EquationLimit,      ///< The Poisson equation exceeds a limit of the device; the CPU solvers have none.
   OutOfDeviceMemory,
   DeviceLost,
-  DeviceTimeout,
   ValidationFailed,  ///< The Vulkan validation layers reported a problem.
   VulkanFailed,      ///< Any other failure of a Vulkan call.
   ForkedProcess,     ///< Use in a process forked after the first use. Python module only.

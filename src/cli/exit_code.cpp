@@ -45,7 +45,6 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
     case ErrorCode::EquationLimit:
       return "use --solver cpu";
     case ErrorCode::DeviceLost:
-    case ErrorCode::DeviceTimeout:
       return orOnCpu("try again");
     case ErrorCode::MeshTooLarge:
       return "split the mesh";

@@ -78,9 +78,7 @@ Json deviceOf(const DeviceFacts& device) {
 }
 
 Json defaultsOf(const DeviceReport& report) {
-  return {{"variant", variantOf(report.choice)},
-          {"reason", defaultTraceReason(*report.device)},
-          {"solver", report.defaultSolver}};
+  return {{"variant", variantOf(report.choice)}, {"solver", report.defaultSolver}};
 }
 
 }  // namespace

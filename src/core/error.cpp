@@ -41,7 +41,6 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::EquationLimit, ErrorKind::Device, "equationLimit"},
     ErrorRow{ErrorCode::OutOfDeviceMemory, ErrorKind::Device, "outOfDeviceMemory"},
     ErrorRow{ErrorCode::DeviceLost, ErrorKind::Device, "deviceLost"},
-    ErrorRow{ErrorCode::DeviceTimeout, ErrorKind::Device, "deviceTimeout"},
     ErrorRow{ErrorCode::ValidationFailed, ErrorKind::Device, "validationFailed"},
     ErrorRow{ErrorCode::VulkanFailed, ErrorKind::Device, "vulkanFailed"},
     ErrorRow{ErrorCode::ForkedProcess, ErrorKind::Device, "forkedProcess"},

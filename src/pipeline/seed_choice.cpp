@@ -9,7 +9,6 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/text.h"
 #include "estimate/held_out.h"
 
 namespace asdfvk {
@@ -29,9 +28,9 @@ std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const u
 }  // namespace
 
 const Sampler& samplerOf(const Options& options) {
-  if (const Sampler* sampler = findSampler(options.sampler)) return *sampler;
-  throw Error(ErrorCode::UnknownName, fmt::format("no sampler is called '{}'; the names are {}", options.sampler,
-                                                  joined(samplerNames(), ", ")));
+  const Sampler* const sampler = findSampler(options.sampler);
+  ASDFVK_CHECK(sampler != nullptr);
+  return *sampler;
 }
 
 uint64_t resolveSeedCount(const Options& options, uint64_t traceableFaceCount) {

@@ -20,7 +20,7 @@ struct SeedChoice {
   std::vector<uint32_t> sampled, heldOut;  ///< Ascending and disjoint.
 };
 
-/// The sampler of the options. Throws Error{UnknownName}.
+/// The sampler of completed options.
 [[nodiscard]] const Sampler& samplerOf(const Options& options);
 
 /// Division of a number of further seeds when the error is estimated.

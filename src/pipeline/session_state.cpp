@@ -13,8 +13,8 @@ namespace {
 
 /// Whether the device or its driver failed, as opposed to a mesh or an option that it does not allow.
 bool isFailureOfDevice(ErrorCode code) {
-  return code == ErrorCode::DeviceLost || code == ErrorCode::OutOfDeviceMemory || code == ErrorCode::DeviceTimeout ||
-         code == ErrorCode::VulkanFailed || code == ErrorCode::KernelUnsupported || code == ErrorCode::NoUsableDevice;
+  return code == ErrorCode::DeviceLost || code == ErrorCode::OutOfDeviceMemory || code == ErrorCode::VulkanFailed ||
+         code == ErrorCode::KernelUnsupported || code == ErrorCode::NoUsableDevice;
 }
 
 }  // namespace

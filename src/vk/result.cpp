@@ -20,8 +20,6 @@ Failure describe(VkResult result) {
       return {ErrorCode::OutOfDeviceMemory, "out of device memory"};
     case VK_ERROR_DEVICE_LOST:
       return {ErrorCode::DeviceLost, "the device was lost"};
-    case VK_TIMEOUT:
-      return {ErrorCode::DeviceTimeout, "the device did not finish in time"};
     case VK_ERROR_INITIALIZATION_FAILED:
       return {ErrorCode::NoVulkanDriver, "initialisation failed"};
     case VK_ERROR_INCOMPATIBLE_DRIVER:

@@ -44,7 +44,6 @@ const std::vector<Row> kRows{
     {ErrorCode::EquationLimit, ErrorKind::Device, "equationLimit"},
     {ErrorCode::OutOfDeviceMemory, ErrorKind::Device, "outOfDeviceMemory"},
     {ErrorCode::DeviceLost, ErrorKind::Device, "deviceLost"},
-    {ErrorCode::DeviceTimeout, ErrorKind::Device, "deviceTimeout"},
     {ErrorCode::ValidationFailed, ErrorKind::Device, "validationFailed"},
     {ErrorCode::VulkanFailed, ErrorKind::Device, "vulkanFailed"},
     {ErrorCode::ForkedProcess, ErrorKind::Device, "forkedProcess"},

@@ -10,12 +10,6 @@
 namespace asdfvk {
 namespace {
 
-// The fastest variant by class of device, independent of the share of seeds and the number of rays.
-constexpr VulkanTraceChoice kCpuDevice{TraceKernel::Seed, BvhFetch::Texel};  // measured
-// Not measured yet.
-constexpr VulkanTraceChoice kSmallSubgroup{TraceKernel::Seed, BvhFetch::Storage};
-constexpr VulkanTraceChoice kLargeSubgroup{TraceKernel::Ray, BvhFetch::Storage};
-
 constexpr uint32_t kMaxSmallSubgroup = 16;
 
 constexpr std::pair<const char*, TraceKernel> kKernels[]{
@@ -37,38 +31,18 @@ std::string nameIn(VariantNames<T> names, T value) {
   return {};
 }
 
-struct Rule {
-  VulkanTraceChoice choice;
-  const char* reason;
-};
-
-Rule ruleFor(const DeviceFacts& device) {
-  if (device.kind == DeviceKind::Cpu) {
-    if (prefersTexels(device)) return {kCpuDevice, "CPU device; measured on lavapipe"};
-    return {{kCpuDevice.kernel, BvhFetch::Storage},
-            "CPU device whose storage buffers can be larger than its texel buffers; rule, not measured"};
-  }
-  switch (device.vendor) {  // The compilers choose the size of subgroups, which may differ from the reported one.
-    case DeviceVendor::Intel:
-      return {kSmallSubgroup, "Intel GPU: subgroups of 8 or 16 lanes, whatever is reported; rule, not measured"};
-    case DeviceVendor::Nvidia:
-      return {kLargeSubgroup, "NVIDIA GPU: subgroups of 32 lanes; rule, not measured"};
-    case DeviceVendor::Amd:
-      return {kLargeSubgroup, "AMD GPU: subgroups of 32 or 64 lanes; rule, not measured"};
-    case DeviceVendor::Other:
-      break;
-  }
-  if (device.subgroupSize <= kMaxSmallSubgroup)
-    return {kSmallSubgroup, "GPU with subgroups of up to 16 lanes; rule, not measured"};
-  return {kLargeSubgroup, "GPU with subgroups of more than 16 lanes; rule, not measured"};
-}
-
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 }  // namespace
 
-VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) { return ruleFor(device).choice; }
-const char* defaultTraceReason(const DeviceFacts& device) { return ruleFor(device).reason; }
+VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
+  if (device.kind == DeviceKind::Cpu)  // Measured on lavapipe; the others are not measured yet.
+    return {TraceKernel::Seed, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
+  // Compilers choose the size of subgroups, which may differ from the reported one: 8 or 16 lanes on GPUs of Intel.
+  const bool hasLargeSubgroups = device.vendor == DeviceVendor::Nvidia || device.vendor == DeviceVendor::Amd ||
+                                 (device.vendor == DeviceVendor::Other && device.subgroupSize > kMaxSmallSubgroup);
+  return {hasLargeSubgroups ? TraceKernel::Ray : TraceKernel::Seed, BvhFetch::Storage};
+}
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
   const VulkanTraceChoice best = defaultTraceChoice(device);

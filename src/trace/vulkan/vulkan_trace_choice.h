@@ -44,8 +44,6 @@ struct VulkanTraceRequest {
 
 /// The fastest variant for the class of the device (docs/speed.md).
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
-/// The rule that selected it, for reports.
-[[nodiscard]] const char* defaultTraceReason(const DeviceFacts& device);
 /// The default with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
 /// The variant for one hierarchy: where the default fetch was not requested and the hierarchy may exceed its limit, the
