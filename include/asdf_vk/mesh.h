@@ -64,7 +64,7 @@ struct Mesh {
 
 /// The arrays of a caller, which must outlive the view. Positions in double and triangles are used in place; float
 /// positions (24 bytes per vertex) and polygons (triangulated, about 16 bytes per corner) are converted by the library.
-/// Its faces are called input faces: fields have one value per input face, in this order.
+/// The faces of a mesh are called input faces: fields have one value per input face, in this order.
 class MeshView {
  public:
   MeshView(const Mesh& mesh);  // NOLINT: implicit by design

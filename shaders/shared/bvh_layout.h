@@ -24,8 +24,6 @@
 #define ASDFVK_BVH_LAYOUT_H
 
 #ifdef __cplusplus
-#include <cstddef>
-
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
@@ -66,15 +64,7 @@ struct DeviceTriangle {
 
 #ifdef __cplusplus
 static_assert(sizeof(DeviceWideNode) == 16 * kWideNodeTexelCount);
-static_assert(offsetof(DeviceWideNode, origin) == 0 && offsetof(DeviceWideNode, exponents) == 12);
-static_assert(offsetof(DeviceWideNode, childBase) == 16 && offsetof(DeviceWideNode, triangleBase) == 20);
-static_assert(offsetof(DeviceWideNode, childBits) == 24 && offsetof(DeviceWideNode, unused) == 28);
-static_assert(offsetof(DeviceWideNode, x) == 32 && offsetof(DeviceWideNode, y) == 48);
-static_assert(offsetof(DeviceWideNode, z) == 64);
 static_assert(sizeof(DeviceTriangle) == 16 * kBvhTriangleTexelCount);
-static_assert(offsetof(DeviceTriangle, v0) == 0 && offsetof(DeviceTriangle, faceIndex) == 12);
-static_assert(offsetof(DeviceTriangle, v1) == 16 && offsetof(DeviceTriangle, normalU) == 28);
-static_assert(offsetof(DeviceTriangle, v2) == 32 && offsetof(DeviceTriangle, normalV) == 44);
 }  // namespace asdfvk
 #else
 DeviceWideNode decodeWideNode(uvec4 t0, uvec4 t1, uvec4 t2, uvec4 t3, uvec4 t4) {

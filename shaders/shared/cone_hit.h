@@ -3,8 +3,6 @@
 #define ASDFVK_CONE_HIT_H
 
 #ifdef __cplusplus
-#include <cstddef>
-
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
@@ -20,7 +18,6 @@ struct ConeHit {
   uint face;       // Representative of its coincident faces, or kNoFace.
 };
 static_assert(sizeof(ConeHit) == 8);
-static_assert(offsetof(ConeHit, distance) == 0 && offsetof(ConeHit, face) == 4);
 }  // namespace asdfvk
 #endif
 

@@ -3,8 +3,6 @@
 #define ASDFVK_CONE_LAYOUT_H
 
 #ifdef __cplusplus
-#include <cstddef>
-
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
@@ -52,15 +50,9 @@ const uint kIterationLimitBits = 0x7fc00001u;  // The iteration limit stopped th
 
 #ifdef __cplusplus
 static_assert(sizeof(ConeOrigin) == 48);
-static_assert(offsetof(ConeOrigin, origin) == 0 && offsetof(ConeOrigin, excludedFace) == 12);
-static_assert(offsetof(ConeOrigin, tangent) == 16 && offsetof(ConeOrigin, unused0) == 28);
-static_assert(offsetof(ConeOrigin, bitangent) == 32 && offsetof(ConeOrigin, unused1) == 44);
 static_assert(sizeof(ConeSeed) == 8);
-static_assert(offsetof(ConeSeed, triangle) == 0 && offsetof(ConeSeed, halfTurn) == 4);
 static_assert(sizeof(ConeRay) == 16);
-static_assert(offsetof(ConeRay, direction) == 0 && offsetof(ConeRay, weight) == 12);
-static_assert(sizeof(ConePush) == 16 && offsetof(ConePush, falseHitCosine) == 4);
-static_assert(offsetof(ConePush, outlierDeviations) == 8 && offsetof(ConePush, contactDistance) == 12);
+static_assert(sizeof(ConePush) == 16);
 }  // namespace asdfvk
 #else
 ConeOrigin decodeConeOrigin(uvec4 t0, uvec4 t1, uvec4 t2) {

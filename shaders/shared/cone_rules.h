@@ -16,7 +16,7 @@ const float kFalseHitSlack = 1e-3f;
 // tie) do not depend on rounding.
 const float kOutlierSlack = 1e-5f;
 
-// Of faces that touch, a ray from inside leaves its own part before it enters the next one: a face that is hit on its
+// Where faces touch, a ray from inside leaves its own part before it enters the next one: a face that is hit on its
 // outer side counts as farther away by this many contact distances (Cone in src/cone/cone.h). The two faces are less
 // than one apart, but rays meet them at an angle.
 const float kOuterSideFactor = 8.0f;

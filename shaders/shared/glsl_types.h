@@ -1,4 +1,5 @@
-// The GLSL types of structs shared by host and device, for C++.
+// The GLSL types of structs shared by host and device, for C++. The structs are packed: with the asserted size each
+// member is at the sum of the sizes before it.
 #pragma once
 
 #include <cstdint>

@@ -5,8 +5,6 @@
 #define ASDFVK_PREDICTION_LAYOUT_H
 
 #ifdef __cplusplus
-#include <cstddef>
-
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
@@ -95,18 +93,11 @@ struct PredictionPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(PredictionFace) == 16 * kPredictionFaceBlockCount);
-static_assert(offsetof(PredictionFace, barycentre) == 0 && offsetof(PredictionFace, representative) == 12);
-static_assert(offsetof(PredictionFace, normal) == 16 && offsetof(PredictionFace, unused) == 28);
-static_assert(sizeof(PredictionRay) == 16 && offsetof(PredictionRay, solidAngle) == 12);
+static_assert(sizeof(PredictionRay) == 16);
 static_assert(sizeof(PredictionSeed) == 16);
-static_assert(offsetof(PredictionSeed, tangent) == 0 && offsetof(PredictionSeed, face) == 12);
 static_assert(sizeof(PredictionPoint) == 16 * kPredictionPointBlockCount);
-static_assert(sizeof(PointPush) == 8 && offsetof(PointPush, outlierDeviations) == 4);
+static_assert(sizeof(PointPush) == 8);
 static_assert(sizeof(PredictionPush) == 32);
-static_assert(offsetof(PredictionPush, itemCount) == 0 && offsetof(PredictionPush, rayCount) == 4);
-static_assert(offsetof(PredictionPush, minCosine) == 8 && offsetof(PredictionPush, maxNormalCosine) == 12);
-static_assert(offsetof(PredictionPush, minVersine) == 16 && offsetof(PredictionPush, outlierDeviations) == 20);
-static_assert(offsetof(PredictionPush, outlierSlack) == 24 && offsetof(PredictionPush, distanceDeviation) == 28);
 }  // namespace asdfvk
 #else
 PredictionFace decodePredictionFace(uvec4 b0, uvec4 b1) {

@@ -22,7 +22,7 @@ namespace asdfvk {
 struct ConeStart {
   Vec3d origin;                    ///< Start of the rays, in normalised coordinates.
   Vec3d normal;                    ///< Unit, outwards; the false hits of Definition::Paper refer to it.
-  ConeFrame frame;                 ///< Its axis is minus the normal.
+  ConeFrame frame;                 ///< The axis is minus the normal.
   uint32_t skippedFace = kNoFace;  ///< Hits on this representative are ignored.
 };
 
