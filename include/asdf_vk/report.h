@@ -275,9 +275,9 @@ struct Report {
   std::string backend;             ///< "vulkan", "cpu" or "reference".
   std::string device;              ///< Device and driver, or the CPU.
   bool runsOnCpu = false;          ///< The CPU traces: "cpu", "reference", or a CPU device of Vulkan.
-  std::optional<TraceVariant> traceChoice;  ///< The variant of the Vulkan kernels; unset without Vulkan.
-  StageSeconds stageSeconds;                ///< Seconds by stage; 0 for a stage that did not run.
-  double raysPerSecond = 0;                 ///< Rays over the seconds of the stage "trace".
+  std::optional<TraceVariant> traceChoice;       ///< The variant of the Vulkan kernels; unset without Vulkan.
+  StageSeconds stageSeconds;                     ///< Seconds by stage; 0 for a stage that did not run.
+  double raysPerSecond = 0;                      ///< Rays over the seconds of the stage "trace".
   SolverReport solver;                           ///< The solution of the Poisson equation.
   ValueRange sdf;                                ///< The shape diameters.
   std::optional<PostprocessReport> postprocess;  ///< Set where the result has the field "normalized".

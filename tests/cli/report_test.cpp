@@ -44,7 +44,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 TEST_CASE("the full report begins with the short one, and has all other keys with a value") {
   const CommandLine line = fullReport();
   Result result = sampleResult();
-  result.report.traceChoice = TraceVariant{"ray", "wide", "storage"};
+  result.report.traceChoice = TraceVariant{"ray", "storage"};
   const std::string text = textReport(outcomeOf(line, result));
   for (const char* part :
        {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n  diameter  0.5 to 2.5, median 1.5\n",

@@ -21,7 +21,7 @@ void addPart(Mesh& mesh, const Mesh& part, double scale, const Vec3d& translatio
   ++mesh.statedPartCount;
 }
 
-Options withParts() {
+Options segmentedByReference() {
   Options options;
   options.seeds = SeedCount::all();
   options.cone.rayCount = 10;
@@ -30,7 +30,7 @@ Options withParts() {
 }
 
 std::vector<uint32_t> partsOf(const Mesh& mesh) {
-  const Result result = referenceSession().compute(mesh, withParts());
+  const Result result = referenceSession().compute(mesh, segmentedByReference());
   return std::get<std::vector<uint32_t>>(result.field("segment")->values);
 }
 
@@ -82,8 +82,8 @@ TEST_CASE("a limit with a unit is converted to the unit of the mesh") {
 }
 
 TEST_CASE("parts of faces that are longer than the shape is thick have a warning") {
-  CHECK(hasWarning(referenceSession().compute(makeSlab(200, {.width = 2, .thickness = 0.05}).mesh, withParts()).report,
+  CHECK(hasWarning(referenceSession().compute(makeSlab(200, 2, 0.05).mesh, segmentedByReference()).report,
                    WarningCode::CoarseParts));
-  CHECK_FALSE(
-      hasWarning(referenceSession().compute(makeAnimal(6000).mesh, withParts()).report, WarningCode::CoarseParts));
+  CHECK_FALSE(hasWarning(referenceSession().compute(makeAnimal(6000).mesh, segmentedByReference()).report,
+                         WarningCode::CoarseParts));
 }

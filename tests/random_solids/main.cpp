@@ -13,19 +13,23 @@ int main(int argc, char** argv) {
   AssemblyParameters parameters;
   double apart = 0;
   bool doubleVertices = false;
-  ArgumentParser parser;
-  parser.setProgram("asdfvk-random-solid", "Random solids without a known diameter.");
-  parser.addValue("solid", "SOLID", "assembly or doubled", [&](const std::string& text) { solid = text; }).require();
-  parser.addValue("-o,--output", "FILE.ply", "The file to write", [&](const std::string& text) { output = text; })
-      .require();
-  parser.addNumber("--rng-seed", "N", "Another solid", parameters.seed);
-  parser.addNumber("--apart", "DISTANCE", "Move the parts of an assembly apart: no contacts", apart);
-  parser.addFlag("--interpenetrate", parameters.interpenetrates, "Let parts of an assembly overlap");
-  parser.addFlag("--double", doubleVertices, "Write vertices as double");
+  ArgumentParser parser(
+      "asdfvk-random-solid", "Random solids without a known diameter.", "",
+      {{.names = "solid", .placeholder = "assembly|doubled", .receive = into(solid), .isRequired = true},
+       {.names = "-o,--output", .placeholder = "FILE.ply", .receive = into(output), .isRequired = true},
+       {.names = "--rng-seed", .placeholder = "N", .text = "Another solid", .receive = into(parameters.seed)},
+       {.names = "--apart",
+        .placeholder = "DISTANCE",
+        .text = "Move the parts of an assembly apart: no contacts",
+        .receive = into(apart)},
+       {.names = "--interpenetrate",
+        .text = "Let parts of an assembly overlap",
+        .receive = into(parameters.interpenetrates)},
+       {.names = "--double", .text = "Write vertices as double", .receive = into(doubleVertices)}});
   try {
-    const ParseResult result = parser.parse({argv + 1, argv + argc});
-    if (!result.refusal.empty() || !result.answer.empty() || (solid != "assembly" && solid != "doubled")) {
-      fmt::print(stderr, "{}{}\n", result.refusal, result.answer);
+    const std::string answer = parser.parse({argv + 1, argv + argc});
+    if (!answer.empty() || (solid != "assembly" && solid != "doubled")) {
+      fmt::print(stderr, "{}\n", answer.empty() ? "solid is not assembly or doubled" : answer);
       return 1;
     }
     if (parser.isGiven("--apart")) parameters.apart = apart;

@@ -15,7 +15,7 @@ using namespace asdfvk;
 
 namespace {
 
-std::vector<InstructionSet> instructionSets() {
+std::vector<InstructionSet> walkInstructionSets() {
   if (widestInstructionSet() == InstructionSet::Baseline) return {InstructionSet::Baseline};
   return {InstructionSet::Baseline, widestInstructionSet()};
 }
@@ -56,7 +56,7 @@ TEST_CASE("the walk of the CPU finds the nearest hits of the reference, with the
     const LaneBvh bvh = encodeLaneBvh(traced.bvh, traced.mesh);
     const std::vector<RayGroup> groups = randomGroups(300);
     std::vector<RayGroup> results[2];
-    for (const InstructionSet instructionSet : instructionSets()) {
+    for (const InstructionSet instructionSet : walkInstructionSets()) {
       RayWalk walk(bvh, {}, instructionSet);
       std::vector<RayGroup>& own = results[instructionSet == InstructionSet::Baseline ? 0 : 1] = groups;
       for (RayGroup& group : own) walk.findNearest(group);
