@@ -34,12 +34,12 @@ def write(
     format: str | None = "",
     ascii: bool | None = False,
 ) -> None:
-    """Writes fields, and in .ply and .vtu also the mesh. The file is replaced atomically.
+    """Writes fields, and in .ply, .vtu, .glb and .obj also the mesh. The file is replaced atomically.
 
     mesh: a Mesh, an object with `vertices` and `faces`, or a tuple of these two arrays.
     fields, vertex_fields: arrays by name, per face and per vertex: (items,) or (items, 3). Info has them too. The
         first field of real numbers is the quality and the colour of a .ply.
-    format: "ply", "vtu", "npy", "npz" or "csv"; empty: by the extension.
+    format: "ply", "obj", "glb", "vtu", "npy", "npz" or "csv"; empty: by the extension.
 
     Raises OutputError, InputError, UsageError.
     """

@@ -45,10 +45,9 @@ def _subdivided(vertices: NDArray[Any], faces: NDArray[Any]) -> Mesh:
 
 
 def dumbbell() -> Mesh:
-    """Two spheres of radius 1 and 0.4 joined by a thin neck: one closed surface."""
+    """Two bodies of different thickness joined by a thin neck: one closed surface, two parts."""
     vertices, faces = sphere(4)
-    x = vertices[:, 0]
-    radius = np.where(x < -0.2, 0.4, np.where(x > 0.2, 1.0, 0.15))
+    radius = np.interp(vertices[:, 0], [-1, -0.5, -0.2, 0.2, 0.5, 1], [0.5, 0.5, 0.2, 0.2, 1, 1])
     vertices = vertices.copy()
     vertices[:, 1:] *= radius[:, None]
     vertices[:, 0] *= 3

@@ -147,4 +147,22 @@ std::string jsonOf(const LogSummary& summary) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string csvOf(const LogSummary& summary) {
+  std::string table =
+      "input,status,code,error,faces,seconds,peak_memory_bytes,average_error,segments,warnings,backend,device,"
+      "message\n";
+  const auto quoted = [](const std::string& text) {
+    std::string cell = "\"";
+    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+    return cell + "\"";
+  };
+  const auto numberOf = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
+  for (const MeshRecord& mesh : summary.meshes)
+    table += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(mesh.input), nameOf(mesh.status), mesh.code,
+                         mesh.error, numberOf(mesh.faceCount), mesh.totalSeconds, mesh.peakMemoryBytes,
+                         numberOf(averageErrorOf(mesh)), numberOf(mesh.segmentCount), joined(mesh.warnings, " "),
+                         mesh.backend, quoted(mesh.device), quoted(mesh.message));
+  return table;
+}
+
 }  // namespace asdfvk

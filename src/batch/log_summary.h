@@ -51,5 +51,7 @@ struct LogSummary {
 [[nodiscard]] std::string textOf(const LogSummary& summary);
 /// One document.
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
+/// A table with a row for each mesh, after a row of names (RFC 4180). Warnings of a mesh are separated by spaces.
+[[nodiscard]] std::string csvOf(const LogSummary& summary);
 
 }  // namespace asdfvk

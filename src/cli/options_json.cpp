@@ -51,6 +51,8 @@ std::string optionsHash(const ComputationSettings& computation, const SessionSet
                       {"fields", fieldNames(outputs, computation.options)},
                       {"choosesFields", !outputs.fields.empty()},
                       {"format", outputs.format},
+                      {"colourOf", outputs.colourOf},
+                      {"vertexColours", outputs.coloursVertices},
                       {"ascii", outputs.ascii}};
   return contentHash(identity.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

@@ -1,9 +1,11 @@
 #include "cli/program.h"
 
+#include <fmt/core.h>
 #include <malloc.h>
 
 #include <algorithm>
 
+#include "asdf_vk/error.h"
 #include "asdf_vk/run_control.h"
 #include "batch/log_summary.h"
 #include "batch/mesh_record.h"
@@ -49,28 +51,37 @@ MeshSettings settingsOf(const CommandLine& line) {
 /// asdf-vk summarize LOG.jsonl...; arguments: those after the command.
 ExitCode summarize(const std::vector<std::string>& arguments) {
   std::vector<std::string> logs;
-  bool isJson = false;
-  ArgumentParser parser("asdf-vk summarize",
-                        "Summarises the logs of batches: times, estimated errors, failures by code. Of several records "
-                        "of a mesh the latest one counts.",
-                        "",
-                        {{.names = "logs",
-                          .placeholder = "LOG.jsonl...",
-                          .text = "Logs of --log",
-                          .receive = [&logs](const Argument::Values& values) { logs = values; },
-                          .isRequired = true,
-                          .isList = true},
-                         {.names = "--json", .text = "Print one JSON document", .receive = into(isJson)}});
+  std::string format = "text";
+  ArgumentParser parser(
+      "asdf-vk summarize",
+      "Summarises the logs of batches: times, estimated errors, failures by code. Of several records "
+      "of a mesh the latest one counts.",
+      "",
+      {{.names = "logs",
+        .placeholder = "LOG.jsonl...",
+        .text = "Logs of --log",
+        .receive = [&logs](const Argument::Values& values) { logs = values; },
+        .isRequired = true,
+        .isList = true},
+       {.names = "--format",
+        .placeholder = "text|json|csv",
+        .text = "text: a summary; json: the same as one document; csv: a table with a row per mesh",
+        .receive = into(format)},
+       {.names = "--json", .text = "The same as --format json", .receive = [&format](const Argument::Values&) {
+          format = "json";
+        }}});
   if (const std::string answer = parser.parse(arguments); !answer.empty()) {
     writeStandardOutput(answer);
     return ExitCode::Done;
   }
+  if (format != "text" && format != "json" && format != "csv")
+    throw Error(ErrorCode::UnknownName, fmt::format("--format: '{}' is not one of text|json|csv", format));
   std::vector<MeshRecord> records;
   size_t invalidCount = 0;
   for (const std::string& log : logs)
     for (MeshRecord& record : readLog(log, invalidCount)) records.push_back(std::move(record));
   const LogSummary summary = summarizeRecords(std::move(records), invalidCount);
-  writeStandardOutput(isJson ? jsonOf(summary) : textOf(summary));
+  writeStandardOutput(format == "json" ? jsonOf(summary) : format == "csv" ? csvOf(summary) : textOf(summary));
   return ExitCode::Done;
 }
 

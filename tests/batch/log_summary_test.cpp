@@ -96,6 +96,18 @@ TEST_CASE("the summary has counts and failures") {
   CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures").size(), 2);
 }
 
+TEST_CASE("the table has a row for each mesh, with commas and quotes in quotes") {
+  MeshRecord record = recordOf("a,\"b\".ply", MeshStatus::Done, 0.5);
+  record.warnings = {"openComponents", "coarseParts"};
+  record.segmentCount = 3;
+  const std::string table = csvOf(summarizeRecords({record, recordOf("z", MeshStatus::Failed, 1, 2)}, 0));
+  const size_t end = table.find('\n');
+  CHECK(table.starts_with("input,status,code,error,faces,seconds,"));
+  CHECK_EQ(table.substr(end + 1),
+           "\"a,\"\"b\"\".ply\",done,0,,100,0.5,0,0.01,3,openComponents coarseParts,,\"a device\",\"\"\n"
+           "\"z\",failed,2,unreadableInput,100,1,0,0.01,,,,\"a device\",\"<broken> & \"\"quoted\"\", with a comma\"\n");
+}
+
 TEST_CASE("an empty log has a summary") {
   const LogSummary summary = summarizeRecords({}, 0);
   CHECK_FALSE(textOf(summary).empty());

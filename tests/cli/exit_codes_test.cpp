@@ -130,7 +130,7 @@ TEST_CASE("usage errors end with 1 before any work") {
   checkFailure(runAsdf({mesh, "--bogus"}), 1, "--bogus");
   checkFailure(runAsdf({mesh, "--rays", "1025"}), 1, "1024");
   checkFailure(runAsdf({mesh, "-o", folder / "out.xyz"}), 1, "out.xyz");
-  checkFailure(runAsdf({mesh, "-o", folder / "out.htm"}), 1, "the formats are ply, vtu, npy, npz, csv, html");
+  checkFailure(runAsdf({mesh, "-o", folder / "out.htm"}), 1, "the formats are ply, obj, glb, vtu, npy, npz, csv, html");
   checkFailure(runAsdf({mesh, mesh}), 1, mesh + " is named twice; name it once");
   checkFailure(runAsdf({mesh, "-o", folder / "new/", "--pooling", "0.5", "--recipe", "paper"}), 1, "--pooling");
   checkFailure(runAsdf({mesh, "-o", "-", "--json"}), 1, "--json");

@@ -124,6 +124,8 @@ const std::vector<OptionCase>& optionCases() {
                 l.computation.options.segmentation == Segmentation::None;
        }},
       {{"--measure", "thickness"}, [](const Line& l) { return l.computation.options.measure == Measure::Thickness; }},
+      {{"--colour-of", "seed"}, [](const Line& l) { return l.outputs.colourOf == "seed"; }},
+      {{"--vertex-colours"}, [](const Line& l) { return l.outputs.coloursVertices; }},
       {{"--thinner-than", "0.5"}, [](const Line& l) { return l.computation.options.thickness.thinnerThan == 0.5; }},
       {{"--fail-if-thinner", "0.25"}, [](const Line& l) { return l.computation.failIfThinner == 0.25; }},
       {{"--allow-sharp-edges", "--thinner-than", "0.5"},

@@ -140,7 +140,7 @@ TEST_CASE("--points writes the skeleton points beside the result") {
   const std::string ply = folder.read("points.ply"), end = "end_header\n";
   CHECK(ply.find("element vertex 360\n") != std::string::npos);
   CHECK(ply.find("property uint part\n") != std::string::npos);
-  CHECK_EQ(ply.size(), ply.find(end) + end.size() + 360 * 20);
+  CHECK_EQ(ply.size(), ply.find(end) + end.size() + 360 * 32);
   CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,sdf,seed,normalized,segment");
   const ChildOutcome streamed =
       runAsdf({mesh, "-o", folder / "out.csv", "--points", "-", "--quiet", "--backend", "reference"});

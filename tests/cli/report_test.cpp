@@ -49,8 +49,7 @@ TEST_CASE("the full report begins with the short one, and has all other keys wit
   for (const char* part :
        {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n  diameter  0.5 to 2.5, median 1.5\n",
         "\n  device    some device\n", "\n  seed count 9697\n", "\n  ray count 290910\n",
-        "\n  rays per second 1.25e+06\n", "\n  runs on cpu no\n",
-        "\n  trace choice kernel ray, bvh wide, fetch storage\n",
+        "\n  rays per second 1.25e+06\n", "\n  runs on cpu no\n", "\n  trace choice kernel ray, fetch storage\n",
         "\n  solver    name cg, iterations 73, relative residual 9e-06, converged yes, finished on cpu no\n",
         "\n  output    horse.asdf.ply\n"})
     CHECK_MESSAGE(holds(text, part), text);

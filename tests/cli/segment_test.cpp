@@ -122,8 +122,9 @@ TEST_CASE("--segment without a value writes parts, in the file, the report and t
   CHECK_EQ(cut.at("options").at("parts"), 4);
   const std::string cube = folder.write("cube.off", cubeOff());
   const Json few = documentOf({cube, "--json", "--segment", "parts", "--parts", "50"});
-  REQUIRE_EQ(few.at("warnings").size(), 1);
-  CHECK_EQ(few.at("warnings").at(0).at("code"), "partCountDiffers");
+  REQUIRE_EQ(few.at("warnings").size(), 2);
+  CHECK_EQ(few.at("warnings").at(0).at("code"), "coarseParts");
+  CHECK_EQ(few.at("warnings").at(1).at("code"), "partCountDiffers");
 }
 
 TEST_CASE("a mesh without values, and one with too few, end with 2 and a remedy") {
