@@ -134,6 +134,8 @@ enum class Measure {
   Both,
 };
 
+enum class LengthUnit { OfMesh, Micrometre, Millimetre, Centimetre, Metre, Inch, Foot };
+
 /// Wall thickness: the diameter of the largest ball that touches the surface at a point from inside and contains no
 /// point of an opposing wall (docs/thickness.md). Measured at all faces, whatever `seeds` is.
 struct ThicknessOptions {
@@ -142,9 +144,8 @@ struct ThicknessOptions {
   /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Implies
   /// Measure::Thickness.
   std::optional<double> thinnerThan;
-  /// Unit of thinnerThan: "um", "mm", "cm", "m", "in" or "ft"; empty: that of the mesh. Needs a mesh that states its
-  /// unit (Mesh::unit).
-  std::string limitUnit = {};
+  /// Unit of thinnerThan. Others than OfMesh need a mesh that states its own (Mesh::unit).
+  LengthUnit limitUnit = LengthUnit::OfMesh;
   /// Leave thin regions that contain a sharp edge or tip out of the verdict and of the minimum. Requires thinnerThan.
   bool allowsSharpEdges = false;
 };

@@ -3,20 +3,33 @@
 #include <array>
 #include <string_view>
 
+#include "asdf_vk/options.h"
+
 namespace asdfvk {
 
 /// A unit of length.
-struct LengthUnit {
+struct LengthUnitRow {
+  LengthUnit unit;
   std::string_view name;  ///< As in Mesh::unit.
   double micrometres;     ///< A whole number, so that a conversion rounds once.
 };
-inline constexpr std::array<LengthUnit, 6> kLengthUnits{
-    {{"um", 1}, {"mm", 1e3}, {"cm", 1e4}, {"m", 1e6}, {"in", 25400}, {"ft", 304800}}};
+inline constexpr std::array<LengthUnitRow, 6> kLengthUnits{{{LengthUnit::Micrometre, "um", 1},
+                                                            {LengthUnit::Millimetre, "mm", 1e3},
+                                                            {LengthUnit::Centimetre, "cm", 1e4},
+                                                            {LengthUnit::Metre, "m", 1e6},
+                                                            {LengthUnit::Inch, "in", 25400},
+                                                            {LengthUnit::Foot, "ft", 304800}}};
 
 /// Null for an unknown name.
-[[nodiscard]] constexpr const LengthUnit* findLengthUnit(std::string_view name) {
-  for (const LengthUnit& unit : kLengthUnits)
-    if (unit.name == name) return &unit;
+[[nodiscard]] constexpr const LengthUnitRow* findLengthUnit(std::string_view name) {
+  for (const LengthUnitRow& row : kLengthUnits)
+    if (row.name == name) return &row;
+  return nullptr;
+}
+/// Null for LengthUnit::OfMesh.
+[[nodiscard]] constexpr const LengthUnitRow* findLengthUnit(LengthUnit unit) {
+  for (const LengthUnitRow& row : kLengthUnits)
+    if (row.unit == unit) return &row;
   return nullptr;
 }
 

@@ -41,24 +41,26 @@ const Options& optionsOf(const void* target) { return static_cast<const Computat
 constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
 
 /// 0.8, "0.8" or "0.8mm".
-bool readLength(const OptionValue& value, std::optional<double>& length, std::string& unit) {
-  std::string_view text = textIn(value), unitName;
-  for (const LengthUnit& known : kLengthUnits)
-    if (text.ends_with(known.name) && known.name.size() > unitName.size()) unitName = known.name;
-  text.remove_suffix(unitName.size());
+bool readLength(const OptionValue& value, std::optional<double>& length, LengthUnit& unit) {
+  std::string_view text = textIn(value);
+  const LengthUnitRow* found = nullptr;
+  for (const LengthUnitRow& known : kLengthUnits)
+    if (text.ends_with(known.name) && (found == nullptr || known.name.size() > found->name.size())) found = &known;
+  if (found != nullptr) text.remove_suffix(found->name.size());
   while (text.ends_with(' ')) text.remove_suffix(1);
   std::optional<double> number = numberIn<double>(text);
   if (const auto* real = std::get_if<double>(&value)) number = *real;
   if (const auto* whole = std::get_if<uint64_t>(&value)) number = static_cast<double>(*whole);
   if (!number || !(*number > 0) || !std::isfinite(*number)) return false;
   length = number;
-  unit = unitName;
+  unit = found != nullptr ? found->unit : LengthUnit::OfMesh;
   return true;
 }
 
-OptionValue lengthValue(const std::optional<double>& length, const std::string& unit) {
+OptionValue lengthValue(const std::optional<double>& length, LengthUnit unit) {
   if (!length) return {};
-  return unit.empty() ? OptionValue(*length) : OptionValue(fmt::format("{}{}", *length, unit));
+  const LengthUnitRow* const row = findLengthUnit(unit);
+  return row == nullptr ? OptionValue(*length) : OptionValue(fmt::format("{}{}", *length, row->name));
 }
 
 bool readSeeds(void* target, const OptionValue& value) {

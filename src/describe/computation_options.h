@@ -10,7 +10,7 @@ struct ComputationSettings {
   Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
   Options options;
   std::optional<double> failIfThinner;  ///< Sets thickness.thinnerThan, and the exit code by its verdict.
-  std::string failIfThinnerUnit = {};   ///< See ThicknessOptions::limitUnit.
+  LengthUnit failIfThinnerUnit = LengthUnit::OfMesh;
 };
 
 /// What the options of a session set.

@@ -165,12 +165,12 @@ Warning uncertainParts(double agreement) {
 }
 
 Warning coarseParts(double areaShare) {
-  return {
-      WarningCode::CoarseParts,
-      fmt::format("faces that are longer than the shape is thick have {:.0f} % of the area: the boundaries of parts "
-                  "there are coarse, and parts may be missing",
-                  100 * areaShare),
-      {{"areaShare", numberText(areaShare)}}};
+  return {WarningCode::CoarseParts,
+          fmt::format(
+              "faces larger than half of the shape diameter have {:.0f} % of the area: boundaries of parts are coarse "
+              "there, and parts may be missing",
+              100 * areaShare),
+          {{"areaShare", numberText(areaShare)}}};
 }
 
 Warning onlySmallComponents(double minShare, uint64_t partCount) {

@@ -46,7 +46,7 @@ struct MissingValues {
 /// agreement: PartsReport::agreement.
 [[nodiscard]] Warning uncertainParts(double agreement);
 
-/// areaShare: of faces that are longer than the shape is thick.
+/// areaShare: of faces larger than half of their value.
 [[nodiscard]] Warning coarseParts(double areaShare);
 
 [[nodiscard]] Warning onlySmallComponents(double minShare, uint64_t partCount);

@@ -235,7 +235,7 @@ class GlbWriter {
   [[nodiscard]] Json nodeOf() const {
     Json node = {{"name", "asdf-vk"}, {"mesh", 0}};
     const Mesh* const source = result_.mesh().mesh();
-    const LengthUnit* const unit = source == nullptr ? nullptr : findLengthUnit(source->unit);
+    const LengthUnitRow* const unit = source == nullptr ? nullptr : findLengthUnit(source->unit);
     const double scale = unit == nullptr ? 1 : unit->micrometres / 1e6;  // The unit of glTF is the metre.
     if (origin_ != Vec3d{}) node["translation"] = {origin_.x * scale, origin_.y * scale, origin_.z * scale};
     if (scale != 1) node["scale"] = {scale, scale, scale};

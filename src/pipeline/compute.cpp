@@ -159,15 +159,15 @@ std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>&
 
 /// The limit in the unit of the mesh.
 ThicknessOptions inUnitOfMesh(ThicknessOptions thickness, const std::string& unit) {
-  if (!thickness.thinnerThan || thickness.limitUnit.empty()) return thickness;
-  const LengthUnit *const from = findLengthUnit(thickness.limitUnit), *const to = findLengthUnit(unit);
+  const LengthUnitRow *const from = findLengthUnit(thickness.limitUnit), *const to = findLengthUnit(unit);
+  if (!thickness.thinnerThan || from == nullptr) return thickness;
   if (to == nullptr)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("the limit is in {}, and the mesh states no unit; give a plain number, in the unit of the "
                             "mesh (3MF and glTF state theirs)",
-                            thickness.limitUnit));
+                            from->name));
   thickness.thinnerThan = *thickness.thinnerThan * from->micrometres / to->micrometres;
-  thickness.limitUnit.clear();
+  thickness.limitUnit = LengthUnit::OfMesh;
   return thickness;
 }
 

@@ -15,8 +15,9 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kMinAgreement = 0.9;     // PartsReport::agreement.
-constexpr double kMaxCoarseShare = 0.05;  // Of the area.
+constexpr double kMinAgreement = 0.9;    // PartsReport::agreement.
+constexpr double kMaxFaceSize = 0.5;     // In shape diameters.
+constexpr double kMaxCoarseShare = 0.1;  // Of the area.
 
 /// Sums of the areas of the triangles (#F), by the segment of their input face; divided by the sum of all.
 std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const double> areas,
@@ -31,16 +32,12 @@ std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const doubl
   return shares;
 }
 
-/// Share of the area of faces whose longest edge is longer than their value.
+/// Share of the area of faces whose size, the edge of a regular triangle of their area, is above kMaxFaceSize.
 double coarseShareOf(const PreparedMesh& prepared, std::span<const double> values, std::span<const double> areas) {
   double share = 0;
   for (uint32_t face = 0; face < values.size(); ++face) {
-    if (std::isnan(values[face]) || prepared.geometry.isDegenerate(face)) continue;
-    const auto& vertices = prepared.mesh.vertices;
-    const auto& [a, b, c] = prepared.mesh.faces[face];
-    const double longest = std::max(
-        {length(vertices[a] - vertices[b]), length(vertices[b] - vertices[c]), length(vertices[c] - vertices[a])});
-    if (longest > values[face]) share += areas[face];
+    const double size = std::sqrt(4 / std::sqrt(3.0) * prepared.geometry.areas[face]);
+    if (size > kMaxFaceSize * values[face]) share += areas[face];  // Not without a value.
   }
   return share;
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/vec3.h"
 #include "io/result_colours.h"
 #include "reading.h"
 #include "written_file.h"

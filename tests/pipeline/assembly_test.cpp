@@ -14,14 +14,14 @@ using test::referenceSession;
 namespace {
 
 /// `part` after the others, moved and scaled.
-void addPart(Mesh& mesh, const Mesh& part, double scale, const Vec3d& translation) {
+void addInstance(Mesh& mesh, const Mesh& part, double scale, const Vec3d& translation) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   for (const Vec3d& p : part.vertices) mesh.vertices.push_back(scale * p + translation);
   for (const Face& face : part.faces) mesh.faces.push_back({first + face[0], first + face[1], first + face[2]});
   ++mesh.statedPartCount;
 }
 
-Options segmentedByReference() {
+Options partOptions() {
   Options options;
   options.seeds = SeedCount::all();
   options.cone.rayCount = 10;
@@ -29,12 +29,12 @@ Options segmentedByReference() {
   return options;
 }
 
-std::vector<uint32_t> partsOf(const Mesh& mesh) {
-  const Result result = referenceSession().compute(mesh, segmentedByReference());
+std::vector<uint32_t> labelsOfParts(const Mesh& mesh) {
+  const Result result = referenceSession().compute(mesh, partOptions());
   return std::get<std::vector<uint32_t>>(result.field("segment")->values);
 }
 
-bool hasWarning(const Report& report, WarningCode code) {
+bool reportHas(const Report& report, WarningCode code) {
   return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning& w) { return w.code == code; });
 }
 
@@ -43,10 +43,10 @@ bool hasWarning(const Report& report, WarningCode code) {
 TEST_CASE("each component of an assembly is divided as if it were alone, and small ones are parts") {
   const Mesh animal = makeAnimal(2000).mesh, bolt = makeSphere(80, {}).mesh;
   Mesh assembly;
-  addPart(assembly, animal, 1, {});
-  addPart(assembly, animal, 0.5, {50, 0, 0});
-  addPart(assembly, bolt, 0.01, {0, 50, 0});
-  const std::vector<uint32_t> alone = partsOf(animal), together = partsOf(assembly);
+  addInstance(assembly, animal, 1, {});
+  addInstance(assembly, animal, 0.5, {50, 0, 0});
+  addInstance(assembly, bolt, 0.01, {0, 50, 0});
+  const std::vector<uint32_t> alone = labelsOfParts(animal), together = labelsOfParts(assembly);
   const size_t count = animal.faces.size(), aloneCount = std::set(alone.begin(), alone.end()).size();
   CHECK(aloneCount > 2);
   CHECK(std::set(together.begin(), together.end()).size() == 2 * aloneCount + 1);
@@ -56,7 +56,7 @@ TEST_CASE("each component of an assembly is divided as if it were alone, and sma
     CHECK(pairs.size() == aloneCount);
   }
   assembly.statedPartCount = 0;  // As in a format without parts: the bolt takes the part that is nearest.
-  const std::vector<uint32_t> joint = partsOf(assembly);
+  const std::vector<uint32_t> joint = labelsOfParts(assembly);
   CHECK(std::count(joint.begin(), joint.end(), joint.back()) > static_cast<ptrdiff_t>(bolt.faces.size()));
 }
 
@@ -66,11 +66,11 @@ TEST_CASE("a limit with a unit is converted to the unit of the mesh") {
   mesh.skipped = {"12 points"};
   Options options;
   options.thickness.thinnerThan = 2.54;
-  options.thickness.limitUnit = "cm";
+  options.thickness.limitUnit = LengthUnit::Centimetre;
   const Report report = referenceSession().compute(mesh, options).report;
   CHECK(report.unit == "in");
   CHECK(*report.thickness->thinnerThan == 1);
-  CHECK(hasWarning(report, WarningCode::SkippedContent));
+  CHECK(reportHas(report, WarningCode::SkippedContent));
   mesh.unit.clear();
   try {
     (void)referenceSession().compute(mesh, options);
@@ -81,9 +81,9 @@ TEST_CASE("a limit with a unit is converted to the unit of the mesh") {
   }
 }
 
-TEST_CASE("parts of faces that are longer than the shape is thick have a warning") {
-  CHECK(hasWarning(referenceSession().compute(makeSlab(200, 2, 0.05).mesh, segmentedByReference()).report,
-                   WarningCode::CoarseParts));
-  CHECK_FALSE(hasWarning(referenceSession().compute(makeAnimal(6000).mesh, segmentedByReference()).report,
-                         WarningCode::CoarseParts));
+TEST_CASE("parts of faces that are large against the shape diameter have a warning") {
+  CHECK(reportHas(referenceSession().compute(makeSlab(200, 2, 0.05).mesh, partOptions()).report,
+                  WarningCode::CoarseParts));
+  CHECK_FALSE(
+      reportHas(referenceSession().compute(makeAnimal(6000).mesh, partOptions()).report, WarningCode::CoarseParts));
 }
