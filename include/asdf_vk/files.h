@@ -23,6 +23,8 @@ namespace asdfvk {
 
 /// Names of the formats that readMesh() reads.
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
+/// The extensions of their files, in lower case without the dot.
+[[nodiscard]] ASDFVK_API std::vector<std::string> meshExtensions();
 
 struct WriteOptions {
   std::string format;  ///< One of resultFormats(); empty: by the extension. Required for "-".

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 
 # Their headers are compiled into the module. Those of carried libraries have the licence of the library.
-HEADER_PACKAGES = ("libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "python3-pybind11")
+HEADER_PACKAGES = ("libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "nlohmann-json3-dev", "python3-pybind11")
 _COMMON = pathlib.Path("/usr/share/common-licenses")
 
 

@@ -88,6 +88,9 @@ std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<st
   for (size_t i = 0; i < arguments.size(); ++i) {
     const Entry* const entry = hasEnded ? nullptr : withOptionalValue(arguments[i]);
     hasEnded |= arguments[i] == kEndOfOptions;
+    // CLI11 takes the next argument instead.
+    if (!hasEnded && arguments[i].starts_with("--") && arguments[i].find('=') == arguments[i].size() - 1)
+      refuse(arguments[i] + " has no value");
     if (entry == nullptr) {
       attached.push_back(arguments[i]);
       continue;
@@ -99,18 +102,34 @@ std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<st
   return attached;
 }
 
+void ArgumentParser::readPositional(const std::vector<std::string>& arguments) {
+  const auto positional =
+      std::find_if(entries_.begin(), entries_.end(), [](const Entry& entry) { return isPositional(entry.argument); });
+  bool hasEnded = false;
+  for (const std::string& text : arguments) {
+    if (!hasEnded && text == kEndOfOptions) {
+      hasEnded = true;
+      continue;
+    }
+    if (!hasEnded && text.size() > 1 && text.starts_with('-')) (void)find(text.substr(0, text.find('=')));
+    if (positional == entries_.end() || (!positional->given.empty() && !positional->argument.isList))
+      refuse(fmt::format("'{}' is one argument too many", text));
+    positional->given.resize(1);
+    positional->given.front().push_back(text);
+  }
+}
+
 void ArgumentParser::read(const std::vector<std::string>& arguments) {
   CLI::App app;
   app.set_help_flag();
   app.allow_extras();
-  std::vector<const CLI::Option*> options;
+  std::vector<const CLI::Option*> options;  // Null for the positional argument.
   for (const Entry& entry : entries_) {
     const Argument& argument = entry.argument;
-    const auto count = static_cast<int>(argument.valueCount);
-    CLI::Option* const option = isFlag(argument) ? app.add_flag(argument.names)->disable_flag_override()
-                                                 : app.add_option(argument.names)->expected(count);
-    if (argument.isList) option->expected(count, -1)->allow_extra_args();
-    options.push_back(option);
+    options.push_back(isPositional(argument) ? nullptr
+                      : isFlag(argument)
+                          ? app.add_flag(argument.names)->disable_flag_override()
+                          : app.add_option(argument.names)->expected(static_cast<int>(argument.valueCount)));
   }
   std::vector<std::string> reversed = withAttachedValues(arguments);
   std::reverse(reversed.begin(), reversed.end());  // CLI11 takes them from the back.
@@ -130,12 +149,9 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& error) {
     refuse(error.what());
   }
-  for (const std::string& extra : app.remaining()) {
-    if (extra == kEndOfOptions) continue;
-    if (extra.size() > 1 && extra.starts_with('-')) (void)find(extra.substr(0, extra.find('=')));
-    refuse(fmt::format("'{}' is one argument too many", extra));
-  }
+  readPositional(app.remaining());
   for (size_t i = 0; i < entries_.size(); ++i) {
+    if (options[i] == nullptr) continue;
     std::vector<Argument::Values>& given = entries_[i].given;
     const std::vector<std::string>& values = options[i]->results();
     if (isFlag(entries_[i].argument))

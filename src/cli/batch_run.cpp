@@ -57,7 +57,7 @@ std::vector<InputFile> inputsOf(const std::vector<std::string>& meshes, const st
                                                     .recurses = batch.recurses,
                                                     .list = batch.list,
                                                     .isNullSeparated = batch.isNullSeparated,
-                                                    .formats = meshFormats(),
+                                                    .formats = meshExtensions(),
                                                     .outputFolder = outputFolder});
   if (inputs.empty())
     throw Error(ErrorCode::UnreadableInput,

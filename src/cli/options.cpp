@@ -55,7 +55,7 @@ Many meshes
     --jobs N                      meshes at once
 
 Input and output
-  asdf-vk scan.stl --orient auto -o scan.csv   also .ply .vtu .npy .npz .html
+  asdf-vk scan.stl --orient auto -o scan.csv   also .ply .glb .obj .npz .html
     -o FILE|DIR|-                 the result; - is standard output
     --json                        the report as JSON on standard output
     --backend auto|vulkan|cpu|reference        which device; see --list-devices

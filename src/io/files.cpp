@@ -122,6 +122,13 @@ Mesh readMesh(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> meshFormats() { return namesOf(isMeshFormat); }
+std::vector<std::string> meshExtensions() {
+  std::vector<std::string> extensions;
+  for (const FileFormat* format : fileFormats())
+    for (const std::string_view extension : format->extensions)
+      if (isMeshFormat(*format) && !extension.empty()) extensions.emplace_back(extension);
+  return extensions;
+}
 std::vector<std::string> resultFormats() { return namesOf(isResultFormat); }
 
 std::string resultFormatOf(const std::filesystem::path& path, const WriteOptions& options) {

@@ -62,6 +62,7 @@ struct ModelFile {
 /// What all instances of an object have.
 struct ObjectCounts {
   uint64_t vertices = 0, faces = 0;
+  uint32_t height = 1;  ///< Levels of components, this one included.
 };
 
 class ModelReader;
@@ -368,8 +369,11 @@ const ModelObject& ThreeMfReader::objectOf(const ObjectUse& use) const {
 }
 
 ObjectCounts ThreeMfReader::countsOf(const ObjectUse& use, uint32_t depth) {
-  if (depth == kMaxNesting)
-    failInput(fmt::format("{} is nested more than {} levels deep, or in itself", nameOf(use), kMaxNesting));
+  const auto requireNesting = [&](uint32_t levels) {
+    if (levels > kMaxNesting)
+      failInput(fmt::format("{} is nested more than {} levels deep, or in itself", nameOf(use), kMaxNesting));
+  };
+  requireNesting(depth + 1);
   if (const auto known = counts_.find({use.model, use.object}); known != counts_.end()) return known->second;
   constexpr uint64_t kTooMany = uint64_t{1} << 50;
   const ModelObject& object = objectOf(use);
@@ -382,6 +386,8 @@ ObjectCounts ThreeMfReader::countsOf(const ObjectUse& use, uint32_t depth) {
       const ObjectCounts inner = countsOf(component, depth + 1);
       counts.vertices = std::min(counts.vertices + inner.vertices, kTooMany);
       counts.faces = std::min(counts.faces + inner.faces, kTooMany);
+      counts.height = std::max(counts.height, inner.height + 1);
+      requireNesting(counts.height);  // The counts of the components may be known from before.
     }
   }
   counts_[{use.model, use.object}] = counts;
@@ -396,6 +402,7 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
   const double unit = micrometresOf(*models_[use.model].unit);
   if (unit != scale) {  // Of another file of the archive.
     for (Vec3d& column : placement.columns) column = column * (unit / scale);
+    if (!placement.isFinite()) failInput(fmt::format("the place of {} is beyond all numbers", nameOf(use)));
   }
   assembled.add(object.mesh, placement);
   for (const ObjectUse& component : object.components) place(component, placement, unit, assembled);

@@ -96,6 +96,11 @@ TEST_CASE("a value that is optional is attached, or the next argument where the 
   CHECK_EQ(parse({"--part"}).target.order, "part ");
 }
 
+TEST_CASE("positional arguments are taken as they are") {
+  CHECK(parse({"[a]", "-", "b=c", "--", "--d=", "-e"}).target.meshes ==
+        std::vector<std::string>{"[a]", "-", "b=c", "--d=", "-e"});
+}
+
 TEST_CASE("options are given or not") {
   Target target;
   ArgumentParser parser = parserOf(target);
@@ -112,6 +117,7 @@ TEST_CASE("arguments that do not fit are refused with the reason") {
   CHECK_EQ(parse({"--scale", ""}).refusal, "--scale: '' is not a number");
   CHECK_EQ(parse({"--shift", "1", "2"}).refusal, "--shift takes exactly 3 values, once");
   CHECK_EQ(parse({"--quiet=yes"}).refusal, "--quiet takes no value");
+  CHECK_EQ(parse({"--second=", "b"}).refusal, "--second= has no value");
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--first"}, {"-f", "x", "-f", "y"}})
     CHECK_EQ(parse(arguments).refusal, "--first takes exactly one value, once");
 }

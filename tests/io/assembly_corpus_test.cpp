@@ -39,6 +39,7 @@ const std::map<std::string, AssemblyExpectation> kAssemblyExpectations = {
     {"3mf_component_cycle.3mf",
      refusal("object 1 of 3D/3dmodel.model is nested more than 64 levels deep, or in itself")},
     {"3mf_components.3mf", part(8, 8, "mm", 2 * kVolume)},
+    {"3mf_components_deep_from_below.3mf", refusal("is nested more than 64 levels deep, or in itself")},
     {"3mf_components_deep.3mf",
      refusal("object 35 of 3D/3dmodel.model is nested more than 64 levels deep, or in itself")},
     {"3mf_coordinate_nan.3mf", refusal("3D/3dmodel.model, byte 189: x 'nan' is not a number")},

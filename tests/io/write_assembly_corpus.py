@@ -287,6 +287,8 @@ def write_3mf():
         object_of('<components><component objectid="1"/></components>'))))
     deep = "".join(object_of(f'<components><component objectid="{n - 1}"/></components>', n) for n in range(2, 100))
     write("3mf_components_deep.3mf", archive(model(object_of(mesh()) + deep, '<item objectid="99"/>')))
+    write("3mf_components_deep_from_below.3mf", archive(model(
+        object_of(mesh()) + deep, '<item objectid="50"/><item objectid="99"/>')))
     double = "".join(object_of(f'<components><component objectid="{n - 1}"/><component objectid="{n - 1}"/></components>', n)
                      for n in range(2, 60))
     write("3mf_component_bomb.3mf", archive(model(object_of(mesh()) + double, '<item objectid="59"/>')))

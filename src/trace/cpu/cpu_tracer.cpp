@@ -24,6 +24,7 @@ class CpuTracer final : public ConeTracer {
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
+    if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->trace(seedFaces, results, control);
     const auto seedOf = [&](uint32_t i) { return seedAt(seedFaces[i]); };
     const auto prefetchSeed = [&](uint32_t i) { prefetch(seedFaces[i]); };
     return traceAll(seedOrder_.of(seedFaces), seedOf, prefetchSeed, results, control);
