@@ -16,7 +16,8 @@
 #include "asdf_vk/api.h"
 #include "asdf_vk/choices.h"
 
-/// Rows of options. Flags with their help, range checks, JSON, keywords of Python and documents come from them.
+/// The rows of options. The flags and their help, the range checks, the JSON, the keywords of Python and the documents
+/// come from these rows.
 namespace asdfvk {
 
 /// A value of an option, as front ends pass it and reports show it. std::monostate: none.

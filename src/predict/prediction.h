@@ -60,8 +60,8 @@ class DevicePredictor {
 };
 
 /// The result does not depend on the number of threads. earlier: empty, or a prediction of the same scene, cone and
-/// options; seeds that still exist have the same indices in `hits`. Unchanged values are copied from it. device: null
-/// to predict on the CPU, which runs to its end. Throws as the device.
+/// options; seeds that still exist have the same indices in `hits`. Values that did not change are copied from
+/// `earlier`. device: null predicts on the CPU, which cannot be cancelled. Throws as the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                        const SeedHitsView& hits, const PredictionOptions& options,
                                        Prediction earlier = {}, DevicePredictor* device = nullptr,

@@ -48,8 +48,8 @@ struct LabelProblem {
 /// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
 /// Expanding a label gives it to the set of faces that lowers the energy most; of several such sets to the one with the
 /// fewest faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What
-/// Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. Faces to which the label is forbidden have no node:
-/// beyond one pass over faces and edges, only the other faces take time. Deterministic. An object reuses its memory.
+/// Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face that may not have the label has no
+/// node: it is visited once while the graph is built. Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {

@@ -135,7 +135,8 @@ class BallPacket {
     lanes.y[lane] = static_cast<float>(v.y);
     lanes.z[lane] = static_cast<float>(v.z);
   }
-  /// Bounds of both kinds of balls: those of the greater diameter contain the others at each point of the triangle.
+  /// Sets bounds of both kinds of balls: at each point of the triangle the larger ball contains the smaller one, so
+  /// that the greater limit is enough.
   ASDFVK_ALWAYS_INLINE void placeBalls() {
     const Floats limit = asdfvk::max(leastLimit_, atPointLimit_);
     const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
