@@ -18,7 +18,7 @@ struct SessionSettings : SessionOptions {
   uint32_t threadCount = 0;  ///< 0: the number of cores.
 };
 
-/// All options, in the order in which they are set: the recipe and the definition precede those that they set.
+/// All options, in the order in which they are set: the recipe and the definition precede the options that they set.
 [[nodiscard]] ASDFVK_API OptionRows computationRows();
 [[nodiscard]] ASDFVK_API OptionRows sessionRows();
 

@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// A page of docs/man with its marks replaced. help: that of an ArgumentParser.
+/// A page of docs/man with its marks replaced. help: the text of ArgumentParser::help().
 [[nodiscard]] std::string manPage(const std::string& page, const std::string& version, const std::string& help,
                                   const std::vector<std::pair<int, std::string>>& exitCodes);
 

@@ -1,6 +1,6 @@
 // Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners) and their
-// fields. Fields: of the main one `float quality`, then the colour `uchar red green blue alpha` of the shown one, then
-// the others by name: float, uchar or uint.
+// fields: the main field as `float quality`, the colour of the shown field as `uchar red green blue alpha`, then the
+// others by name: float, uchar or uint.
 #include <fmt/core.h>
 
 #include <algorithm>

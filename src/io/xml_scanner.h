@@ -53,7 +53,7 @@ class XmlScanner {
   std::string document_;
   std::string buffer_;
   size_t at_ = 0;
-  uint64_t bufferOffset_ = 0;  ///< Of the buffer in the document.
+  uint64_t bufferOffset_ = 0;  ///< Offset of the buffer in the document.
   uint64_t tagOffset_ = 0;
   bool isAtEnd_ = false, hasRoot_ = false, endsElement_ = false;
   std::vector<std::string> open_;
