@@ -1,5 +1,9 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,5 +39,23 @@ inline std::string squareCorners(std::string_view prefix = "", std::string_view 
 inline const std::vector<Vec3d> kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 inline bool holds(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+
+/// Reads a file of a corpus. Checks that it is refused in one line with the reason, or read where the reason is empty.
+inline std::optional<Mesh> readAsExpected(const std::filesystem::path& path, std::string_view reason) {
+  std::string message;
+  std::optional<Mesh> read;
+  try {
+    read = readMesh(path);
+  } catch (const Error& thrown) {
+    CHECK(thrown.kind() == ErrorKind::Input);
+    message = thrown.what();
+  }
+  CAPTURE(message);
+  CHECK(message.empty() == reason.empty());
+  CHECK(holds(message, reason));
+  if (!message.empty()) CHECK(message.starts_with(path.string() + ": "));
+  CHECK(message.find('\n') == std::string::npos);
+  return read;
+}
 
 }  // namespace asdfvk::test
