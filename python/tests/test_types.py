@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 import re
+import site
 import subprocess
 import sys
 from pathlib import Path
@@ -25,7 +26,9 @@ def mypy(*arguments: str, folder: Path = _ROOT) -> str:
     # The stubs of NumPy 2.1 need Python 3.10; with 3.9 every array would be Any.
     if np.lib.NumpyVersion(np.__version__) >= "2.1.0":
         command += ["--python-version", "3.10"]
-    environment = {**os.environ, "MYPYPATH": str(_PACKAGE.parent)}
+    # mypy finds installed packages itself, and refuses their folder in MYPYPATH.
+    installed = str(_PACKAGE.parent) in site.getsitepackages()
+    environment = dict(os.environ) if installed else {**os.environ, "MYPYPATH": str(_PACKAGE.parent)}
     finished = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
     return finished.stdout + finished.stderr
 
