@@ -213,7 +213,7 @@ class ModelReader {
     }
     if (count != numbers.size()) xml_.fail(fmt::format("a transform has {} instead of 12", counted(count, "number")));
     for (size_t i = 0; i < 4; ++i)
-      (i < 3 ? read.columns[i] : read.translation) = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+      (i < 3 ? read.columns[i] : read.translation) = Vec3d{numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
     return read;
   }
 
