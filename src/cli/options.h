@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "arguments/arguments.h"
 #include "cli/outputs.h"
 #include "describe/computation_options.h"
+#include "describe/report_json.h"
 
 namespace asdfvk {
 
@@ -43,10 +43,6 @@ struct OptionTable {
 
 /// Throws Error{OptionConflict}.
 [[noreturn]] void refuseOptions(const std::string& message);
-
-/// The values of the options that affect the result: the key "options" of the JSON report.
-[[nodiscard]] nlohmann::ordered_json optionValues(const ComputationSettings& computation,
-                                                  const SessionSettings& session);
 
 /// Hash of all that determines the output of a mesh, for --skip-existing.
 [[nodiscard]] std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,

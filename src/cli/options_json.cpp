@@ -8,17 +8,6 @@
 namespace asdfvk {
 namespace {
 
-Json toJson(const OptionValue& value) {
-  return std::visit(
-      [](const auto& v) -> Json {
-        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
-          return nullptr;
-        else
-          return v;
-      },
-      value);
-}
-
 /// Values by the name of the row. Only the outputs that a worker writes: pictures and points are of one mesh.
 Json valuesOf(OptionRows rows, const void* target) {
   Json json = Json::object();
@@ -38,12 +27,6 @@ void setValues(OptionRows rows, void* target, const Json& json) {
 }
 
 }  // namespace
-
-Json optionValues(const ComputationSettings& computation, const SessionSettings& session) {
-  Json json = Json::object();
-  for (const auto& [key, value] : reportedOptions(computation, session)) json[key] = toJson(value);
-  return json;
-}
 
 std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
                         const Outputs& outputs) {

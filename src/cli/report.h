@@ -10,6 +10,7 @@
 #include "batch/mesh_record.h"
 #include "cli/exit_code.h"
 #include "cli/options.h"
+#include "describe/report_json.h"
 #include "page/page.h"
 
 namespace asdfvk {
@@ -61,9 +62,6 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 /// One line of JSON with the keys of docs/formats.md.
 [[nodiscard]] std::string jsonReport(const MeshOutcome& outcome);
-
-/// The keys of jsonReport() that are members of a report.
-[[nodiscard]] nlohmann::ordered_json toJson(const Report& report);
 
 /// One line with the keys "mesh", "error" and "code".
 [[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);

@@ -7,29 +7,11 @@
 
 #include "asdf_vk/version.h"
 #include "core/json.h"
-#include "describe/report_keys.h"
 #include "diagnose/device_report.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 
 namespace asdfvk {
-
-// What the keys of a report are made of.
-void to_json(Json& json, const Vec3d& point) { json = arrayOf(point); }
-void to_json(Json& json, WarningCode code) { json = nameOf(code); }
-void to_json(Json& json, ThicknessVerdict verdict) { json = nameOf(verdict); }
-void to_json(Json& json, const StageSeconds& seconds) {
-  for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = seconds.seconds[i];
-}
-void to_json(Json& json, const std::vector<ErrorDetail>& details) {
-  json = Json::object();
-  for (const ErrorDetail& detail : details) json[detail.name] = detail.value;
-}
-template <typename Structure>
-requires requires(const Structure& value) { structureName(value); }
-void to_json(Json& json, const Structure& value) {
-  visitKeys(value, [&](const std::string& key, const auto& member) { json[key] = member; });
-}
 
 void to_json(Json& json, const TracerReport& tracer) {
   json = {{"backend", tracer.backend},
@@ -49,21 +31,6 @@ ASDFVK_JSON(DeviceInfo, name, driver, kind, usable, reason)
 namespace {
 
 std::string oneLineOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-/// {"name": "sdf", "unit": "length", "per": "face", "components": 1, "type": "float64", "min": ...}
-Json fieldOf(const Field& field) {
-  constexpr const char* kTypes[]{"float64", "uint8", "uint32"};
-  const FieldSummary summary = summarize(field);
-  return {{"name", field.name},
-          {"unit", field.unit},
-          {"per", field.location == FieldLocation::PerFace ? "face" : "vertex"},
-          {"components", field.componentCount},
-          {"type", kTypes[field.values.index()]},
-          {"min", summary.min},
-          {"median", summary.median},
-          {"max", summary.max},
-          {"missingCount", summary.missingCount}};
-}
 
 std::string versionText(uint32_t packed) {
   return fmt::format("{}.{}.{}", (packed >> 22) & 0x7f, (packed >> 12) & 0x3ff, packed & 0xfff);
@@ -91,16 +58,9 @@ std::string jsonReport(const MeshOutcome& outcome) {
             {"points", orNull(outcome.outputs.points)}};
   Report report = outcome.result.report;
   for (Warning& warning : report.warnings) warning.message = textWarning(warning);
-  json.update(toJson(report));
-  json["fields"] = Json::array();
-  for (const Field& field : outcome.result.fields) json["fields"].push_back(fieldOf(field));
-  json["version"] = ASDFVK_VERSION;
-  json["commit"] = ASDFVK_COMMIT;
-  json["options"] = optionValues(outcome.computation, outcome.session);
+  json.update(resultJson(report, outcome.result.fields, outcome.computation, outcome.session));
   return oneLineOf(json);
 }
-
-Json toJson(const Report& report) { return report; }
 
 std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message) {
   return oneLineOf({{"mesh", mesh}, {"error", message}, {"code", code}});

@@ -165,6 +165,7 @@ std::string spelled(const OptionRow& row, OptionSpelling spelling) {
     const std::string_view flags = row.flags;
     return std::string(flags.substr(std::min(flags.find("--"), flags.size())));
   }
+  if (spelling == OptionSpelling::Name) return row.name;
   if (spelling == OptionSpelling::SnakeCase) return inCase(row.keyword != nullptr ? row.keyword : row.name, spelling);
   const std::string_view unit = row.placeholder;
   return inCase(row.name, spelling) + (unit == "DEGREES" ? "Degrees" : unit == "SECONDS" ? "Seconds" : "");
@@ -174,6 +175,7 @@ std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling
   const std::string name = spelled(row, spelling);
   if (isFlag(row)) {
     if (spelling == OptionSpelling::Flag) return name;
+    if (spelling == OptionSpelling::Name) return fmt::format("{}={}", name, value);
     return name + (spelling == OptionSpelling::SnakeCase ? value == "off" ? "=False" : "=True"
                    : value == "off"                      ? "=false"
                                                          : "=true");
@@ -241,8 +243,8 @@ void setOption(const OptionRow& row, void* target, const OptionValue& value, con
   if (row.apply != nullptr) row.apply(target);
 }
 
-void setOptionText(const OptionRow& row, void* target, const std::string& text) {
-  setOption(row, target, typed(row, text), "'" + text + "'", OptionSpelling::Flag);
+void setOptionText(const OptionRow& row, void* target, const std::string& text, OptionSpelling spelling) {
+  setOption(row, target, typed(row, text), "'" + text + "'", spelling);
 }
 
 OptionValue valueOf(const OptionRow& row, const void* target) {

@@ -23,8 +23,8 @@ namespace asdfvk {
 /// A value of an option, as front ends pass it and reports show it. std::monostate: none.
 using OptionValue = std::variant<std::monostate, bool, uint64_t, double, std::string>;
 
-/// How messages and reports spell the name of an option: --time-budget, timeBudgetSeconds, time_budget.
-enum class OptionSpelling { Flag, CamelCase, SnakeCase };
+/// How messages and reports spell the name of an option: --time-budget, timeBudgetSeconds, time_budget, time-budget.
+enum class OptionSpelling { Flag, CamelCase, SnakeCase, Name };
 
 /// A member whose values have names.
 struct ChoiceMember {
@@ -142,7 +142,8 @@ using OptionRows = std::span<const OptionRow>;
 
 /// Sets an option. The string of a command line is converted. Throws Error{OptionOutOfRange} and Error{UnknownName}
 /// with the detail "option": "--rays: '0' is not a whole number from 1 to 1024".
-void setOptionText(const OptionRow& row, void* target, const std::string& text);
+void setOptionText(const OptionRow& row, void* target, const std::string& text,
+                   OptionSpelling spelling = OptionSpelling::Flag);
 /// Sets a value that has a type. shown: the value in the message.
 ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue& value, const std::string& shown,
                           OptionSpelling spelling);

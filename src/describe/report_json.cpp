@@ -1,0 +1,79 @@
+#include "describe/report_json.h"
+
+#include <utility>
+
+#include "asdf_vk/version.h"
+#include "core/json.h"
+#include "describe/report_keys.h"
+
+namespace asdfvk {
+
+// What the keys of a report are made of.
+void to_json(Json& json, const Vec3d& point) { json = arrayOf(point); }
+void to_json(Json& json, WarningCode code) { json = nameOf(code); }
+void to_json(Json& json, ThicknessVerdict verdict) { json = nameOf(verdict); }
+void to_json(Json& json, const StageSeconds& seconds) {
+  for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = seconds.seconds[i];
+}
+void to_json(Json& json, const std::vector<ErrorDetail>& details) {
+  json = Json::object();
+  for (const ErrorDetail& detail : details) json[detail.name] = detail.value;
+}
+template <typename Structure>
+requires requires(const Structure& value) { structureName(value); }
+void to_json(Json& json, const Structure& value) {
+  visitKeys(value, [&](const std::string& key, const auto& member) { json[key] = member; });
+}
+
+namespace {
+
+/// {"name": "sdf", "unit": "length", "per": "face", "components": 1, "type": "float64", "min": ...}
+Json fieldOf(const Field& field) {
+  constexpr const char* kTypes[]{"float64", "uint8", "uint32"};
+  const FieldSummary summary = summarize(field);
+  return {{"name", field.name},
+          {"unit", field.unit},
+          {"per", field.location == FieldLocation::PerFace ? "face" : "vertex"},
+          {"components", field.componentCount},
+          {"type", kTypes[field.values.index()]},
+          {"min", summary.min},
+          {"median", summary.median},
+          {"max", summary.max},
+          {"missingCount", summary.missingCount}};
+}
+
+}  // namespace
+
+void to_json(Json& json, const TraceVariant& variant) { to_json<TraceVariant>(json, variant); }
+
+Json toJson(const OptionValue& value) {
+  return std::visit(
+      [](const auto& v) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
+          return nullptr;
+        else
+          return v;
+      },
+      value);
+}
+
+Json toJson(const Report& report) { return report; }
+
+Json optionValues(const ComputationSettings& computation, const SessionSettings& session) {
+  Json json = Json::object();
+  for (const auto& [key, value] : reportedOptions(computation, session)) json[key] = toJson(value);
+  return json;
+}
+
+Json resultJson(const Report& report, std::span<const Field> fields, const ComputationSettings& computation,
+                const SessionSettings& session) {
+  Json json = toJson(report);
+  json["fields"] = Json::array();
+  for (const Field& field : fields) json["fields"].push_back(fieldOf(field));
+  json["version"] = ASDFVK_VERSION;
+  json["commit"] = ASDFVK_COMMIT;
+  json["options"] = optionValues(computation, session);
+  return json;
+}
+
+}  // namespace asdfvk

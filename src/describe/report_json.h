@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "asdf_vk/field.h"
+#include "asdf_vk/report.h"
+#include "describe/computation_options.h"
+
+namespace asdfvk {
+
+void to_json(nlohmann::ordered_json& json, const TraceVariant& variant);
+
+[[nodiscard]] nlohmann::ordered_json toJson(const OptionValue& value);
+
+/// The keys that are members of a report.
+[[nodiscard]] nlohmann::ordered_json toJson(const Report& report);
+
+/// The values of the options that affect the result: the key "options" of the JSON report.
+[[nodiscard]] nlohmann::ordered_json optionValues(const ComputationSettings& computation,
+                                                  const SessionSettings& session);
+
+/// The JSON report of docs/formats.md without the names of files.
+[[nodiscard]] nlohmann::ordered_json resultJson(const Report& report, std::span<const Field> fields,
+                                                const ComputationSettings& computation, const SessionSettings& session);
+
+}  // namespace asdfvk
