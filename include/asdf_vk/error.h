@@ -22,9 +22,10 @@ enum class ErrorCode {
   // Usage
   OptionOutOfRange,
   OptionConflict,
-  UnknownName,    ///< No sampler, solver, backend, format or shape has this name.
-  UnknownFormat,  ///< Neither an option nor the extension of the file names a format.
-  UnknownField,   ///< The result has no field of that name.
+  UnknownName,      ///< No sampler, solver, backend, format or shape has this name.
+  UnknownFormat,    ///< Neither an option nor the extension of the file names a format.
+  UnknownField,     ///< The result has no field of that name.
+  InvalidArgument,  ///< A pointer is null, or a handle is not one. C interface only.
   // Input
   UnreadableInput,  ///< The file cannot be opened or violates its format; the message contains line or byte.
   EmptyMesh,        ///< No faces in the mesh, or in the region of it.

@@ -19,6 +19,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::UnknownName, ErrorKind::Usage, "unknownName"},
     ErrorRow{ErrorCode::UnknownFormat, ErrorKind::Usage, "unknownFormat"},
     ErrorRow{ErrorCode::UnknownField, ErrorKind::Usage, "unknownField"},
+    ErrorRow{ErrorCode::InvalidArgument, ErrorKind::Usage, "invalidArgument"},
     ErrorRow{ErrorCode::UnreadableInput, ErrorKind::Input, "unreadableInput"},
     ErrorRow{ErrorCode::EmptyMesh, ErrorKind::Input, "emptyMesh"},
     ErrorRow{ErrorCode::ArraySize, ErrorKind::Input, "arraySize"},

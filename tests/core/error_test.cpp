@@ -22,6 +22,7 @@ const std::vector<Row> kRows{
     {ErrorCode::UnknownName, ErrorKind::Usage, "unknownName"},
     {ErrorCode::UnknownFormat, ErrorKind::Usage, "unknownFormat"},
     {ErrorCode::UnknownField, ErrorKind::Usage, "unknownField"},
+    {ErrorCode::InvalidArgument, ErrorKind::Usage, "invalidArgument"},
     {ErrorCode::UnreadableInput, ErrorKind::Input, "unreadableInput"},
     {ErrorCode::EmptyMesh, ErrorKind::Input, "emptyMesh"},
     {ErrorCode::ArraySize, ErrorKind::Input, "arraySize"},

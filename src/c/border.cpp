@@ -1,0 +1,137 @@
+#include "c/border.h"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <exception>
+#include <new>
+
+#include "asdf_vk/report.h"
+#include "core/parallel.h"
+#include "core/text.h"
+
+namespace asdfvk::c {
+namespace {
+
+/// A floating-point environment while it exists; then the one before, with its flags.
+class FloatingPointScope {
+ public:
+  explicit FloatingPointScope(const std::fenv_t* environment) {
+    std::fegetenv(&before_);
+    std::fesetenv(environment);
+  }
+  ~FloatingPointScope() { std::fesetenv(&before_); }
+  FloatingPointScope(const FloatingPointScope&) = delete;
+  FloatingPointScope& operator=(const FloatingPointScope&) = delete;
+
+ private:
+  std::fenv_t before_{};
+};
+
+struct LastError {
+  std::string message;
+  const char* name = "";
+};
+
+LastError& lastError() {
+  thread_local LastError last;
+  return last;
+}
+
+asdf_vk_status statusOf(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::Usage:
+      return ASDF_VK_USAGE;
+    case ErrorKind::Input:
+      return ASDF_VK_INPUT;
+    case ErrorKind::Device:
+      return ASDF_VK_DEVICE;
+    case ErrorKind::Output:
+      return ASDF_VK_OUTPUT;
+    case ErrorKind::Cancelled:
+      return ASDF_VK_CANCELLED;
+  }
+  return ASDF_VK_INTERNAL;
+}
+
+asdf_vk_status keepError(asdf_vk_status status, const char* name, const char* message) noexcept {
+  LastError& last = lastError();
+  last.name = name;
+  try {
+    last.message = oneLine(message);
+  } catch (const std::bad_alloc&) {
+    last.message.clear();
+  }
+  return status;
+}
+
+asdf_vk_status keepCurrentError() noexcept {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return keepError(statusOf(error.kind()), nameOf(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    return keepError(ASDF_VK_INPUT, nameOf(ErrorCode::InputTooLarge), "not enough memory for this mesh");
+  } catch (const std::exception& error) {
+    return keepError(ASDF_VK_INTERNAL, "internal", error.what());
+  } catch (...) {
+    return keepError(ASDF_VK_INTERNAL, "internal", "unknown error");
+  }
+}
+
+}  // namespace
+
+asdf_vk_status guarded(FunctionRef<void()> body) noexcept {
+  const FloatingPointScope scope(FE_DFL_ENV);
+  try {
+    // An arena sets the environment in which it was made on each thread that works in it. The arena of a thread of the
+    // caller may be older, and have another environment.
+    callWithThreads(static_cast<uint32_t>(defaultThreadCount()), body);
+    return ASDF_VK_OK;
+  } catch (...) {
+    return keepCurrentError();
+  }
+}
+
+void requireArgument(const void* pointer, const char* name) {
+  if (pointer == nullptr) throw Error(ErrorCode::InvalidArgument, fmt::format("{} is null", name));
+}
+
+RunControl ProgressCall::control() {
+  if (callback_ == nullptr) return {};
+  return {source_.get_token(),
+          [this](double fraction) {
+            fraction_ = fraction;
+            call();
+          },
+          [this](Stage stage) {
+            stage_ = nameOf(stage);
+            call();
+          }};
+}
+
+void ProgressCall::call() {
+  const FloatingPointScope scope(&callers_);
+  if (!source_.stop_requested() && callback_(fraction_, stage_, user_) != 0) source_.request_stop();
+}
+
+uintptr_t nextHandle() {
+  constexpr uintptr_t kStep = 16;
+  static std::atomic<uintptr_t> last{0};
+  return last += kStep;
+}
+
+void failHandle(const void* handle, const char* type) {
+  throw Error(ErrorCode::InvalidArgument,
+              handle == nullptr ? fmt::format("the {} is null", type)
+                                : fmt::format("the handle is that of no {}, or the {} was destroyed", type, type));
+}
+
+}  // namespace asdfvk::c
+
+extern "C" {
+
+const char* asdf_vk_last_error(void) { return asdfvk::c::lastError().message.c_str(); }
+const char* asdf_vk_last_error_name(void) { return asdfvk::c::lastError().name; }
+
+}  // extern "C"

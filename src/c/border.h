@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cfenv>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "asdf_vk/asdf_vk_c.h"
+#include "asdf_vk/error.h"
+#include "asdf_vk/run_control.h"
+#include "core/function_ref.h"
+
+/// The border between C and C++: what every function of asdf_vk_c.h does.
+namespace asdfvk::c {
+
+/// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops, and
+/// restores that of the caller. An exception becomes a status and the last error of the thread.
+asdf_vk_status guarded(FunctionRef<void()> body) noexcept;
+
+/// Throws Error{InvalidArgument} for null. name: "an output", "the name".
+void requireArgument(const void* pointer, const char* name);
+
+/// The progress function of a caller as a RunControl. Made before guarded(): keeps the floating-point environment of the
+/// caller, for its function. Must outlive the control.
+class ProgressCall {
+ public:
+  ProgressCall(asdf_vk_progress callback, void* user) : callback_(callback), user_(user) { std::fegetenv(&callers_); }
+  [[nodiscard]] RunControl control();
+
+ private:
+  void call();
+
+  asdf_vk_progress callback_;
+  void* user_;
+  std::fenv_t callers_{};
+  double fraction_ = 0;
+  const char* stage_ = "";
+  std::stop_source source_;
+};
+
+/// Numbers that no handle has had, of any type.
+[[nodiscard]] uintptr_t nextHandle();
+[[noreturn]] void failHandle(const void* handle, const char* type);
+
+/// The living objects of a type by handle. A handle is a number, no address, and never used again: one that was
+/// destroyed, or is of another type, is recognised.
+template <typename Object>
+class Handles {
+ public:
+  explicit Handles(const char* type) : type_(type) {}
+
+  [[nodiscard]] Object* add(std::shared_ptr<Object> object) {
+    auto* const handle = reinterpret_cast<Object*>(nextHandle());  // NOLINT(performance-no-int-to-ptr)
+    const std::scoped_lock lock(mutex_);
+    objects_.emplace(handle, std::move(object));
+    return handle;
+  }
+  /// Throws Error{InvalidArgument} where there is none.
+  [[nodiscard]] std::shared_ptr<Object> get(const Object* handle) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = objects_.find(handle);
+    if (found == objects_.end()) failHandle(handle, type_);
+    return found->second;
+  }
+  void destroy(const Object* handle) {
+    (void)guarded([&] {
+      std::shared_ptr<Object> object;  // Destroyed without the lock.
+      const std::scoped_lock lock(mutex_);
+      const auto found = objects_.find(handle);
+      if (found == objects_.end()) return;
+      object = std::move(found->second);
+      objects_.erase(found);
+    });
+  }
+
+ private:
+  const char* type_;
+  std::mutex mutex_;
+  std::map<const Object*, std::shared_ptr<Object>> objects_;
+};
+
+/// The table of a type. Not destroyed at the end of the process, when devices are no longer usable.
+template <typename Object>
+[[nodiscard]] Handles<Object>& handles() {
+  static auto* const table = new Handles<Object>(Object::kType);
+  return *table;
+}
+
+}  // namespace asdfvk::c

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "asdf_vk/scene.h"
+#include "asdf_vk/session.h"
+#include "c/border.h"
+#include "core/json.h"
+#include "describe/computation_options.h"
+
+struct asdf_vk_options {
+  static constexpr const char* kType = "set of options";
+  std::map<std::string, std::string, std::less<>> texts;  ///< Values by name.
+};
+
+struct asdf_vk_session {
+  static constexpr const char* kType = "session";
+  asdfvk::SessionSettings settings;
+  std::unique_ptr<asdfvk::Session> session;
+  std::string device;
+  std::recursive_mutex mutex;  ///< Recursive, so that a progress function can destroy other scenes.
+  bool isBusy = false;         ///< Within SessionUse.
+};
+
+struct asdf_vk_scene {
+  static constexpr const char* kType = "scene";
+  std::shared_ptr<asdf_vk_session> session;
+  std::shared_ptr<const asdfvk::Mesh> mesh;
+  asdfvk::Orientation orientation = asdfvk::Orientation::Keep;
+  std::unique_ptr<asdfvk::Scene> prepared;  ///< Null before the first computation.
+
+  asdf_vk_scene(std::shared_ptr<asdf_vk_session> s, asdfvk::Mesh m)
+      : session(std::move(s)), mesh(std::make_shared<const asdfvk::Mesh>(std::move(m))) {}
+  asdf_vk_scene(const asdf_vk_scene&) = delete;
+  asdf_vk_scene& operator=(const asdf_vk_scene&) = delete;
+  ~asdf_vk_scene() {
+    const std::scoped_lock lock(session->mutex);
+    prepared.reset();
+  }
+};
+
+struct asdf_vk_result {
+  static constexpr const char* kType = "result";
+  std::shared_ptr<const asdfvk::Mesh> mesh;
+  asdfvk::ComputationSettings computation;
+  asdfvk::SessionSettings session;
+  asdfvk::Result result;
+  std::mutex mutex;
+  asdfvk::Json report;                       ///< Null before the first text.
+  std::map<std::string, std::string> texts;  ///< Those that were returned, by JSON Pointer.
+};
+
+namespace asdfvk::c {
+
+/// The options of a session or of a computation; null: the defaults. Throws Error{OptionConflict} for options of the
+/// other kind, and what complete() and requireValid() throw.
+[[nodiscard]] SessionSettings sessionSettings(const asdf_vk_options* options);
+[[nodiscard]] ComputationSettings computationSettings(const asdf_vk_options* options);
+
+}  // namespace asdfvk::c

@@ -1,0 +1,101 @@
+#include <fmt/core.h>
+
+#include "c/objects.h"
+#include "core/text.h"
+
+namespace asdfvk::c {
+namespace {
+
+constexpr OptionSpelling kSpelling = OptionSpelling::Name;
+
+/// Options of the program have no keyword in other languages.
+const OptionRow* rowOf(OptionRows rows, std::string_view name) {
+  const OptionRow* const row = findOption(rows, name);
+  return row == nullptr || (row->keyword != nullptr && *row->keyword == 0) ? nullptr : row;
+}
+
+void setText(const OptionRow& row, void* target, const std::string& text) {
+  if (!isFlag(row)) return setOptionText(row, target, text, kSpelling);
+  const std::string word = lowerCase(text);
+  const bool isOn = word == "on" || word == "true", isOff = word == "off" || word == "false";
+  setOption(row, target, isOn || isOff ? OptionValue(isOn) : OptionValue(text), "'" + text + "'", kSpelling);
+}
+
+/// Sets the options in the order of the rows. other, use: the options that are refused, and what they belong to.
+GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle, OptionRows other, const char* use) {
+  GivenOptions given{.names = {}, .spelling = kSpelling};
+  if (handle == nullptr) return given;
+  const auto options = handles<asdf_vk_options>().get(handle);
+  for (const auto& [name, text] : options->texts)
+    if (findOption(other, name) != nullptr)
+      throw Error(ErrorCode::OptionConflict, fmt::format("{} is an option of a {}", name, use), {{"option", name}});
+  for (const OptionRow& row : rows) {
+    const auto found = options->texts.find(row.name);
+    if (found == options->texts.end()) continue;
+    setText(row, target, found->second);
+    given.names.insert(row.name);
+  }
+  return given;
+}
+
+[[noreturn]] void failName(const std::string& name) {
+  std::vector<std::string> names;
+  for (const OptionRows rows : {computationRows(), sessionRows()})
+    for (const OptionRow& row : rows)
+      if (rowOf(rows, row.name) != nullptr) names.emplace_back(row.name);
+  const std::string similar = similarNames(name, names);
+  throw Error(ErrorCode::UnknownName,
+              fmt::format("there is no option '{}'{}", name, similar.empty() ? "" : "; did you mean " + similar + "?"));
+}
+
+}  // namespace
+
+SessionSettings sessionSettings(const asdf_vk_options* options) {
+  SessionSettings session;
+  (void)setAll(sessionRows(), &session, options, computationRows(), "computation");
+  requireValid(session, kSpelling);
+  return session;
+}
+
+ComputationSettings computationSettings(const asdf_vk_options* options) {
+  ComputationSettings computation;
+  complete(computation, setAll(computationRows(), &computation, options, sessionRows(), "session"));
+  return computation;
+}
+
+}  // namespace asdfvk::c
+
+using namespace asdfvk;     // NOLINT: the functions of C have no namespace.
+using namespace asdfvk::c;  // NOLINT
+
+extern "C" {
+
+asdf_vk_status asdf_vk_options_create(asdf_vk_options** options) {
+  return guarded([&] {
+    requireArgument(options, "the output");
+    *options = handles<asdf_vk_options>().add(std::make_shared<asdf_vk_options>());
+  });
+}
+
+asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, const char* value) {
+  return guarded([&] {
+    const auto object = handles<asdf_vk_options>().get(options);
+    requireArgument(name, "the name of the option");
+    ComputationSettings computation;  // For the check of the value.
+    SessionSettings session;
+    const OptionRow* const ofComputation = rowOf(computationRows(), name);
+    const OptionRow* const ofSession = rowOf(sessionRows(), name);
+    if (ofComputation == nullptr && ofSession == nullptr) failName(name);
+    if (value == nullptr) {
+      object->texts.erase(name);
+      return;
+    }
+    if (ofComputation != nullptr) setText(*ofComputation, &computation, value);
+    if (ofSession != nullptr) setText(*ofSession, &session, value);
+    object->texts[name] = value;
+  });
+}
+
+void asdf_vk_options_destroy(asdf_vk_options* options) { handles<asdf_vk_options>().destroy(options); }
+
+}  // extern "C"

@@ -1,0 +1,200 @@
+// Sessions, scenes and computations.
+#include "asdf_vk/files.h"
+#include "asdf_vk/version.h"
+#include "c/objects.h"
+#include "core/length_unit.h"
+#include "core/text.h"
+#include "pipeline/prepared_mesh.h"
+
+namespace asdfvk::c {
+namespace {
+
+/// Exclusive use of a session, with its number of threads.
+class SessionUse {
+ public:
+  explicit SessionUse(asdf_vk_session& session)
+      : session_(session), lock_(session.mutex), limit_(session.settings.threadCount) {
+    if (session.isBusy)
+      throw Error(ErrorCode::InvalidArgument, "the progress function of a computation uses its session");
+    session.isBusy = true;
+  }
+  ~SessionUse() { session_.isBusy = false; }
+  SessionUse(const SessionUse&) = delete;
+  SessionUse& operator=(const SessionUse&) = delete;
+
+ private:
+  asdf_vk_session& session_;
+  std::unique_lock<std::recursive_mutex> lock_;
+  ThreadLimit limit_;
+};
+
+/// The prepared scene. Precondition: its session is in use by this thread.
+Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control) {
+  if (scene.prepared == nullptr || scene.orientation != orientation) {
+    scene.prepared.reset();
+    scene.prepared = std::make_unique<Scene>(*scene.session->session, *scene.mesh, orientation, control);
+    scene.orientation = orientation;
+  }
+  return *scene.prepared;
+}
+
+template <typename T>
+std::span<const T> spanOf(const void* numbers, uint64_t count, const char* name) {
+  if (count > 0) requireArgument(numbers, name);
+  return {static_cast<const T*>(numbers), count};
+}
+
+/// Precondition: `triangles` or `firstCorner` is set.
+MeshView viewOf(const void* vertices, asdf_vk_type vertexType, uint64_t vertexCount, std::span<const uint32_t> corners,
+                std::span<const uint64_t> firstCorner) {
+  requireAtMost(kMaxIndexCount, vertexCount, "vertices");
+  if (vertexType == ASDF_VK_FLOAT32) return {spanOf<float>(vertices, 3 * vertexCount, "the vertices"), corners, firstCorner};
+  if (vertexType == ASDF_VK_FLOAT64) return {spanOf<double>(vertices, 3 * vertexCount, "the vertices"), corners, firstCorner};
+  throw Error(ErrorCode::ArrayType, "the type of the vertices is neither FLOAT64 nor FLOAT32");
+}
+
+/// The mesh of arrays, which are copied.
+Mesh meshOf(const MeshView& view, const char* unit) {
+  Mesh mesh;
+  const TriangleMesh triangles = trianglesOf(view, mesh);
+  if (mesh.vertices.empty()) mesh.vertices.assign(triangles.vertices.begin(), triangles.vertices.end());
+  if (mesh.faces.empty()) mesh.faces.assign(triangles.faces.begin(), triangles.faces.end());
+  if (unit != nullptr) mesh.unit = unit;
+  if (!mesh.unit.empty() && findLengthUnit(mesh.unit) == nullptr)
+    throw Error(ErrorCode::UnknownName, "'" + mesh.unit + "' is not a unit; give um, mm, cm, m, in or ft");
+  return mesh;
+}
+
+void requireIndexType(asdf_vk_type type) {
+  if (type != ASDF_VK_UINT32 && type != ASDF_VK_INT32)
+    throw Error(ErrorCode::ArrayType, "the type of the corners is neither UINT32 nor INT32");
+}
+
+void addScene(asdf_vk_session* session, Mesh mesh, asdf_vk_scene** scene) {
+  auto object = std::make_shared<asdf_vk_scene>(handles<asdf_vk_session>().get(session), std::move(mesh));
+  *scene = handles<asdf_vk_scene>().add(std::move(object));
+}
+
+}  // namespace
+}  // namespace asdfvk::c
+
+using namespace asdfvk;     // NOLINT: the functions of C have no namespace.
+using namespace asdfvk::c;  // NOLINT
+
+extern "C" {
+
+int asdf_vk_abi(void) { return ASDF_VK_ABI; }
+const char* asdf_vk_version(void) { return ASDFVK_VERSION; }
+int asdf_vk_version_number(void) {
+  return 10000 * ASDFVK_VERSION_MAJOR + 100 * ASDFVK_VERSION_MINOR + ASDFVK_VERSION_PATCH;
+}
+
+asdf_vk_status asdf_vk_session_create(const asdf_vk_options* options, asdf_vk_session** session) {
+  return guarded([&] {
+    requireArgument(session, "the output");
+    auto object = std::make_shared<asdf_vk_session>();
+    object->settings = sessionSettings(options);
+    const ThreadLimit limit(object->settings.threadCount);
+    object->session = std::make_unique<Session>(object->settings);
+    object->device = joined(object->session->deviceLines(), "\n");
+    *session = handles<asdf_vk_session>().add(std::move(object));
+  });
+}
+
+asdf_vk_status asdf_vk_session_device(const asdf_vk_session* session, const char** text) {
+  return guarded([&] {
+    requireArgument(text, "the output");
+    *text = handles<asdf_vk_session>().get(session)->device.c_str();
+  });
+}
+
+void asdf_vk_session_destroy(asdf_vk_session* session) { handles<asdf_vk_session>().destroy(session); }
+
+asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertices, asdf_vk_type vertex_type,
+                                    size_t vertex_count, const void* corners, asdf_vk_type corner_type,
+                                    size_t face_count, const char* unit, asdf_vk_scene** scene) {
+  return guarded([&] {
+    requireArgument(scene, "the output");
+    requireIndexType(corner_type);
+    requireAtMost(kMaxTriangleCount, face_count, "faces");
+    const auto indices = spanOf<uint32_t>(corners, 3 * uint64_t{face_count}, "the corners");
+    addScene(session, meshOf(viewOf(vertices, vertex_type, vertex_count, indices, {}), unit), scene);
+  });
+}
+
+asdf_vk_status asdf_vk_scene_create_polygons(asdf_vk_session* session, const void* vertices, asdf_vk_type vertex_type,
+                                             size_t vertex_count, const void* corners, asdf_vk_type corner_type,
+                                             const uint64_t* first_corner, size_t face_count, const char* unit,
+                                             asdf_vk_scene** scene) {
+  return guarded([&] {
+    requireArgument(scene, "the output");
+    requireIndexType(corner_type);
+    requireAtMost(kMaxIndexCount, face_count, "faces");
+    const auto first = spanOf<uint64_t>(first_corner, uint64_t{face_count} + 1, "first_corner");
+    const auto indices = spanOf<uint32_t>(corners, first.back(), "the corners");
+    addScene(session, meshOf(viewOf(vertices, vertex_type, vertex_count, indices, first), unit), scene);
+  });
+}
+
+asdf_vk_status asdf_vk_scene_read(asdf_vk_session* session, const char* path, asdf_vk_scene** scene) {
+  return guarded([&] {
+    requireArgument(scene, "the output");
+    requireArgument(path, "the path");
+    addScene(session, readMesh(path), scene);
+  });
+}
+
+asdf_vk_status asdf_vk_scene_mesh(const asdf_vk_scene* scene, asdf_vk_mesh* mesh) {
+  return guarded([&] {
+    requireArgument(mesh, "the output");
+    const Mesh& own = *handles<asdf_vk_scene>().get(scene)->mesh;
+    const std::vector<uint32_t>& faceOf = own.polygons.inputFaceOf;
+    *mesh = {&own.vertices.data()->x, own.vertices.size(), own.faces.data()->data(), own.faces.size(),
+             faceOf.empty() ? nullptr : faceOf.data(), own.inputFaceCount(), own.unit.c_str()};
+  });
+}
+
+void asdf_vk_scene_destroy(asdf_vk_scene* scene) { handles<asdf_vk_scene>().destroy(scene); }
+
+asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk_options* options, asdf_vk_progress progress,
+                               void* user, asdf_vk_result** result) {
+  ProgressCall call(progress, user);
+  return guarded([&] {
+    requireArgument(result, "the output");
+    const auto used = handles<asdf_vk_scene>().get(scene);
+    auto object = std::make_shared<asdf_vk_result>();
+    object->mesh = used->mesh;
+    object->computation = computationSettings(options);
+    object->session = used->session->settings;
+    const Options& computed = object->computation.options;
+    const RunControl control = call.control();
+    const SessionUse use(*used->session);
+    object->result = preparedScene(*used, computed.orientation, control).compute(computed, {}, control);
+    *result = handles<asdf_vk_result>().add(std::move(object));
+  });
+}
+
+asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options, const double* points,
+                                 const double* normals, size_t point_count, double* values, asdf_vk_progress progress,
+                                 void* user) {
+  ProgressCall call(progress, user);
+  return guarded([&] {
+    const auto used = handles<asdf_vk_scene>().get(scene);
+    requireAtMost(kMaxIndexCount, point_count, "points");
+    const auto places = spanOf<double>(points, 3 * uint64_t{point_count}, "the points");
+    const auto axes = spanOf<double>(normals, 3 * uint64_t{point_count}, "the normals");
+    if (point_count > 0) requireArgument(values, "the output");
+    const Options given = computationSettings(options).options;
+    if (given.measure == Measure::Both)
+      throw Error(ErrorCode::OptionConflict, "measure=both is for faces; points have one measure at a time");
+    const RunControl control = call.control();
+    const SessionUse use(*used->session);
+    Scene& prepared = preparedScene(*used, given.orientation, control);
+    const std::vector<double> found = given.measure == Measure::Thickness
+                                          ? prepared.thicknessAt(places, axes, given.thickness, control)
+                                          : prepared.valuesAt(places, axes, given.cone, control);
+    std::copy(found.begin(), found.end(), values);
+  });
+}
+
+}  // extern "C"
