@@ -1,7 +1,7 @@
 /* Local thickness of triangle meshes: the interface in C99, for C, C#, Rust, Julia and others (docs/c.md).
  *
- * Functions return a status; asdf_vk_last_error() has the reason. A handle that is null, of another type or destroyed is
- * an error, not a crash. Handles may be used from any thread; calls on one session, and on its scenes, wait for each
+ * Functions return a status; asdf_vk_last_error() has the reason. A handle that is null, of another type or destroyed
+ * is an error, not a crash. Handles may be used from any thread; calls on one session, and on its scenes, wait for each
  * other. No C++ exception leaves a function. Functions compute in the default floating-point environment (rounding,
  * traps, flushing of denormals), on all their threads, and restore that of the caller, status flags included.
  *
@@ -36,11 +36,12 @@ ASDF_VK_C_API int asdf_vk_version_number(void);
 /* The values are the exit codes of the program. */
 typedef enum asdf_vk_status {
   ASDF_VK_OK = 0,
-  ASDF_VK_USAGE = 1,     /* An argument is null or no such handle; an option is unknown, out of range or contradicts another. */
-  ASDF_VK_INPUT = 2,     /* A mesh cannot be read, or there is nothing to compute on. */
-  ASDF_VK_DEVICE = 3,    /* No usable device, or the device was lost or is too small. */
-  ASDF_VK_OUTPUT = 4,    /* A file cannot be written. */
-  ASDF_VK_INTERNAL = 70, /* A defect of the library, or a limit of the system. */
+  ASDF_VK_USAGE =
+      1, /* An argument is null or no such handle; an option is unknown, out of range or contradicts another. */
+  ASDF_VK_INPUT = 2,      /* A mesh cannot be read, or there is nothing to compute on. */
+  ASDF_VK_DEVICE = 3,     /* No usable device, or the device was lost or is too small. */
+  ASDF_VK_OUTPUT = 4,     /* A file cannot be written. */
+  ASDF_VK_INTERNAL = 70,  /* A defect of the library, or a limit of the system. */
   ASDF_VK_CANCELLED = 130 /* The progress function requested a stop. */
 } asdf_vk_status;
 
@@ -66,8 +67,8 @@ typedef struct asdf_vk_result asdf_vk_result;   /* The fields and the report of 
 
 ASDF_VK_C_API asdf_vk_status asdf_vk_options_create(asdf_vk_options** options);
 /* Sets an option to the value that a text has on the command line: ("seeds", "10%"), ("thinner-than", "0.8mm"). The
- * names are those of docs/options.md without the dashes. Flags are "on" or "off": ("estimate", "off"), ("centres", "on").
- * A null value restores the default. Whether options contradict each other is checked where they are used. */
+ * names are those of docs/options.md without the dashes. Flags are "on" or "off": ("estimate", "off"), ("centres",
+ * "on"). A null value restores the default. Whether options contradict each other is checked where they are used. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, const char* value);
 ASDF_VK_C_API void asdf_vk_options_destroy(asdf_vk_options* options);
 
@@ -116,7 +117,8 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk
                                              asdf_vk_progress progress, void* user, asdf_vk_result** result);
 
 /* The shape diameter at points, or with ("measure", "thickness") the wall thickness. points, normals: 3 point_count
- * numbers. values: point_count numbers, in the unit of the mesh; NaN: no value. See Scene::valuesAt(), thicknessAt(). */
+ * numbers. values: point_count numbers, in the unit of the mesh; NaN: no value. See Scene::valuesAt(), thicknessAt().
+ */
 ASDF_VK_C_API asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options,
                                                const double* points, const double* normals, size_t point_count,
                                                double* values, asdf_vk_progress progress, void* user);
@@ -144,7 +146,8 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_result_copy(const asdf_vk_result* result, c
 /* A value of the report in JSON, by its JSON Pointer (RFC 6901): "/thickness/min" is a number as text. "" is the whole
  * report, with the keys of the program's --json but those of files (docs/formats.md). */
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_json(asdf_vk_result* result, const char* pointer, const char** json);
-/* Writes the mesh and all fields in the format of the extension: .ply .vtu .glb .obj .npy .npz .csv (docs/formats.md). */
+/* Writes the mesh and all fields in the format of the extension: .ply .vtu .glb .obj .npy .npz .csv (docs/formats.md).
+ */
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_write(const asdf_vk_result* result, const char* path);
 ASDF_VK_C_API void asdf_vk_result_destroy(asdf_vk_result* result);
 

@@ -22,8 +22,8 @@ asdf_vk_status guarded(FunctionRef<void()> body) noexcept;
 /// Throws Error{InvalidArgument} for null. name: "an output", "the name".
 void requireArgument(const void* pointer, const char* name);
 
-/// The progress function of a caller as a RunControl. Made before guarded(): keeps the floating-point environment of the
-/// caller, for its function. Must outlive the control.
+/// The progress function of a caller as a RunControl. Made before guarded(): keeps the floating-point environment of
+/// the caller, for its function. Must outlive the control.
 class ProgressCall {
  public:
   ProgressCall(asdf_vk_progress callback, void* user) : callback_(callback), user_(user) { std::fegetenv(&callers_); }

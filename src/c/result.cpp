@@ -15,11 +15,15 @@ FieldLocation locationOf(asdf_vk_location location) {
 
 asdf_vk_field describedField(const Field& field) {
   constexpr asdf_vk_type kTypes[]{ASDF_VK_FLOAT64, ASDF_VK_UINT8, ASDF_VK_UINT32};
-  const void* const data = std::visit([](const auto& entries) { return static_cast<const void*>(entries.data()); },
-                                      field.values);
-  return {field.name.c_str(),   field.unit.c_str(),
+  const void* const data =
+      std::visit([](const auto& entries) { return static_cast<const void*>(entries.data()); }, field.values);
+  return {field.name.c_str(),
+          field.unit.c_str(),
           field.location == FieldLocation::PerVertex ? ASDF_VK_PER_VERTEX : ASDF_VK_PER_FACE,
-          kTypes[field.values.index()], field.componentCount, field.itemCount(), data};
+          kTypes[field.values.index()],
+          field.componentCount,
+          field.itemCount(),
+          data};
 }
 
 template <typename To>
@@ -83,7 +87,8 @@ asdf_vk_status asdf_vk_result_field(const asdf_vk_result* result, size_t index, 
     requireArgument(field, "the output");
     const std::vector<Field>& fields = handles<asdf_vk_result>().get(result)->result.fields;
     if (index >= fields.size())
-      throw Error(ErrorCode::UnknownField, fmt::format("there is no field {}: the result has {}", index, fields.size()));
+      throw Error(ErrorCode::UnknownField,
+                  fmt::format("there is no field {}: the result has {}", index, fields.size()));
     *field = describedField(fields[index]);
   });
 }
@@ -93,7 +98,8 @@ asdf_vk_status asdf_vk_result_find(const asdf_vk_result* result, const char* nam
   return guarded([&] {
     requireArgument(field, "the output");
     requireArgument(name, "the name of the field");
-    *field = describedField(requireField(handles<asdf_vk_result>().get(result)->result.fields, name, locationOf(location)));
+    *field =
+        describedField(requireField(handles<asdf_vk_result>().get(result)->result.fields, name, locationOf(location)));
   });
 }
 

@@ -48,8 +48,10 @@ std::span<const T> spanOf(const void* numbers, uint64_t count, const char* name)
 MeshView viewOf(const void* vertices, asdf_vk_type vertexType, uint64_t vertexCount, std::span<const uint32_t> corners,
                 std::span<const uint64_t> firstCorner) {
   requireAtMost(kMaxIndexCount, vertexCount, "vertices");
-  if (vertexType == ASDF_VK_FLOAT32) return {spanOf<float>(vertices, 3 * vertexCount, "the vertices"), corners, firstCorner};
-  if (vertexType == ASDF_VK_FLOAT64) return {spanOf<double>(vertices, 3 * vertexCount, "the vertices"), corners, firstCorner};
+  if (vertexType == ASDF_VK_FLOAT32)
+    return {spanOf<float>(vertices, 3 * vertexCount, "the vertices"), corners, firstCorner};
+  if (vertexType == ASDF_VK_FLOAT64)
+    return {spanOf<double>(vertices, 3 * vertexCount, "the vertices"), corners, firstCorner};
   throw Error(ErrorCode::ArrayType, "the type of the vertices is neither FLOAT64 nor FLOAT32");
 }
 
@@ -149,8 +151,13 @@ asdf_vk_status asdf_vk_scene_mesh(const asdf_vk_scene* scene, asdf_vk_mesh* mesh
     requireArgument(mesh, "the output");
     const Mesh& own = *handles<asdf_vk_scene>().get(scene)->mesh;
     const std::vector<uint32_t>& faceOf = own.polygons.inputFaceOf;
-    *mesh = {&own.vertices.data()->x, own.vertices.size(), own.faces.data()->data(), own.faces.size(),
-             faceOf.empty() ? nullptr : faceOf.data(), own.inputFaceCount(), own.unit.c_str()};
+    *mesh = {&own.vertices.data()->x,
+             own.vertices.size(),
+             own.faces.data()->data(),
+             own.faces.size(),
+             faceOf.empty() ? nullptr : faceOf.data(),
+             own.inputFaceCount(),
+             own.unit.c_str()};
   });
 }
 
