@@ -18,8 +18,8 @@ namespace {
 /// Whether the call failed so, with a message of one line that contains `part`.
 bool failsWith(asdf_vk_status status, asdf_vk_status expected, const std::string& name, const std::string& part) {
   const std::string message = asdf_vk_last_error();
-  const bool is = status == expected && asdf_vk_last_error_name() == name &&
-                  message.find(part) != std::string::npos && message.find('\n') == std::string::npos;
+  const bool is = status == expected && asdf_vk_last_error_name() == name && message.find(part) != std::string::npos &&
+                  message.find('\n') == std::string::npos;
   CHECK_MESSAGE(is, status, " ", std::string(asdf_vk_last_error_name()), ": ", message);
   return is;
 }
@@ -54,8 +54,8 @@ TEST_CASE("arrays of a wrong size or type are errors") {
   const Owned<asdf_vk_session> session = sessionOfC("reference");
   const Mesh mesh = shapes::tetrahedron();
   asdf_vk_scene* scene = nullptr;
-  const auto create = [&](const void* vertices, int vertexType, size_t vertexCount, const void* corners,
-                          int cornerType, size_t faceCount, const char* unit = nullptr) {
+  const auto create = [&](const void* vertices, int vertexType, size_t vertexCount, const void* corners, int cornerType,
+                          size_t faceCount, const char* unit = nullptr) {
     return asdf_vk_scene_create(session.get(), vertices, static_cast<asdf_vk_type>(vertexType), vertexCount, corners,
                                 static_cast<asdf_vk_type>(cornerType), faceCount, unit, &scene);
   };
@@ -110,7 +110,8 @@ TEST_CASE("handles that are null, destroyed or of another type are errors, in an
   asdf_vk_field field{};
   CHECK_FAILS(asdf_vk_result_find(result.get(), "width", ASDF_VK_PER_FACE, &field), ASDF_VK_USAGE, "unknownField",
               "no field width");
-  CHECK_FAILS(asdf_vk_result_find(result.get(), "sdf", ASDF_VK_PER_VERTEX, &field), ASDF_VK_USAGE, "unknownField", "sdf");
+  CHECK_FAILS(asdf_vk_result_find(result.get(), "sdf", ASDF_VK_PER_VERTEX, &field), ASDF_VK_USAGE, "unknownField",
+              "sdf");
   CHECK_FAILS(asdf_vk_result_find(result.get(), nullptr, ASDF_VK_PER_FACE, &field), ASDF_VK_USAGE, "invalidArgument",
               "null");
   CHECK_FAILS(asdf_vk_result_field(result.get(), 99, &field), ASDF_VK_USAGE, "unknownField", "99");

@@ -15,10 +15,7 @@
 using namespace asdfvk;
 using namespace asdfvk::test;
 
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("values, labels and the report are those of the library, with the backends cpu and vulkan") {
   const Mesh mesh = makeAnimal(4000).mesh;
@@ -52,7 +49,8 @@ TEST_CASE("values, labels and the report are those of the library, with the back
     }
     const std::vector<double>& sdf = expected.sdf();
     std::vector<float> singles(sdf.size());
-    requireDone(asdf_vk_result_copy(result.get(), "sdf", ASDF_VK_PER_FACE, ASDF_VK_FLOAT32, singles.data(), sdf.size()));
+    requireDone(
+        asdf_vk_result_copy(result.get(), "sdf", ASDF_VK_PER_FACE, ASDF_VK_FLOAT32, singles.data(), sdf.size()));
     CHECK(haveSameBits(singles, std::vector<float>(sdf.begin(), sdf.end())));
     std::vector<int32_t> labels(sdf.size());
     requireDone(

@@ -1,13 +1,15 @@
-// The cases of tests/describe/option_cases.json on the command line and in C++; python/tests/test_options.py has them
-// in Python. The messages are the same but for the spelling of names and values.
+// The cases of tests/describe/option_cases.json on the command line, in C++ and in C; python/tests/test_options.py has
+// them in Python. The messages are the same but for the spelling of names and values.
 #include <doctest/doctest.h>
 
 #include <fstream>
 #include <set>
 
+#include "c/c_objects.h"
 #include "cli/options.h"
 #include "cli/refusal.h"
 #include "core/json.h"
+#include "support/shapes.h"
 
 namespace asdfvk {
 namespace {
@@ -74,6 +76,34 @@ std::string refusalOfLibrary(const ComputationSettings& computation) {
     return error.what();
   }
   return "accepted";
+}
+
+/// "accepted", or the message of the interface in C, where the option is set or where the mesh is computed.
+std::string refusalInC(asdf_vk_scene* scene, const Json& options) {
+  const test::Owned<asdf_vk_options> own = test::optionsOfC({});
+  asdf_vk_status status = ASDF_VK_OK;
+  for (const auto& item : options.items()) {
+    const std::string text = textOf(item.value());
+    if (status == ASDF_VK_OK) status = asdf_vk_options_set(own.get(), item.key().c_str(), text.c_str());
+  }
+  asdf_vk_result* result = nullptr;
+  if (status == ASDF_VK_OK) status = asdf_vk_compute(scene, own.get(), nullptr, nullptr, &result);
+  asdf_vk_result_destroy(result);
+  CHECK((status == ASDF_VK_OK || status == ASDF_VK_USAGE));
+  return status == ASDF_VK_OK ? "accepted" : asdf_vk_last_error();
+}
+
+TEST_CASE("the command line and C refuse the same options with the same sentence") {
+  const test::Owned<asdf_vk_session> session = test::sessionOfC("reference");
+  const test::Owned<asdf_vk_scene> scene = test::sceneOfC(session.get(), shapes::tetrahedron());
+  std::ifstream in(ASDFVK_TEST_DIR "/describe/option_cases.json");
+  for (const Json& example : Json::parse(in)) {
+    const Json& options = example.at("options");
+    if (options.contains("fail-if-thinner")) continue;  // Of the program.
+    CAPTURE(options.dump());
+    CHECK_EQ(withoutSpelling(refusalInC(scene.get(), options)),
+             withoutSpelling(example.at("refusal").get<std::string>()));
+  }
 }
 
 TEST_CASE("the command line and the library refuse the same options with the same sentence") {
