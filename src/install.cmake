@@ -1,9 +1,13 @@
-# Programs with their man pages and a completion, library, headers, CMake package and pkg-config file, in the folders of
-# GNUInstallDirs. Components: program, development, and python (python/CMakeLists.txt).
+# Programs with their man pages and a completion, libraries, headers, CMake package and pkg-config files, in the folders
+# of GNUInstallDirs. Components: program, development, c (the shared library of the interface in C without what is for
+# linking), and python (python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/asdf-vk)
 install(TARGETS asdfvk-library EXPORT asdf-vk-targets COMPONENT development)
+if(TARGET asdf-vk-c)
+  install(TARGETS asdf-vk-c EXPORT asdf-vk-targets LIBRARY COMPONENT c NAMELINK_COMPONENT development)
+endif()
 if(ASDF_VK_PROGRAM)
   install(TARGETS asdf-vk asdf-vk-generate COMPONENT program)
 
@@ -49,5 +53,13 @@ set(ASDFVK_PC_LIBDIR "\${prefix}")
 set(ASDFVK_PC_INCLUDEDIR "\${prefix}")
 cmake_path(APPEND ASDFVK_PC_LIBDIR "${CMAKE_INSTALL_LIBDIR}")
 cmake_path(APPEND ASDFVK_PC_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}")
-configure_file(asdf-vk.pc.in ${PROJECT_BINARY_DIR}/asdf-vk.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/asdf-vk.pc DESTINATION ${pkgConfigFolder} COMPONENT development)
+foreach(pcName asdf-vk asdf-vk-c)
+  if(pcName STREQUAL "asdf-vk-c")
+    if(NOT TARGET asdf-vk-c)
+      continue()
+    endif()
+    set(ASDFVK_PC_PRIVATE "")
+  endif()
+  configure_file(asdf-vk.pc.in ${PROJECT_BINARY_DIR}/${pcName}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${pcName}.pc DESTINATION ${pkgConfigFolder} COMPONENT development)
+endforeach()

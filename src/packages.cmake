@@ -1,8 +1,9 @@
-# Debian packages of Debian 12 by CPack: asdf-vk, libasdf-vk-dev, and python3-asdf-vk where the Python module is built.
+# Debian packages of Debian 12 by CPack: asdf-vk, libasdf-vk-dev, libasdf-vk-c1 (with the ABI of the interface in C), and
+# python3-asdf-vk where the Python module is built.
 # A package is an install component. Used by the preset `packages` and scripts/test-packages:
 #   cmake --preset packages && cmake --build --preset packages && cpack --preset packages
 include(GNUInstallDirs)
-set(components program development)
+set(components program development c)
 if(TARGET asdfvk-python)
   list(APPEND components python)
 endif()
@@ -48,12 +49,21 @@ math(EXPR fmtNext "${fmtMajor} + 1")
 set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev (>= 2021), zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libasdf-vk-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${depends}")
+get_target_property(abi asdf-vk-c SOVERSION)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libasdf-vk-c${abi} (= ${PROJECT_VERSION}), ${depends}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libopenmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "shape diameter function of triangle meshes - development files
-${description}This package has the static library, its headers, a CMake package and a
-pkg-config file.")
+${description}This package has the static library, its headers, a CMake package and
+pkg-config files, also of the shared library for C.")
+
+set(CPACK_DEBIAN_C_PACKAGE_NAME libasdf-vk-c${abi})
+set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_C_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_C_DESCRIPTION "shape diameter function of triangle meshes - library for C
+${description}This package has the shared library of the interface in C.")
 
 # The module is bound to the minor version of Python it is built for.
 if(TARGET asdfvk-python)
@@ -135,6 +145,7 @@ find_program(ASDF_VK_STRIP strip REQUIRED)
 mark_as_advanced(ASDF_VK_STRIP)
 file(WRITE ${folder}/strip.cmake "
 file(GLOB_RECURSE binaries \${CPACK_TEMPORARY_DIRECTORY}/*.a \${CPACK_TEMPORARY_DIRECTORY}/*.so
+     \${CPACK_TEMPORARY_DIRECTORY}/*.so.*.*
      \${CPACK_TEMPORARY_DIRECTORY}/*/usr/bin/*)
 foreach(binary IN LISTS binaries)
   execute_process(COMMAND ${ASDF_VK_STRIP} --strip-debug --enable-deterministic-archives --remove-section=.comment

@@ -108,8 +108,8 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_scene_mesh(const asdf_vk_scene* scene, asdf
 ASDF_VK_C_API void asdf_vk_scene_destroy(asdf_vk_scene* scene);
 
 /* Called in the thread and in the floating-point environment of the caller, about every 50 to 100 ms. fraction: 0 to 1.
- * stage: "trace", "solve", ..., or "" before the first one. A return value other than 0 requests a stop. Must not throw, nor leave by longjmp(). A
- * call on the same session is an error. */
+ * stage: "trace", "solve", ..., or "" before the first one. A return value other than 0 requests a stop. Must not
+ * throw, nor leave by longjmp(). A call on the same session is an error. */
 typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 
 /* options: those of a computation; null: the defaults. progress: may be null. user: passed to it. */

@@ -8,7 +8,9 @@
 #include "c/c_objects.h"
 #include "cli/options.h"
 #include "cli/refusal.h"
+#include "cli/report.h"
 #include "core/json.h"
+#include "generate/analytic_shapes.h"
 #include "support/shapes.h"
 
 namespace asdfvk {
@@ -104,6 +106,28 @@ TEST_CASE("the command line and C refuse the same options with the same sentence
     CHECK_EQ(withoutSpelling(refusalInC(scene.get(), options)),
              withoutSpelling(example.at("refusal").get<std::string>()));
   }
+}
+
+TEST_CASE("the JSON report of C is that of the program") {
+  const Mesh mesh = makeSlab(2000).mesh;
+  const CommandLine line = parseCommandLine(
+      {"a.ply", "--measure", "both", "--thinner-than", "0.8", "--seeds", "20%", "--backend", "reference"});
+  Session session(line.session);
+  const Result result = session.compute(mesh, line.computation.options);
+  const std::string name = "a.ply";
+  Json ofProgram = Json::parse(jsonReport({name, name, line.computation, line.session, line.outputs, result}));
+  for (const char* key : {"mesh", "output", "picture", "points"}) ofProgram.erase(key);
+
+  const test::Owned<asdf_vk_session> own = test::sessionOfC("reference");
+  const test::Owned<asdf_vk_scene> scene = test::sceneOfC(own.get(), mesh);
+  const test::Owned<asdf_vk_result> ownResult =
+      test::resultOfC(scene.get(), {{"measure", "both"}, {"thinner-than", "0.8"}, {"seeds", "20%"}});
+  Json ofC = Json::parse(test::jsonAt(ownResult.get(), ""));
+  for (Json* json : {&ofProgram, &ofC}) {
+    CHECK(json->at("stageSeconds").at("thickness") > 0);
+    for (const char* key : {"stageSeconds", "raysPerSecond"}) json->erase(key);
+  }
+  CHECK_EQ(ofC, ofProgram);
 }
 
 TEST_CASE("the command line and the library refuse the same options with the same sentence") {

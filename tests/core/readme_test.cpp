@@ -64,6 +64,11 @@ TEST_CASE("the C++ example of README.md is the code that the tests of consumers 
         unindented(between(file, "  // [README]\n", "  // [README]"), 2));
 }
 
+TEST_CASE("the example of docs/c.md is the code that the tests of consumers compile") {
+  const std::string file = readDocument("tests/consumer/c_example.c");
+  CHECK(between(readDocument("docs/c.md"), "```c\n", "```") == file.substr(file.find('\n') + 1));
+}
+
 TEST_CASE("files that the pages name exist") {
   const std::filesystem::path root(ASDFVK_SOURCE_DIR);
   std::vector<std::string> pages{"README.md", "CONTRIBUTING.md"};
