@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_C_PACKAGE_NAME libasdf-vk-c${abi})
 set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_C_PACKAGE_RECOMMENDS "${vulkan}")
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs ${PROJECT_BINARY_DIR}/debian/triggers)
 set(CPACK_DEBIAN_C_DESCRIPTION "shape diameter function of triangle meshes - library for C
 ${description}This package has the shared library of the interface in C.")
 
@@ -123,6 +123,12 @@ writeGzip("asdf-vk (${PROJECT_VERSION}) unstable; urgency=medium
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 " changelog)
 
+file(WRITE ${folder}/shlibs "libasdf-vk-c ${abi} libasdf-vk-c${abi} (>= ${PROJECT_VERSION})\n")
+file(WRITE ${folder}/triggers "activate-noawait ldconfig\n")
+# CPack adds maintainer scripts, which call ldconfig once more.
+file(WRITE ${folder}/libasdf-vk-c${abi} "libasdf-vk-c${abi}: maintscript-calls-ldconfig\n")
+install(FILES ${folder}/libasdf-vk-c${abi} DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides COMPONENT c)
+
 # Removes the bytecode with the package.
 file(WRITE ${folder}/postinst "#!/bin/sh
 set -e
@@ -145,9 +151,11 @@ find_program(ASDF_VK_STRIP strip REQUIRED)
 mark_as_advanced(ASDF_VK_STRIP)
 file(WRITE ${folder}/strip.cmake "
 file(GLOB_RECURSE binaries \${CPACK_TEMPORARY_DIRECTORY}/*.a \${CPACK_TEMPORARY_DIRECTORY}/*.so
-     \${CPACK_TEMPORARY_DIRECTORY}/*.so.*.*
-     \${CPACK_TEMPORARY_DIRECTORY}/*/usr/bin/*)
+     \${CPACK_TEMPORARY_DIRECTORY}/*.so.* \${CPACK_TEMPORARY_DIRECTORY}/*/usr/bin/*)
 foreach(binary IN LISTS binaries)
+  if(IS_SYMLINK \${binary})
+    continue()
+  endif()
   execute_process(COMMAND ${ASDF_VK_STRIP} --strip-debug --enable-deterministic-archives --remove-section=.comment
                           --remove-section=.note \${binary} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

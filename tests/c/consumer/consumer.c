@@ -39,9 +39,11 @@ int main(int argc, char** argv) {
   FILE* file = NULL;
   int callCount = 0;
   char number[16];
+  int traps;
   if (argc != 2) return 2;
   fesetround(FE_UPWARD);
   feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+  traps = fegetexcept(); /* None where the processor has no traps. */
 
   require(asdf_vk_abi() == ASDF_VK_ABI, "asdf_vk_abi");
   sprintf(number, "%d.%d.%d", asdf_vk_version_number() / 10000, asdf_vk_version_number() / 100 % 100,
@@ -80,6 +82,6 @@ int main(int argc, char** argv) {
               strcmp(asdf_vk_last_error_name(), "unknownField") == 0,
           "unknown field");
   asdf_vk_result_destroy(result);
-  require(fegetround() == FE_UPWARD && fegetexcept() == (FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW), "environment");
+  require(fegetround() == FE_UPWARD && fegetexcept() == traps, "environment");
   return 0;
 }
