@@ -25,6 +25,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming) */
+
 /* Version of the binary interface, and of the shared library (libasdf-vk-c.so.1). Compare it with asdf_vk_abi(): the
  * library fits where both are equal. Within a version functions and enumerators are added only. */
 #define ASDF_VK_ABI 1
@@ -150,6 +152,8 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_result_json(asdf_vk_result* result, const c
  */
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_write(const asdf_vk_result* result, const char* path);
 ASDF_VK_C_API void asdf_vk_result_destroy(asdf_vk_result* result);
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus
 }

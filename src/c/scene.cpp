@@ -112,29 +112,29 @@ asdf_vk_status asdf_vk_session_device(const asdf_vk_session* session, const char
 
 void asdf_vk_session_destroy(asdf_vk_session* session) { handles<asdf_vk_session>().destroy(session); }
 
-asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertices, asdf_vk_type vertex_type,
-                                    size_t vertex_count, const void* corners, asdf_vk_type corner_type,
-                                    size_t face_count, const char* unit, asdf_vk_scene** scene) {
+asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertices, asdf_vk_type vertexType,
+                                    size_t vertexCount, const void* corners, asdf_vk_type cornerType, size_t faceCount,
+                                    const char* unit, asdf_vk_scene** scene) {
   return guarded([&] {
     requireArgument(scene, "the output");
-    requireIndexType(corner_type);
-    requireAtMost(kMaxTriangleCount, face_count, "faces");
-    const auto indices = spanOf<uint32_t>(corners, 3 * uint64_t{face_count}, "the corners");
-    addScene(session, meshOf(viewOf(vertices, vertex_type, vertex_count, indices, {}), unit), scene);
+    requireIndexType(cornerType);
+    requireAtMost(kMaxTriangleCount, faceCount, "faces");
+    const auto indices = spanOf<uint32_t>(corners, 3 * uint64_t{faceCount}, "the corners");
+    addScene(session, meshOf(viewOf(vertices, vertexType, vertexCount, indices, {}), unit), scene);
   });
 }
 
-asdf_vk_status asdf_vk_scene_create_polygons(asdf_vk_session* session, const void* vertices, asdf_vk_type vertex_type,
-                                             size_t vertex_count, const void* corners, asdf_vk_type corner_type,
-                                             const uint64_t* first_corner, size_t face_count, const char* unit,
+asdf_vk_status asdf_vk_scene_create_polygons(asdf_vk_session* session, const void* vertices, asdf_vk_type vertexType,
+                                             size_t vertexCount, const void* corners, asdf_vk_type cornerType,
+                                             const uint64_t* firstCorner, size_t faceCount, const char* unit,
                                              asdf_vk_scene** scene) {
   return guarded([&] {
     requireArgument(scene, "the output");
-    requireIndexType(corner_type);
-    requireAtMost(kMaxIndexCount, face_count, "faces");
-    const auto first = spanOf<uint64_t>(first_corner, uint64_t{face_count} + 1, "first_corner");
+    requireIndexType(cornerType);
+    requireAtMost(kMaxIndexCount, faceCount, "faces");
+    const auto first = spanOf<uint64_t>(firstCorner, uint64_t{faceCount} + 1, "first_corner");
     const auto indices = spanOf<uint32_t>(corners, first.back(), "the corners");
-    addScene(session, meshOf(viewOf(vertices, vertex_type, vertex_count, indices, first), unit), scene);
+    addScene(session, meshOf(viewOf(vertices, vertexType, vertexCount, indices, first), unit), scene);
   });
 }
 
@@ -182,15 +182,15 @@ asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk_options* opti
 }
 
 asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options, const double* points,
-                                 const double* normals, size_t point_count, double* values, asdf_vk_progress progress,
+                                 const double* normals, size_t pointCount, double* values, asdf_vk_progress progress,
                                  void* user) {
   ProgressCall call(progress, user);
   return guarded([&] {
     const auto used = handles<asdf_vk_scene>().get(scene);
-    requireAtMost(kMaxIndexCount, point_count, "points");
-    const auto places = spanOf<double>(points, 3 * uint64_t{point_count}, "the points");
-    const auto axes = spanOf<double>(normals, 3 * uint64_t{point_count}, "the normals");
-    if (point_count > 0) requireArgument(values, "the output");
+    requireAtMost(kMaxIndexCount, pointCount, "points");
+    const auto places = spanOf<double>(points, 3 * uint64_t{pointCount}, "the points");
+    const auto axes = spanOf<double>(normals, 3 * uint64_t{pointCount}, "the normals");
+    if (pointCount > 0) requireArgument(values, "the output");
     const Options given = computationSettings(options).options;
     if (given.measure == Measure::Both)
       throw Error(ErrorCode::OptionConflict, "measure=both is for faces; points have one measure at a time");
