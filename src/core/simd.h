@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 /// Vectors of numbers, by the vector extensions of GCC and Clang, and code compiled for several instruction sets.
 ///
@@ -51,10 +52,15 @@ ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   std::memcpy(numbers, &vector, sizeof vector);
 }
 
-/// One number in every lane.
+/// One number in every lane. A shuffle, because GCC 12 compiles `number - V{}` for 64 bytes element by element.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V broadcast(NumberOf<V> number) {
-  return number - V{};
+  V first{};
+  first[0] = number;
+  return [&]<size_t... kLane>(std::index_sequence<kLane...>) ASDFVK_ALWAYS_INLINE {
+    return __builtin_shufflevector(first, first, (kLane * 0)...);
+  }
+  (std::make_index_sequence<kLaneCount<V>>());
 }
 
 /// The smaller numbers; those of b where the two are equal or one of them is NaN.
