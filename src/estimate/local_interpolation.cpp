@@ -79,7 +79,8 @@ class Patch {
   void assemble();
   void addRow(uint32_t face);
   [[nodiscard]] double solve();
-  void multiply();
+  [[nodiscard]] double multiply();
+  [[nodiscard]] double step(double length);
 
   const SolvedInterpolation& solved_;
   PatchRows rows_;
@@ -87,8 +88,9 @@ class Patch {
   size_t unknownCount_ = 0;
   std::vector<uint32_t> offsets_;
   std::vector<Column> columns_;
-  std::vector<double> diagonal_, residual_, solution_, direction_, product_;  // The residual of the start first.
-  bool isDetermined_ = false;                                                 // Whether a boundary value was found.
+  std::vector<double> diagonal_, residual_, solution_;  // The residual of the start first.
+  std::vector<double> preconditioned_, direction_, product_;
+  bool isDetermined_ = false;  // Whether a boundary value was found.
 };
 
 /// Breadth-first between the constraints, until there are enough of them.
@@ -115,8 +117,9 @@ void Patch::assemble() {
   columns_.clear();
   isDetermined_ = false;
   for (size_t row = 0; row < unknownCount_; ++row) addRow(faces_[row]);
-  direction_.resize(unknownCount_);
-  product_.resize(unknownCount_);
+  preconditioned_.resize(unknownCount_);
+  direction_.assign(unknownCount_, 0);
+  product_.assign(unknownCount_, 0);
 }
 
 void Patch::addRow(uint32_t face) {
@@ -151,38 +154,41 @@ void Patch::addRow(uint32_t face) {
   solution_.push_back(own);
 }
 
-void Patch::multiply() {
+/// Returns the scalar product of the direction and its product.
+double Patch::multiply() {
+  double curvature = 0;
   for (size_t row = 0; row < unknownCount_; ++row) {
     double sum = diagonal_[row] * direction_[row];
     for (uint32_t i = offsets_[row]; i < offsets_[row + 1]; ++i)
       sum -= columns_[i].weight * direction_[columns_[i].row];
     product_[row] = sum;
+    curvature += direction_[row] * sum;
   }
+  return curvature;
+}
+
+/// Goes along the direction. Returns the square of the preconditioned norm of the residual.
+double Patch::step(double length) {
+  double squared = 0;
+  for (size_t row = 0; row < unknownCount_; ++row) {
+    solution_[row] += length * direction_[row];
+    residual_[row] -= length * product_[row];
+    preconditioned_[row] = residual_[row] / diagonal_[row];
+    squared += residual_[row] * preconditioned_[row];
+  }
+  return squared;
 }
 
 /// The value at the centre: conjugate gradients with the diagonal as preconditioner.
 double Patch::solve() {
-  const auto preconditioned = [&](size_t row) { return residual_[row] / diagonal_[row]; };
-  const auto squaredNorm = [&] {
-    double sum = 0;
-    for (size_t row = 0; row < unknownCount_; ++row) sum += residual_[row] * preconditioned(row);
-    return sum;
-  };
-  double squared = squaredNorm();
+  double squared = step(0);
   const double target = kLocalReduction * kLocalReduction * squared;
-  for (size_t row = 0; row < unknownCount_; ++row) direction_[row] = preconditioned(row);
+  direction_ = preconditioned_;
   for (uint32_t i = 0; i < kMaxLocalIterations && squared > target; ++i) {
-    multiply();
-    double curvature = 0;
-    for (size_t row = 0; row < unknownCount_; ++row) curvature += direction_[row] * product_[row];
+    const double curvature = multiply();
     if (!(curvature > 0)) break;
-    const double step = squared / curvature;
-    for (size_t row = 0; row < unknownCount_; ++row) {
-      solution_[row] += step * direction_[row];
-      residual_[row] -= step * product_[row];
-    }
-    const double next = squaredNorm(), beta = next / squared;
-    for (size_t row = 0; row < unknownCount_; ++row) direction_[row] = preconditioned(row) + beta * direction_[row];
+    const double next = step(squared / curvature), beta = next / squared;
+    for (size_t row = 0; row < unknownCount_; ++row) direction_[row] = preconditioned_[row] + beta * direction_[row];
     squared = next;
   }
   return solution_.front();
