@@ -19,12 +19,15 @@
 namespace asdfvk {
 namespace {
 
-/// Freed memory up to this size is used again instead of being returned to the kernel, which clears each new page.
-constexpr int kKeptBytes = 32 << 20;  // The most that glibc accepts as M_MMAP_THRESHOLD.
+/// Unused memory at the end of the heap beyond this size is returned to the kernel.
+constexpr int kKeptBytes = 128 << 20;
 
+/// Freed memory is used again, large arrays included, instead of being returned to the kernel, which clears each new
+/// page. One heap for all threads: an array that one thread frees is free for all of them.
 void keepFreedMemory() {
-  ::mallopt(M_MMAP_THRESHOLD, kKeptBytes);
-  ::mallopt(M_TRIM_THRESHOLD, 4 * kKeptBytes);
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_ARENA_MAX, 1);
+  ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
 }
 
 /// Prints the devices. Returns Done, or Device where a GPU is required and none is usable.

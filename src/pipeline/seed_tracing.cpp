@@ -1,9 +1,5 @@
 #include "pipeline/seed_tracing.h"
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -11,20 +7,6 @@
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
-namespace {
-
-// Below this size of the hierarchy, freed memory is kept for the next mesh: new pages cost more time than it holds.
-constexpr size_t kMinReturnedByteCount = size_t{32} << 20;
-
-/// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
-void returnFreedMemory() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
-}
-
-}  // namespace
-
 SeedTracing::SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released)
     : computation_(computation),
       released_(released),
@@ -33,10 +15,7 @@ SeedTracing::SeedTracing(const Computation& computation, KeptTracers& tracers, B
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));
   tracer_.reset();
-  if (released_ == nullptr) return;
-  const bool isLarge = released_->nodes.size() * sizeof(BvhNode) >= kMinReturnedByteCount;
-  released_->nodes = {};
-  if (isLarge) returnFreedMemory();
+  if (released_ != nullptr) released_->nodes = {};
 }
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
