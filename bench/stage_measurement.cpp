@@ -1,12 +1,5 @@
 #include "stage_measurement.h"
 
-#include <fmt/format.h>
-
-#include <sstream>
-
-#include "core/stopwatch.h"
-#include "support/process.h"
-
 namespace asdfvk::bench {
 namespace {
 
@@ -24,20 +17,27 @@ std::vector<double> samplesOf(const StageRow& row, const Quantity& quantity) {
   return samples;
 }
 
+/// The quantity of every process.
+std::vector<double> samplesOf(const StageRow& row, double ProcessUsage::*quantity) {
+  std::vector<double> samples;
+  for (const ProcessUsage& process : row.processes) samples.push_back(process.*quantity);
+  return samples;
+}
+
 Options optionsFor(const std::string& seeds) {
   Options options;
   options.seeds = parseSeedCount(seeds);
   return options;
 }
 
-ColdRun runCold(const std::string& mesh, const StageRow& row, const std::string& device) {
-  std::vector<std::string> arguments{"--cold", "--seeds", row.seeds, "--backends", row.backend};
-  if (!device.empty()) arguments.insert(arguments.end(), {"--device", device});
-  arguments.insert(arguments.end(), {"--", mesh});
-  std::istringstream text(outputOf(kThisProgram, arguments));
-  ColdRun run;
-  text >> run.seconds >> run.peakBytes;
-  return run;
+/// The program with its default options, which include the error estimate.
+ProcessUsage runProcess(const std::filesystem::path& mesh, const StageRow& row, const std::string& device,
+                        const std::filesystem::path& output) {
+  std::vector<std::string> arguments{mesh, "--seeds", row.seeds, "--backend", row.backend, "-o", output, "--quiet"};
+  if (row.backend == "vulkan" && !device.empty()) arguments.insert(arguments.end(), {"--device", device});
+  ProcessUsage usage;
+  static_cast<void>(outputOf(ASDFVK_PROGRAM, arguments, &usage));
+  return usage;
 }
 
 }  // namespace
@@ -45,6 +45,13 @@ ColdRun runCold(const std::string& mesh, const StageRow& row, const std::string&
 Dispersion StageRow::seconds(Stage stage) const {
   return dispersionOf(samplesOf(*this, [&](const FileRun& run) { return run.report.stageSeconds[stage]; }));
 }
+
+Dispersion StageRow::share(Stage stage) const {
+  return dispersionOf(
+      samplesOf(*this, [&](const FileRun& run) { return run.report.stageSeconds[stage] / run.totalSeconds; }));
+}
+
+Dispersion StageRow::process(double ProcessUsage::*quantity) const { return dispersionOf(samplesOf(*this, quantity)); }
 
 Dispersion StageRow::total() const {
   return dispersionOf(samplesOf(*this, [](const FileRun& run) { return run.totalSeconds; }));
@@ -70,7 +77,7 @@ std::optional<Dispersion> StageMeasurement::referenceOverVulkan(const StageRow& 
 std::optional<Dispersion> StageMeasurement::speedUp(const StageRow& row) const {
   const StageRow* full = find("all", row.backend);
   if (full == nullptr || full == &row) return {};
-  const auto seconds = [&](const FileRun& run) { return row.runsOnCpu ? run.cpuSeconds : run.totalSeconds; };
+  const auto seconds = row.runsOnCpu ? &ProcessUsage::cpuSeconds : &ProcessUsage::seconds;
   return ratioOf(samplesOf(*full, seconds), samplesOf(row, seconds));
 }
 
@@ -97,23 +104,14 @@ StageMeasurement StageBench::measure(const std::string& name, const std::filesys
   for (uint32_t round = 0; round <= request_.runCount; ++round)
     for (StageRow& row : measurement.rows) {
       FileRun run = runFile(*sessions_.at(row.backend), mesh, optionsFor(row.seeds), output, control);
-      if (round > 0) row.runs.push_back(std::move(run));
+      const ProcessUsage process = runProcess(mesh, row, request_.device, output);
+      row.runsOnCpu = run.report.runsOnCpu;
+      control.checkpoint(0);
+      if (round == 0) continue;
+      row.runs.push_back(std::move(run));
+      row.processes.push_back(process);
     }
-  for (StageRow& row : measurement.rows) {
-    row.runsOnCpu = row.runs.front().report.runsOnCpu;
-    row.cold = runCold(mesh.string(), row, request_.device);
-    control.checkpoint(0);
-  }
   return measurement;
-}
-
-std::string coldRunText(const std::string& mesh, const std::string& seeds, const std::string& backend,
-                        const std::string& device, const RunControl& control) {
-  const TemporaryFolder folder;
-  const Stopwatch watch;
-  Session session(sessionOptionsOf(backend, device));
-  static_cast<void>(runFile(session, mesh, optionsFor(seeds), folder.path() / "result.ply", control));
-  return fmt::format("{} {}\n", watch.seconds(), peakMemoryBytes());
 }
 
 }  // namespace asdfvk::bench

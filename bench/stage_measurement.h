@@ -10,6 +10,7 @@
 #include "asdf_vk/session.h"
 #include "support/computation.h"
 #include "support/measurement.h"
+#include "support/process.h"
 
 namespace asdfvk::bench {
 
@@ -20,22 +21,18 @@ struct StageRequest {
   uint32_t runCount = 5;
 };
 
-/// One run in a process of its own, so that its peak memory is that of one backend and no kernel is compiled before.
-struct ColdRun {
-  double seconds = 0;  ///< With opening the device, without loading the program.
-  double peakBytes = 0;
-};
-
 /// The runs of one backend with one choice of seeds. The runs i of all rows were made in the same round.
 struct StageRow {
   std::string seeds, backend;
   bool runsOnCpu = false;
   std::vector<FileRun> runs = {};
-  ColdRun cold = {};
+  std::vector<ProcessUsage> processes = {};  ///< Of asdf-vk, from file to file, with opening the device.
 
   [[nodiscard]] Dispersion seconds(Stage stage) const;
+  [[nodiscard]] Dispersion share(Stage stage) const;  ///< Of the total.
   [[nodiscard]] Dispersion total() const;
   [[nodiscard]] Dispersion raysPerSecond() const;
+  [[nodiscard]] Dispersion process(double ProcessUsage::*quantity) const;
 };
 
 enum class TimeSpan {
@@ -51,8 +48,8 @@ struct StageMeasurement {
   /// the reference with the same seeds.
   [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
 
-  /// Time of all faces over that of `row` by the same backend, from file to file, by round: CPU seconds on a CPU,
-  /// seconds elsewhere. None without a row of all faces.
+  /// Time of the process of all faces over that of `row` by the same backend, by round: CPU seconds on a CPU, seconds
+  /// elsewhere. None without a row of all faces.
   [[nodiscard]] std::optional<Dispersion> speedUp(const StageRow& row) const;
 
   /// TimeSpan::Interpolation over the time of the trace of all faces by the same backend, by round. None without a row
@@ -77,9 +74,5 @@ class StageBench {
   StageRequest request_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;  ///< By backend.
 };
-
-/// Runs in this process and returns the numbers of a ColdRun as text, which the parent process reads.
-[[nodiscard]] std::string coldRunText(const std::string& mesh, const std::string& seeds, const std::string& backend,
-                                      const std::string& device, const RunControl& control);
 
 }  // namespace asdfvk::bench

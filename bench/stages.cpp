@@ -18,10 +18,9 @@ using namespace asdfvk::bench;
 
 struct Arguments {
   std::vector<std::string> meshes;
-  StageRequest request{{"all", "10%", "1%"}, {"reference", "vulkan"}, {}, 5};
+  StageRequest request{{"all", "10%", "1%"}, {"cpu", "vulkan"}, {}, 5};
   uint64_t generatedFaceCount = 100'000;
   bool isJson = false;
-  bool isCold = false;
 };
 
 std::vector<Stage> allStages() {
@@ -49,7 +48,8 @@ std::string heading(const StageMeasurement& measurement, const Machine& machine)
   for (const StageRow& row : measurement.rows)
     if (row.seeds == first.seeds) text += fmt::format("{}: {}\n", row.backend, row.runs.front().report.device);
   return text +
-         "seconds: median ± median absolute deviation; cold: one run in a new process, with opening the device and\n"
+         "seconds: median ± median absolute deviation; process: asdf-vk from file to file, with opening the device "
+         "and\n"
          "compiling kernels; peak MiB: peak resident memory of that process\n\n";
 }
 
@@ -71,7 +71,7 @@ std::string speedUpsText(const StageMeasurement& measurement) {
   std::string text;
   for (const StageRow& row : measurement.rows)
     if (const auto ratio = measurement.speedUp(row))
-      text += fmt::format("{} of the faces on {}: {} times as fast as all faces, file to file, by {}\n", row.seeds,
+      text += fmt::format("{} of the faces on {}: {} times as fast as all faces, whole process, by {}\n", row.seeds,
                           row.backend, toText(*ratio, 2), row.runsOnCpu ? "CPU time" : "time");
   return text.empty() ? text : text + "\n";
 }
@@ -80,7 +80,7 @@ std::string speedUpsText(const StageMeasurement& measurement) {
 std::string toTable(const StageMeasurement& measurement, const Machine& machine) {
   std::vector<std::string> titles{"seeds", "backend"};
   for (const Stage stage : allStages()) titles.emplace_back(nameOf(stage));
-  titles.insert(titles.end(), {"total", "Mrays/s", "per core", "cold", "peak MiB"});
+  titles.insert(titles.end(), {"total", "Mrays/s", "per core", "process", "process CPU", "peak MiB"});
   std::string text = heading(measurement, machine) + speedUpsText(measurement) + line(titles) + "|-------|-----------|";
   for (size_t i = 2; i < titles.size(); ++i) text += "-------------:|";
   text += "\n";
@@ -90,17 +90,25 @@ std::string toTable(const StageMeasurement& measurement, const Machine& machine)
     cells.push_back(toText(row.total(), 3));
     cells.push_back(megaRays(row.raysPerSecond(), 1));
     cells.push_back(row.runsOnCpu ? megaRays(row.raysPerSecond(), machine.threads) : "-");
-    cells.push_back(fmt::format("{:.3f}", row.cold.seconds));
-    cells.push_back(fmt::format("{:.0f}", row.cold.peakBytes / (1 << 20)));
+    cells.push_back(toText(row.process(&ProcessUsage::seconds), 3));
+    cells.push_back(toText(row.process(&ProcessUsage::cpuSeconds), 3));
+    cells.push_back(fmt::format("{:.0f}", row.process(&ProcessUsage::peakBytes).median / (1 << 20)));
     text += line(cells);
+    std::vector<std::string> shares{"", "share"};
+    for (const Stage stage : allStages()) shares.push_back(fmt::format("{:.1f} %", 100 * row.share(stage).median));
+    shares.resize(cells.size());
+    text += line(shares);
   }
   return text + ratiosText(measurement) + "\n";
 }
 
 Json toJson(const StageMeasurement& measurement, const StageRow& row, const Machine& machine) {
   const Report& report = row.runs.front().report;
-  Json stages;
-  for (const Stage stage : allStages()) stages[nameOf(stage)] = bench::toJson(row.seconds(stage));
+  Json stages, shares;
+  for (const Stage stage : allStages()) {
+    stages[nameOf(stage)] = bench::toJson(row.seconds(stage));
+    shares[nameOf(stage)] = bench::toJson(row.share(stage));
+  }
   return {{"mesh", measurement.mesh},
           {"faceCount", report.faceCount},
           {"triangleCount", report.triangleCount},
@@ -119,8 +127,10 @@ Json toJson(const StageMeasurement& measurement, const StageRow& row, const Mach
           {"raysPerSecond", bench::toJson(row.raysPerSecond())},
           {"raysPerSecondAndCore", row.runsOnCpu ? Json(row.raysPerSecond().median / machine.threads) : Json(nullptr)},
           {"speedUpOverAllFaces", bench::toJson(measurement.speedUp(row))},
-          {"coldSeconds", row.cold.seconds},
-          {"peakBytes", row.cold.peakBytes},
+          {"stageShare", shares},
+          {"processSeconds", bench::toJson(row.process(&ProcessUsage::seconds))},
+          {"processCpuSeconds", bench::toJson(row.process(&ProcessUsage::cpuSeconds))},
+          {"peakBytes", bench::toJson(row.process(&ProcessUsage::peakBytes))},
           {"solver", {{"name", report.solver.name}, {"iterations", report.solver.iterations}}},
           {"referenceOverVulkan",
            {{"traceAndInterpolation", bench::toJson(measurement.referenceOverVulkan(row, TimeSpan::Interpolation))},
@@ -130,11 +140,6 @@ Json toJson(const StageMeasurement& measurement, const StageRow& row, const Mach
 
 void run(const Arguments& arguments, const RunControl& control) {
   const StageRequest& request = arguments.request;
-  if (arguments.isCold) {
-    writeOutput(
-        coldRunText(arguments.meshes.at(0), request.seeds.at(0), request.backends.at(0), request.device, control));
-    return;
-  }
   StageBench stages(request);
   const auto measure = [&](const std::string& name, const std::filesystem::path& path) {
     const StageMeasurement measurement = stages.measure(name, path, control);
@@ -162,6 +167,5 @@ int main(int argc, char** argv) {
   program.add("--backends", arguments.request.backends, "Some of reference, vulkan and cpu");
   program.add("--device", arguments.request.device, "Vulkan device: index or part of its name");
   program.add("--json", arguments.isJson, "One JSON line per row instead of a table");
-  program.addHidden("--cold", arguments.isCold);  // Option of the processes that StageBench starts.
   return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

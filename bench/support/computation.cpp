@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 #include <limits>
 
 #include "asdf_vk/files.h"
@@ -54,7 +53,6 @@ Options truthOptions(uint32_t rayCount) {
 FileRun runFile(Session& session, const std::filesystem::path& path, const Options& options,
                 const std::filesystem::path& output, const RunControl& control) {
   const Stopwatch total;
-  const std::clock_t begin = std::clock();
   const Mesh mesh = readMesh(path);
   const double readSeconds = total.seconds();
   Result result = session.compute(mesh, options, control);
@@ -62,7 +60,7 @@ FileRun runFile(Session& session, const std::filesystem::path& path, const Optio
   writeResult(output, mesh, result.fields, {.format = {}, .fields = {"sdf", "seed"}});
   result.report.stageSeconds[Stage::Write] = writing.seconds();
   result.report.stageSeconds[Stage::Read] = readSeconds;
-  return {std::move(result.report), total.seconds(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+  return {std::move(result.report), total.seconds()};
 }
 
 FieldErrors errorsOverRange(std::span<const double> full, std::span<const double> approximate) {

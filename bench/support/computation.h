@@ -27,7 +27,6 @@ namespace asdfvk::bench {
 struct FileRun {
   Report report;            ///< With the times of reading and writing.
   double totalSeconds = 0;  ///< Reading, computation and writing.
-  double cpuSeconds = 0;    ///< CPU time of all threads in it, the kernel included.
 };
 
 /// Reads the mesh, computes and writes `output`, as the command line does.

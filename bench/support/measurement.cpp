@@ -78,6 +78,4 @@ std::string toText(const Machine& machine) {
   return fmt::format("{}, {} threads, load average {:.1f}", machine.processor, machine.threads, machine.loadAverage);
 }
 
-double peakMemoryBytes() { return std::strtod(valueIn("/proc/self/status", "VmHWM").c_str(), nullptr) * 1024; }
-
 }  // namespace asdfvk::bench

@@ -65,7 +65,4 @@ struct Machine {
 /// One line.
 [[nodiscard]] std::string toText(const Machine& machine);
 
-/// Peak resident memory of this process in bytes (VmHWM): shared libraries and mapped files included.
-[[nodiscard]] double peakMemoryBytes();
-
 }  // namespace asdfvk::bench

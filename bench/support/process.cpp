@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@
 #include <system_error>
 
 #include "asdf_vk/error.h"
+#include "core/stopwatch.h"
 #include "support/program.h"
 
 namespace asdfvk::bench {
@@ -57,9 +59,14 @@ std::string readAll(int descriptor) {
   }
 }
 
+double secondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 }  // namespace
 
-std::string outputOf(const std::string& program, const std::vector<std::string>& arguments) {
+std::string outputOf(const std::string& program, const std::vector<std::string>& arguments, ProcessUsage* usage) {
+  const Stopwatch watch;
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) failToStart(errno);
   pid_t process = 0;
@@ -74,8 +81,12 @@ std::string outputOf(const std::string& program, const std::vector<std::string>&
   std::string text = readAll(ends[0]);
   close(ends[0]);
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (wait4(process, &status, 0, &used) < 0 && errno == EINTR) {
   }
+  if (usage != nullptr)
+    *usage = {watch.seconds(), secondsOf(used.ru_utime) + secondsOf(used.ru_stime),
+              static_cast<double>(used.ru_maxrss) * 1024};
   if (WIFSIGNALED(status))
     throw std::runtime_error(fmt::format("{} was ended by signal {}", program, WTERMSIG(status)));
   if (WEXITSTATUS(status) == kCancelledExitCode) throw Error(ErrorCode::Cancelled, "cancelled");

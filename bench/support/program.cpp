@@ -96,8 +96,6 @@ void Program::addOptionalMeshes(std::vector<std::string>& paths, const std::stri
 
 void Program::add(const std::string& name, bool& value, const std::string& text) { app_->add_flag(name, value, text); }
 
-void Program::addHidden(const std::string& name, bool& value) { app_->add_flag(name, value)->group(""); }
-
 void Program::add(const std::string& name, std::string& value, const std::string& text) {
   app_->add_option(name, value, text)->capture_default_str();
 }

@@ -41,7 +41,6 @@ class Program {
   void addOptionalMeshes(std::vector<std::string>& paths, const std::string& substitute);
 
   void add(const std::string& name, bool& value, const std::string& text);
-  void addHidden(const std::string& name, bool& value);
   void add(const std::string& name, std::string& value, const std::string& text);
   void addRequired(const std::string& name, std::string& value, const std::string& placeholder,
                    const std::string& text);
