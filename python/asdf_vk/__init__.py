@@ -20,7 +20,7 @@ from ._errors import (
     OutputError,
     UsageError,
 )
-from ._files import Mesh, read_mesh, write
+from ._files import Mesh, mesh_of_polygons, read_mesh, write
 from ._functions import compute, segment, shape_diameter, skeleton_points, thickness
 from ._info import Info
 from ._scene import Scene
@@ -44,6 +44,7 @@ __all__ = [
     "close_default_sessions",
     "compute",
     "devices",
+    "mesh_of_polygons",
     "read_mesh",
     "segment",
     "shape_diameter",

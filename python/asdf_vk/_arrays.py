@@ -38,6 +38,27 @@ def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
     return vertices, triangles
 
 
+def polygon_arrays(
+    vertices: Any, corners: Any, first_corner: Any
+) -> tuple[NDArray[np.float64], NDArray[np.uint32], NDArray[np.uint32]]:
+    """Arguments of mesh_of_polygons(), checked."""
+    points = _native(points_array(vertices, "vertices"), np.float64, "vertices")
+    arrays = []
+    for value, name, allowed in ((corners, "corners", len(points) - 1), (first_corner, "first_corner", np.size(corners))):
+        array = _as_array(value, name, "iu", "integers")
+        if array.ndim != 1:
+            raise error_of("arraySize", f"{name} has the shape {array.shape}, not (k,)")
+        if array.size and not (0 <= int(array.min()) and int(array.max()) <= allowed):
+            raise error_of(
+                "indexOutOfRange", f"{name} reaches from {array.min()} to {array.max()}; allowed are 0 to {allowed}"
+            )
+        arrays.append(_native(array, np.uint32, name))
+    first = arrays[1]
+    if first.size == 0 or first[0] != 0 or first[-1] != len(arrays[0]) or (first[1:] < first[:-1]).any():
+        raise error_of("arraySize", f"first_corner does not ascend from 0 to {len(arrays[0])}, the number of corners")
+    return points, arrays[0], first
+
+
 def points_array(value: Any, name: str) -> NDArray[Any]:
     """(n, 3) float32 or float64, C-contiguous; other real numbers become float64. Not checked for NaN."""
     array = _rows(_as_array(value, name, "fiu", "real numbers"), name)

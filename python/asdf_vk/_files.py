@@ -8,7 +8,7 @@ from typing import Any, Mapping
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import field_array, mesh_argument
+from ._arrays import field_array, mesh_argument, polygon_arrays
 from ._errors import error_of
 from ._session import flag_of
 
@@ -23,6 +23,18 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     and functions return a value per face of the file (`face_count`). Raises InputError.
     """
     return _core.read_mesh(_path(path))
+
+
+def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: ArrayLike) -> Mesh:
+    """A Mesh of faces with any number of corners, for example of Blender or VTK.
+
+    vertices: (n, 3). corners: (k,) indices of vertices, those of a face counter-clockwise seen from outside.
+    first_corner: (m + 1,), ascending from 0 to k: face i has the corners corners[first_corner[i]:first_corner[i + 1]].
+
+    Functions return a value per face: of several triangles the least thickness, or the mean by area. Arrays are copied.
+    Raises InputError.
+    """
+    return _core.mesh_of_polygons(*polygon_arrays(vertices, corners, first_corner))
 
 
 def write(

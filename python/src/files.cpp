@@ -14,6 +14,7 @@
 #include "asdf_vk/files.h"
 #include "gil.h"
 #include "interruptible.h"
+#include "mesh/input_faces.h"
 #include "report.h"
 
 namespace py = pybind11;
@@ -43,6 +44,23 @@ py::object faceOfTriangle(const py::object& self) {
   const std::vector<uint32_t>& faces = self.cast<const Mesh&>().polygons.inputFaceOf;
   if (faces.empty()) return py::none();
   return viewAsArray(reinterpret_cast<const int32_t*>(faces.data()), {static_cast<py::ssize_t>(faces.size())}, self);
+}
+
+/// vertices: 3 #V doubles. Face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1]; the
+/// caller has checked all indices.
+Mesh meshOfPolygons(const py::array& vertices, const py::array& corners, const py::array& firstCorner) {
+  const std::span<const double> numbers = entriesOf<double>(vertices);
+  const std::span<const uint32_t> allCorners = entriesOf<uint32_t>(corners), first = entriesOf<uint32_t>(firstCorner);
+  const GilRelease released;
+  Mesh mesh;
+  mesh.vertices.reserve(numbers.size() / 3);
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3)
+    mesh.vertices.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  InputFaces faces;
+  faces.reserve(first.size() - 1);
+  for (size_t i = 0; i + 1 < first.size(); ++i) faces.add(allCorners.subspan(first[i], first[i + 1] - first[i]));
+  faces.moveTo(mesh);
+  return mesh;
 }
 
 /// A field of the entries of an array of doubles, bytes or uint32, (items,) or (items, components).
@@ -133,6 +151,7 @@ void bindFiles(py::module_& module) {
       .def(py::pickle([](const Mesh& mesh) { return stateOf(mesh); },
                       [](const py::tuple& state) { return meshOf(state); }));
   module.def("read_mesh", readWithoutGil);
+  module.def("mesh_of_polygons", meshOfPolygons);
   module.def("write", write);
 }
 

@@ -126,3 +126,40 @@ def test_failures_leave_nothing_behind(tmp_path: Path) -> None:
         asdf_vk.read_mesh(tmp_path / "none.ply")
     assert unreadable.value.code == "unreadableInput"
     assert list(tmp_path.iterdir()) == []
+
+
+def test_polygons_are_those_of_a_file(tmp_path: Path) -> None:
+    """A box of six quads, one of them divided into a triangle and a polygon of five corners."""
+    corners = [0, 2, 8, 2, 3, 1, 0, 8, 4, 5, 7, 6, 0, 1, 5, 4, 3, 2, 6, 7, 2, 0, 4, 6, 1, 3, 7, 5]
+    first = [0, 3, 8, 12, 16, 20, 24, 28]
+    vertices = [(x, y, z) for z in (0, 1) for y in (0, 2) for x in (0, 3)] + [(1.0, 1.0, 0)]
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", *(f"property double {axis}" for axis in "xyz")]
+    lines += [f"element face {len(first) - 1}", "property list uchar int vertex_indices", "end_header"]
+    lines += [" ".join(map(str, vertex)) for vertex in vertices]
+    for begin, end in zip(first, first[1:]):
+        lines.append(" ".join(map(str, [end - begin, *corners[begin:end]])))
+    (tmp_path / "box.ply").write_text("\n".join(lines) + "\n")
+    read = asdf_vk.read_mesh(tmp_path / "box.ply")
+    mesh = asdf_vk.mesh_of_polygons(vertices, corners, first)
+    assert mesh.face_count == read.face_count == 7
+    assert mesh.face_of_triangle is not None and read.face_of_triangle is not None
+    np.testing.assert_array_equal(mesh.face_of_triangle, read.face_of_triangle)
+    np.testing.assert_array_equal(mesh.faces, read.faces)
+    values = asdf_vk.shape_diameter(mesh, false_hit_angle=0)
+    np.testing.assert_array_equal(values, asdf_vk.shape_diameter(read, false_hit_angle=0))
+    assert values.shape == (7,) and len(np.unique(values)) >= 3
+
+
+def test_wrong_polygons_are_refused() -> None:
+    vertices, faces = cube()
+    first = np.arange(len(faces) + 1) * 3
+    assert asdf_vk.mesh_of_polygons(vertices, faces.ravel(), first).face_of_triangle is None
+    cases: list[tuple[Any, Any, str]] = [
+        (faces.ravel(), first[:-1], "arraySize"), (faces.ravel(), first + 1, "indexOutOfRange"), (faces.ravel(), [], "arraySize"),
+        (faces.ravel() + len(vertices), first, "indexOutOfRange"), (faces, first, "arraySize"), ([0.5], [0, 1], "arrayType"),
+        (faces.ravel(), [0, 6, 3, faces.size], "arraySize"), ([], [0], "unreadableInput"), ([0, 1], [0, 2], "unreadableInput"),
+    ]  # fmt: skip
+    for corners, begins, code in cases:
+        with pytest.raises(asdf_vk.InputError) as caught:
+            asdf_vk.mesh_of_polygons(vertices, corners, begins)
+        assert caught.value.code == code
