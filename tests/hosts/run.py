@@ -1,0 +1,117 @@
+"""The tests of scripts/test-hosts: makes meshes, runs each host program on them, and prints a table.
+
+Everything is made below FOLDER. A host that is not installed is skipped with a line. Exit code 1: a check failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import polygons
+
+HERE = Path(__file__).resolve().parent
+XVFB = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
+TIMEOUT = 400  # Seconds for one host.
+
+
+def meshes(folder: Path, program: Path) -> None:
+    """The inputs of the hosts, and the values of the command line."""
+
+    def call(name: str, *arguments: str) -> None:
+        subprocess.run([program.parent / name, *arguments], check=True, cwd=folder, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)  # fmt: skip
+
+    call("asdf-vk-generate", "ligament-96", "-o", "part.ply")
+    call("asdf-vk-generate", "figure", "--faces", "6000", "-o", "figure.ply")
+    call("asdf-vk-generate", "animal", "--faces", "150000", "-o", "big.ply")
+    vertices, faces = polygons.shape()
+    polygons.write_ply(str(folder / "polygons.ply"), vertices, faces)
+    np.save(folder / "polygons.corners.npy", np.concatenate(faces))
+    np.save(folder / "polygons.sizes.npy", [len(face) for face in faces])
+    for mesh, field, options in (
+        ("part", "sdf", []), ("part", "thickness", ["--measure", "thickness"]), ("figure", "segment", ["--segment"]),
+        ("part", "least_thickness", ["--measure", "thickness"]), ("polygons", "thickness", ["--measure", "thickness"]),
+    ):  # fmt: skip
+        call("asdf-vk", f"{mesh}.ply", *options, "--fields", field, "-o", f"{mesh}.{field}.npy")
+
+
+def run(host: str, needed: str, command: list[str], folder: Path, environment: dict[str, str]) -> tuple[str, str, str]:
+    """A row of the table."""
+    if shutil.which(needed) is None:
+        print(f"test-hosts: {host} is skipped: there is no program {needed}", flush=True)
+        return host, "0", "skipped"
+    started = time.monotonic()
+    log = folder / f"{host.lower()}.log"
+    with log.open("w") as output:
+        try:
+            code = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+                                  stderr=subprocess.STDOUT, timeout=TIMEOUT).returncode  # fmt: skip
+        except subprocess.TimeoutExpired:
+            code = -1
+            output.write(f"\n{host}: FAILED: no end after {TIMEOUT} s\n")
+    text = log.read_text(errors="replace")
+    found = re.search(r"^checks: .*?: (\d+) checks, (\d+) failed$", text, re.MULTILINE)
+    seconds = time.monotonic() - started
+    if found and found[2] == "0" and code == 0:
+        return host, found[1], f"passed, {seconds:.0f} s"
+    lines = [line for line in text.splitlines() if "FAILED" in line] or text.splitlines()[-15:]
+    print("\n".join(lines), f"\ntest-hosts: {host} failed (exit code {code}); its output is {log}", flush=True)
+    return host, found[1] if found else "?", f"FAILED, {seconds:.0f} s"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--build", type=Path, required=True, help="build folder with programs and module")
+    parser.add_argument("--folder", type=Path, required=True)
+    parser.add_argument("--only", default="")
+    arguments = parser.parse_args()
+    folder = arguments.folder.resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    build = arguments.build.resolve()
+    program = build / "src/asdf-vk"
+    environment = {
+        **os.environ,
+        "PYTHONPATH": f"{build / 'python'}:{HERE}",
+        "ASDF_VK_PROGRAM": str(program),
+        "HOME": str(folder),  # Settings of the hosts stay there.
+        "XDG_RUNTIME_DIR": str(folder),
+        "LIBGL_ALWAYS_SOFTWARE": "1",
+        "QT_QPA_PLATFORM": "xcb",
+    }
+    environment.pop("PYTHONHOME", None)
+    environment.pop("XDG_CONFIG_HOME", None)
+    meshes(folder, program)
+    shots = folder / "pictures"
+    shots.mkdir()
+    rows = []
+    for host, needed, command in (
+        ("Blender", "blender", ["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
+                                str(HERE / "blender_test.py"), "--", str(folder)]),
+        ("Blender window", "blender", [*XVFB, "blender", "--factory-startup", "--enable-event-simulate",
+                                       "--window-geometry", "0", "0", "1400", "860", "--python-exit-code", "3", "--python",
+                                       str(HERE / "blender_window_test.py"), "--", str(folder), str(shots / "blender.png")]),
+        ("FreeCAD", "freecadcmd", ["freecadcmd", str(HERE / "freecad_test.py")]),
+        ("FreeCAD window", "freecad", [*XVFB, "freecad", str(HERE / "freecad_window_test.py")]),
+        ("ParaView", "pvbatch", [*XVFB, "pvbatch", str(HERE / "paraview_test.py"), str(folder), str(shots / "paraview.png")]),
+        ("Exchange", sys.executable, [sys.executable, str(HERE / "exchange_test.py"), str(folder)]),
+    ):  # fmt: skip
+        if not arguments.only or any(name in host.lower() for name in arguments.only.lower().split(",")):
+            rows.append(run(host, needed, command, folder, {**environment, "ASDF_VK_SHOTS": str(shots)}))
+    print(f"\n{'host':16} {'checks':>6}  result")
+    for host, checks, result in rows:
+        print(f"{host:16} {checks:>6}  {result}")
+    return 1 if any("FAILED" in result for _, _, result in rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
