@@ -1,0 +1,370 @@
+"""Add-on of Blender 3.4 and later: shape diameter, wall thickness with a limit, and parts of a mesh.
+
+Install: Edit, Preferences, Add-ons, Install, this file; then the sidebar of the 3D view (N) has a tab "asdf-vk". In a
+script: `bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.8)`.
+
+Results are on the mesh: attributes of the domain FACE (sdf, thickness, least_thickness, segment), the colour attribute
+"asdf-vk", thin faces as the selection, and a material per part. Lengths are those of the world, scale included, in
+units of Blender. Modifiers are not applied.
+"""
+
+import sys
+import threading
+import warnings
+from pathlib import Path
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+bl_info = {
+    "name": "asdf-vk: thickness and parts",
+    "author": "The asdf-vk authors",
+    "version": (0, 2, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Sidebar > asdf-vk",
+    "description": "Shape diameter, wall thickness and parts, as attributes of the faces",
+    "category": "Mesh",
+}
+
+COLOURS = "asdf-vk"  # Name of the colour attribute.
+REPORT = "asdf_vk_report"  # Property of the mesh with the text of the last result.
+VIRIDIS = np.array(  # sRGB at 0, 1/4, ... 1.
+    [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
+)
+GREY, RED = (0.5, 0.5, 0.5), (0.85, 0.1, 0.1)
+MEASURES = (
+    ("DIAMETER", "Shape Diameter", "How thick the shape is behind each face: the mean of many rays"),
+    ("THICKNESS", "Wall Thickness", "Thickness of the wall at each face; faces below the limit are selected"),
+    ("PARTS", "Parts", "The parts of the shape, with a material each"),
+)
+
+
+def module():
+    """The Python package asdf_vk. Raises ImportError with what to do."""
+    addon = bpy.context.preferences.addons.get(__name__)
+    folder = addon.preferences.folder if addon else ""
+    if folder and bpy.path.abspath(folder) not in sys.path:
+        sys.path.append(str(Path(bpy.path.abspath(folder)).expanduser()))
+    try:
+        import asdf_vk
+    except ImportError as error:
+        version = f"{sys.version_info.major}.{sys.version_info.minor}"
+        raise ImportError(
+            f"the Python package asdf_vk cannot be imported ({error}); install it for Python {version}, and enter the "
+            "folder that holds it in the preferences of this add-on"
+        ) from error
+    return asdf_vk
+
+
+def mesh_of(asdf_vk, obj):
+    """The faces of the object in the world, as the package needs them, and whether their orientation is reversed."""
+    mesh = obj.data
+    if not mesh.polygons:
+        raise ValueError(f"{obj.name} has no faces")
+    vertices = np.empty(3 * len(mesh.vertices), np.float32)
+    corners, first = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.polygons), np.int32)
+    mesh.vertices.foreach_get("co", vertices)
+    mesh.loops.foreach_get("vertex_index", corners)
+    mesh.polygons.foreach_get("loop_start", first)
+    matrix = np.array(obj.matrix_world, np.float64)
+    world = vertices.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return asdf_vk.mesh_of_polygons(world, corners, np.append(first, len(corners))), np.linalg.det(matrix[:3, :3]) < 0
+
+
+class Computation(threading.Thread):
+    """asdf_vk.compute() in a thread of its own; progress() and cancel() are for the main thread."""
+
+    def __init__(self, asdf_vk, mesh, options) -> None:
+        super().__init__(daemon=True)
+        self.asdf_vk, self.mesh, self.options = asdf_vk, mesh, options
+        self.fraction, self.is_cancelled, self.info, self.error = 0.0, False, None, None
+
+    def run(self) -> None:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # The operator shows them.
+                self.info = self.asdf_vk.compute(self.mesh, progress=self.report, **self.options)
+        except Exception as error:  # Shown by the operator.
+            self.error = error
+
+    def report(self, fraction: float, stage: str) -> bool:
+        self.fraction = fraction
+        return not self.is_cancelled
+
+
+def linear(colours):
+    """Of sRGB."""
+    return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+
+
+def colours_of(values, limit: float):
+    """Viridis from the 1st to the 99th percentile; red below the limit; grey without a value."""
+    colours = np.tile(GREY, (len(values), 1))
+    has_value = np.isfinite(values)
+    if has_value.any():
+        low, high = np.percentile(values[has_value], (1, 99))
+        shares = np.clip((values[has_value] - low) / max(high - low, 1e-30), 0, 1)
+        stops = np.linspace(0, 1, len(VIRIDIS))
+        colours[has_value] = np.stack([np.interp(shares, stops, VIRIDIS[:, channel]) for channel in range(3)], axis=1)
+        colours[has_value & (values < limit)] = RED
+    return linear(colours)
+
+
+def colour_of_part(part: int):
+    """Hues a golden angle apart, linear."""
+    hue = (0.05 + part * 0.381966) % 1 * 6
+    channels = [0.25 + 0.65 * min(max(abs((hue + shift) % 6 - 3) - 1, 0), 1) for shift in (0, 4, 2)]
+    return linear(np.array(channels))
+
+
+def set_attribute(mesh, name: str, values) -> None:
+    """A FACE attribute of numbers, which replaces one of the same name."""
+    if name in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[name])
+    is_real = values.dtype.kind == "f"
+    attribute = mesh.attributes.new(name, "FLOAT" if is_real else "INT", "FACE")
+    attribute.data.foreach_set("value", np.ascontiguousarray(values, np.float32 if is_real else np.int32))
+
+
+def set_colours(mesh, colours) -> None:
+    """The same colour at all corners of a face."""
+    if COLOURS in mesh.color_attributes:
+        mesh.color_attributes.remove(mesh.color_attributes[COLOURS])
+    attribute = mesh.color_attributes.new(COLOURS, "BYTE_COLOR", "CORNER")
+    sizes = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    with_alpha = np.hstack([colours, np.ones((len(colours), 1))]).astype(np.float32)
+    attribute.data.foreach_set("color", np.repeat(with_alpha, sizes, axis=0).ravel())
+    mesh.color_attributes.active_color = mesh.color_attributes[COLOURS]
+
+
+def select_faces(mesh, selected) -> None:
+    """Selects faces with their edges and vertices, and nothing else."""
+    corners, edges = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.loops), np.int32)
+    sizes = np.empty(len(mesh.polygons), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    mesh.loops.foreach_get("edge_index", edges)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    of_corner = np.repeat(selected, sizes)
+    for items, indices in ((mesh.vertices, corners), (mesh.edges, edges)):
+        flags = np.zeros(len(items), bool)
+        flags[indices[of_corner]] = True
+        items.foreach_set("select", flags)
+    mesh.polygons.foreach_set("select", selected)
+
+
+def set_materials(mesh, segments) -> None:
+    """A material per part, in place of those of the mesh."""
+    mesh.materials.clear()
+    for part in range(int(segments.max()) + 1):
+        name = f"part {part}"
+        material = bpy.data.materials.get(name) or bpy.data.materials.new(name)
+        material.diffuse_color = (*colour_of_part(part), 1)
+        material.use_nodes = True
+        for node in material.node_tree.nodes:
+            if node.type == "BSDF_PRINCIPLED":
+                node.inputs["Base Color"].default_value = material.diffuse_color
+        mesh.materials.append(material)
+    mesh.polygons.foreach_set("material_index", np.maximum(segments, 0).astype(np.int32))
+
+
+def length(context, value: float) -> str:
+    settings = context.scene.unit_settings
+    if not np.isfinite(value):
+        return "-"
+    if settings.system == "NONE":
+        return f"{value:.4g}"
+    return bpy.utils.units.to_string(settings.system, "LENGTH", value * settings.scale_length, precision=4)
+
+
+def main_field(info):
+    return info.fields["sdf" if "sdf" in info.fields else "thickness"]
+
+
+def show(context, mesh, info, measure: str, limit: float) -> str:
+    """Puts the result on the mesh, and returns it as a sentence."""
+    for name, values in info.fields.items():
+        set_attribute(mesh, name, values)
+    if measure == "PARTS":
+        segments = info.fields["segment"]
+        set_materials(mesh, segments)
+        colours = np.array([colour_of_part(part) for part in range(int(segments.max()) + 1)])
+        set_colours(mesh, colours[np.maximum(segments, 0)])
+        text = f"{info.segment_count} parts"
+    elif measure == "THICKNESS":
+        least = info.fields["least_thickness"]
+        set_colours(mesh, colours_of(least, limit))
+        report = info.thickness
+        text = f"least thickness {length(context, report.min)}"
+        if limit > 0:
+            thin = least < limit  # NaN is not below.
+            select_faces(mesh, thin)
+            context.tool_settings.mesh_select_mode = (False, False, True)
+            verdict = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}[report.verdict]
+            text = f"{verdict}: {text}, {np.count_nonzero(thin)} faces below {length(context, limit)}"
+    else:
+        set_colours(mesh, colours_of(info.fields["sdf"], 0))
+        text = f"median diameter {length(context, info.sdf.median)}"
+    missing = np.count_nonzero(np.isnan(main_field(info)))
+    text += f"; faces without a value: {missing}" if missing else ""
+    mesh[REPORT] = text
+    mesh.update()
+    return text
+
+
+class Options:
+    """Properties of the operator and of the panel."""
+
+    limit: FloatProperty(name="Limit", description="Thinner is thin; 0: no limit", min=0, unit="LENGTH", precision=4)
+    allow_sharp_edges: BoolProperty(name="Allow sharp edges", description="Thin places at a sharp edge do not count")
+    parts: IntProperty(name="Parts", description="Number of parts; 0: it is found", min=0, max=100)
+    all_faces: BoolProperty(name="Trace all faces", description="Slower, nothing is interpolated")
+
+
+class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
+    bl_idname, bl_label = "object.asdf_vk", "Thickness and Parts"
+    bl_description = "Computes with asdf-vk; Esc cancels"
+    bl_options = {"REGISTER", "UNDO"}
+
+    measure: EnumProperty(name="Measure", items=MEASURES)
+
+    @classmethod
+    def poll(cls, context):
+        cls.poll_message_set("Select a mesh object, in Object Mode")
+        return context.mode == "OBJECT" and context.object is not None and context.object.type == "MESH"
+
+    def start(self, context) -> bool:
+        """Prepares the computation; reports why it cannot."""
+        try:
+            asdf_vk = module()
+            mesh, is_mirrored = mesh_of(asdf_vk, context.object)
+        except (ImportError, ValueError) as error:
+            self.report({"ERROR"}, f"asdf-vk: {error}")
+            return False
+        if any(modifier.show_viewport for modifier in context.object.modifiers):
+            self.report({"WARNING"}, "asdf-vk: the mesh is measured without its modifiers; apply them first")
+        options = {"orient": "flip"} if is_mirrored else {}
+        if self.measure == "THICKNESS":
+            options["measure"] = "thickness"
+            if self.limit > 0:
+                options.update(thinner_than=self.limit, allow_sharp_edges=self.allow_sharp_edges)
+        elif self.all_faces:
+            options["seeds"] = "all"
+        if self.measure == "PARTS":
+            options.update(segment="parts", parts=self.parts or None)
+        self.object, self.computation = context.object, Computation(asdf_vk, mesh, options)
+        context.window_manager.progress_begin(0, 1)
+        return True
+
+    def finish(self, context):
+        context.window_manager.progress_end()
+        error, info = self.computation.error, self.computation.info
+        if error is not None:
+            if isinstance(error, self.computation.asdf_vk.CancelledError):
+                self.report({"INFO"}, "asdf-vk: cancelled")
+            else:
+                self.report({"ERROR"}, f"asdf-vk: {error}")
+            return {"CANCELLED"}
+        if len(main_field(info)) != len(self.object.data.polygons):
+            self.report({"ERROR"}, "asdf-vk: the mesh was changed meanwhile")
+            return {"CANCELLED"}
+        for warning in info.warnings:
+            self.report({"WARNING"}, f"asdf-vk: {warning.message}")
+        self.report({"INFO"}, f"{self.object.name}: {show(context, self.object.data, info, self.measure, self.limit)}")
+        return {"FINISHED"}
+
+    def execute(self, context):
+        """Waits for the result; for scripts and `blender -b`."""
+        if not self.start(context):
+            return {"CANCELLED"}
+        self.computation.run()
+        return self.finish(context)
+
+    def invoke(self, context, event):
+        """Computes in the background; the window stays alive."""
+        if bpy.app.background:
+            return self.execute(context)
+        if not self.start(context):
+            return {"CANCELLED"}
+        self.computation.start()
+        self.timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self.computation.is_cancelled = True
+        if event.type in {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "MOUSEMOVE"}:
+            return {"PASS_THROUGH"}  # Turn and zoom.
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        fraction = self.computation.fraction
+        context.window_manager.progress_update(fraction)
+        context.workspace.status_text_set(f"asdf-vk: {100 * fraction:.0f} % (Esc cancels)")
+        if self.computation.is_alive():
+            return {"RUNNING_MODAL"}
+        context.window_manager.event_timer_remove(self.timer)
+        context.workspace.status_text_set(None)
+        result = self.finish(context)
+        if result == {"FINISHED"}:
+            for area in context.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.spaces.active.shading.color_type = "MATERIAL" if self.measure == "PARTS" else "VERTEX"
+                area.tag_redraw()
+        return result
+
+
+class Settings(Options, bpy.types.PropertyGroup):
+    """Those of the panel."""
+
+
+class VIEW3D_PT_asdf_vk(bpy.types.Panel):
+    bl_idname, bl_label = "VIEW3D_PT_asdf_vk", "Thickness and parts"
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "asdf-vk"
+
+    def draw(self, context):
+        settings, column = context.scene.asdf_vk, self.layout.column()
+        for (measure, label, _), names in zip(MEASURES, ((), ("limit", "allow_sharp_edges"), ("parts",))):
+            box = column.box()
+            for name in names:
+                box.prop(settings, name)
+            button = box.operator(OBJECT_OT_asdf_vk.bl_idname, text=label)
+            button.measure, button.all_faces = measure, settings.all_faces
+            for name in names:
+                setattr(button, name, getattr(settings, name))
+        column.prop(settings, "all_faces")
+        if context.object and context.object.type == "MESH" and REPORT in context.object.data:
+            for line in context.object.data[REPORT].replace("; ", ", ").split(", "):
+                column.label(text=line)
+
+
+class Preferences(bpy.types.AddonPreferences):
+    bl_idname = __name__
+    folder: StringProperty(name="Folder of asdf_vk", description="Folder that holds the package", subtype="DIR_PATH")
+
+    def draw(self, context):
+        self.layout.prop(self, "folder")
+        try:
+            self.layout.label(text=f"asdf_vk {module().__version__}")
+        except ImportError as error:
+            self.layout.label(text=str(error), icon="ERROR")
+
+
+CLASSES = (OBJECT_OT_asdf_vk, Settings, VIEW3D_PT_asdf_vk, Preferences)
+
+
+def register() -> None:
+    for kind in CLASSES:
+        bpy.utils.register_class(kind)
+    bpy.types.Scene.asdf_vk = PointerProperty(type=Settings)
+
+
+def unregister() -> None:
+    del bpy.types.Scene.asdf_vk
+    for kind in reversed(CLASSES):
+        bpy.utils.unregister_class(kind)
+
+
+if __name__ == "__main__":
+    register()
