@@ -6,11 +6,11 @@ In ParaView: Tools, Manage Plugins, Load New. In pvpython, pvbatch and the Pytho
     asdf_vk_paraview.load(globals())
     walls = WallThickness(Input=part, Limit=0.8)
 
-The filters are in the menu Filters, asdf-vk. ParaView 5.11 with Python 3.11, as in Debian 12, loads Python plug-ins after
-this import only, because it imports a function that Python 3.11 removed.
+The filters are in the menu Filters, asdf-vk. ParaView 5.11 with Python 3.11, as in Debian 12, loads Python plug-ins
+after this import only, because it imports a function that Python 3.11 removed.
 
-Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has the same as functions
-for scripts of VTK and PyVista.
+Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has the same as
+functions for scripts of VTK and PyVista.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ try:
     from asdf_vk.compat import vtk as cells
 except ImportError as error:
     raise ImportError(
-        f"asdf_vk_paraview needs the Python package asdf_vk, which cannot be imported ({error}); start ParaView with the "
-        "folder that holds it in PYTHONPATH: PYTHONPATH=~/.local/lib/python3.11/site-packages paraview"
+        f"the Python package asdf_vk cannot be imported ({error}); start ParaView with the folder that holds it in "
+        "PYTHONPATH: PYTHONPATH=~/.local/lib/python3.11/site-packages paraview"
     ) from error
 
 if not hasattr(inspect, "getargspec"):
@@ -90,7 +90,8 @@ class ShapeDiameter(SurfaceFilter):
 @smdomain.datatype(dataTypes=["vtkPolyData"], composite_data_supported=False)
 class WallThickness(SurfaceFilter):
     """Cell arrays: thickness at the barycentre, least_thickness over all points of the cell, and with a limit thin: 1
-    where the latter is below it. Field data with a limit: verdict, and least_thickness_of_part. Unit: that of the points.
+    where the latter is below it. Field data with a limit: verdict, and least_thickness_of_part. Lengths have the unit
+    of the points.
     """
 
     def __init__(self) -> None:

@@ -20,7 +20,7 @@ import polygons
 
 HERE = Path(__file__).resolve().parent
 XVFB = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
-TIMEOUT = 400  # Seconds for one host.
+TIMEOUT = 120  # Seconds for one host.
 
 
 def meshes(folder: Path, program: Path) -> None:
@@ -84,15 +84,18 @@ def main() -> int:
         "PYTHONPATH": f"{build / 'python'}:{HERE}",
         "ASDF_VK_PROGRAM": str(program),
         "HOME": str(folder),  # Settings of the hosts stay there.
-        "XDG_RUNTIME_DIR": str(folder),
+        "XDG_RUNTIME_DIR": str(folder / "runtime"),
         "LIBGL_ALWAYS_SOFTWARE": "1",
         "QT_QPA_PLATFORM": "xcb",
+        "QTWEBENGINE_DISABLE_SANDBOX": "1",  # The start page of FreeCAD, as root.
     }
+    (folder / "runtime").mkdir(mode=0o700)
     environment.pop("PYTHONHOME", None)
     environment.pop("XDG_CONFIG_HOME", None)
     meshes(folder, program)
     shots = folder / "pictures"
     shots.mkdir()
+    paths = ["-P", str(build / "python"), "-P", str(HERE)]  # FreeCAD with a window ignores PYTHONPATH.
     rows = []
     for host, needed, command in (
         ("Blender", "blender", ["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
@@ -100,8 +103,8 @@ def main() -> int:
         ("Blender window", "blender", [*XVFB, "blender", "--factory-startup", "--enable-event-simulate",
                                        "--window-geometry", "0", "0", "1100", "640", "--python-exit-code", "3", "--python",
                                        str(HERE / "blender_window_test.py"), "--", str(folder), str(shots / "blender.png")]),
-        ("FreeCAD", "freecadcmd", ["freecadcmd", str(HERE / "freecad_test.py")]),
-        ("FreeCAD window", "freecad", [*XVFB, "freecad", str(HERE / "freecad_window_test.py")]),
+        ("FreeCAD", "freecadcmd", ["freecadcmd", *paths, str(HERE / "freecad_test.py")]),
+        ("FreeCAD window", "freecad", [*XVFB, "freecad", *paths, str(HERE / "freecad_window_test.py")]),
         ("ParaView", "pvbatch", [*XVFB, "pvbatch", str(HERE / "paraview_test.py"), str(folder), str(shots / "paraview.png")]),
         ("Exchange", sys.executable, [sys.executable, str(HERE / "exchange_test.py"), str(folder)]),
     ):  # fmt: skip

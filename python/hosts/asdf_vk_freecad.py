@@ -1,0 +1,259 @@
+"""Macro of FreeCAD 0.20 and later: checks the wall thickness of the selected shape in mm.
+
+Copy this file into the folder of macros (Macro, Macros, User macros location), select a solid or a mesh, and run it. A
+panel takes the limit. The result is a mesh with the colours of its thickness, red where it is thinner than the limit,
+and a group of places: a click on one, in the panel or in the tree, shows it. In a script, also of freecadcmd:
+
+    import asdf_vk_freecad
+    report = asdf_vk_freecad.check(document.Body, 0.8).thickness
+    print(report.verdict, report.min)
+"""
+
+from __future__ import annotations
+
+import sys
+
+import FreeCAD
+import Mesh
+import MeshPart
+import numpy as np
+import Part
+
+PLACE_COUNT = 50  # At most so many places are listed.
+TRIANGLE_COUNT = 40000  # Triangles are divided up to this number, so that colours show where on a plane a wall is thin.
+VIRIDIS = np.array(  # At 0, 1/4, ... 1.
+    [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
+)
+GREY, RED = (0.6, 0.6, 0.6), (0.85, 0.1, 0.1)
+VERDICTS = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}
+
+
+def module():
+    """The Python package asdf_vk. Raises ImportError with what to do."""
+    try:
+        import asdf_vk
+    except ImportError as error:
+        version = f"{sys.version_info.major}.{sys.version_info.minor}"
+        raise ImportError(
+            f"the Python package asdf_vk cannot be imported ({error}); install it for Python {version}, or start FreeCAD "
+            "with the option -P FOLDER, the folder that holds it"
+        ) from error
+    return asdf_vk
+
+
+def length(value: float) -> str:
+    """In the unit of the user."""
+    return FreeCAD.Units.Quantity(value, FreeCAD.Units.Length).UserString
+
+
+def triangles_of(obj, deviation: float):
+    """Vertices (n, 3) in mm in the document, and triangles (m, 3). Each solid has vertices of its own."""
+    if obj.isDerivedFrom("Mesh::Feature"):
+        placed = obj.Mesh.copy()
+        placed.Placement = obj.getGlobalPlacement()
+        meshes = [placed]
+    elif getattr(obj, "Shape", None) is not None and obj.Shape.Faces:
+        shape = obj.Shape.copy()
+        shape.Placement = obj.getGlobalPlacement()
+        settings = {"LinearDeflection": deviation, "AngularDeflection": 0.3, "Relative": False}
+        meshes = [MeshPart.meshFromShape(Shape=solid, **settings) for solid in shape.Solids or [shape]]
+    else:
+        raise ValueError(f"{obj.Label} has no faces; select a solid or a mesh")
+    vertices, triangles, count = [], [], 0
+    for mesh in meshes:
+        points, faces = mesh.Topology
+        vertices.append(np.array([tuple(point) for point in points], np.float64).reshape(-1, 3))
+        triangles.append(np.array(faces, np.int64).reshape(-1, 3) + count)
+        count += len(points)
+    return divided(np.concatenate(vertices), np.concatenate(triangles))
+
+
+def divided(vertices, triangles):
+    """Each triangle in four, until edges are below a sixtieth of the size; the surface stays as it is."""
+    longest = np.linalg.norm(np.ptp(vertices, axis=0)) / 60
+    while 4 * len(triangles) <= TRIANGLE_COUNT:
+        ends = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        if np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1).max() <= longest:
+            break
+        edges, of_triangle = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
+        (a, b, c), (ab, bc, ca) = triangles.T, (of_triangle.reshape(-1, 3) + len(vertices)).T
+        vertices = np.concatenate([vertices, vertices[edges].mean(axis=1)])
+        corners = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+        triangles = np.stack([np.stack(corner, axis=1) for corner in corners], axis=1).reshape(-1, 3)
+    return vertices, triangles
+
+
+def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = False, progress=None):
+    """Checks the walls of an object, and adds the result to its document.
+
+    limit: mm. deviation: greatest distance of the triangles from curved faces, mm; a wall between two curved faces can
+    look thinner by twice as much. progress: called with a fraction from 0 to 1 and a text; False cancels.
+    Returns the report of asdf_vk.compute(): .thickness.verdict, .thickness.min, .thickness.regions, .fields.
+    Raises ImportError, ValueError, asdf_vk.Error; after asdf_vk.CancelledError the document is unchanged.
+    """
+    asdf_vk = module()
+    if not limit > 0 or not deviation > 0:
+        raise ValueError("the limit and the deviation are lengths above 0 mm")
+    vertices, triangles = triangles_of(obj, deviation)
+    options = {"measure": "thickness", "thinner_than": limit, "allow_sharp_edges": allow_sharp_edges}
+    info = asdf_vk.compute(vertices, triangles, progress=progress, **options)
+    obj.Document.openTransaction("Check wall thickness")
+    add_result(obj, vertices, triangles, info, limit)
+    obj.Document.commitTransaction()
+    return info
+
+
+def colours_of(least, limit: float) -> list:
+    """Red below the limit, viridis from the limit to the greatest value, grey without a value."""
+    colours = np.tile(GREY, (len(least), 1))
+    has_value = np.isfinite(least)
+    if has_value.any():
+        high = max(float(least[has_value].max()), limit * 1.001)
+        shares = np.clip((least[has_value] - limit) / (high - limit), 0, 1)
+        stops = np.linspace(0, 1, len(VIRIDIS))
+        colours[has_value] = np.stack([np.interp(shares, stops, VIRIDIS[:, channel]) for channel in range(3)], axis=1)
+        colours[has_value & (least < limit)] = RED
+    return [(*colour, 0.0) for colour in colours.tolist()]
+
+
+def add_result(obj, vertices, triangles, info, limit: float) -> None:
+    """Adds a group with the coloured mesh and the places to the document; replaces that of an earlier check."""
+    document = obj.Document
+    label = f"Thickness of {obj.Label}"
+    for old in document.getObjectsByLabel(label):
+        for child in old.Group:
+            document.removeObject(child.Name)
+        document.removeObject(old.Name)
+    group = document.addObject("App::DocumentObjectGroup", "Thickness")
+    group.Label = label
+    group.addProperty("App::PropertyLength", "Limit", "Thickness").Limit = limit
+    group.addProperty("App::PropertyLength", "LeastThickness", "Thickness").LeastThickness = info.thickness.min
+    group.addProperty("App::PropertyString", "Verdict", "Thickness").Verdict = VERDICTS[info.thickness.verdict]
+
+    mesh = document.addObject("Mesh::Feature", "ThicknessMesh")
+    mesh.Label = f"{VERDICTS[info.thickness.verdict]}: least thickness {length(info.thickness.min)}"
+    mesh.Mesh = Mesh.Mesh(vertices[triangles].tolist())
+    values = info.fields["least_thickness"]
+    mesh.addProperty("App::PropertyColorList", "FaceColors", "Thickness").FaceColors = colours_of(values, limit)
+    mesh.addProperty("App::PropertyFloatList", "LeastThickness", "Thickness").LeastThickness = values.tolist()
+    group.addObject(mesh)
+    for region in info.thickness.regions[:PLACE_COUNT]:
+        group.addObject(add_place(document, region))
+    document.recompute()
+    if FreeCAD.GuiUp:
+        mesh.ViewObject.Coloring = True
+        obj.ViewObject.hide()
+
+
+def add_place(document, region):
+    """A thin place: the line through the wall, or a point at a sharp edge."""
+    place, opposite = FreeCAD.Vector(*region.place), FreeCAD.Vector(*region.opposite)
+    is_point = place.distanceToPoint(opposite) < 1e-7
+    line = document.addObject("Part::Feature", "Place")
+    line.Shape = Part.Vertex(place) if is_point else Part.makeLine(place, opposite)
+    kind = "sharp edge" if region.is_sharp else f"wall {length(region.min)}"
+    line.Label = f"{kind} at ({place.x:.4g}, {place.y:.4g}, {place.z:.4g})"
+    if FreeCAD.GuiUp:
+        view = line.ViewObject
+        view.LineWidth, view.PointSize, view.LineColor, view.PointColor = 5, 10, RED, RED
+        view.OnTopWhenSelected = "Object"
+    return line
+
+
+def show_place(place) -> None:
+    """Selects a place and moves the view to it."""
+    import FreeCADGui
+
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(place)
+    FreeCADGui.SendMsgToActiveView("ViewSelection")
+    camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+    if hasattr(camera, "height"):  # Orthographic: some of the neighbourhood too.
+        result = place.InList[0].Group[0].Mesh.BoundBox
+        camera.height.setValue(max(camera.height.getValue(), 0.4 * result.DiagonalLength))
+
+
+class Panel:
+    """The task panel."""
+
+    def __init__(self, obj) -> None:
+        from PySide import QtGui
+
+        self.obj = obj
+        self.form = QtGui.QWidget()
+        self.form.setWindowTitle("Wall thickness")
+        layout = QtGui.QFormLayout(self.form)
+        self.limit, self.deviation = QtGui.QDoubleSpinBox(), QtGui.QDoubleSpinBox()
+        for box, value, text in ((self.limit, 0.8, "Limit"), (self.deviation, 0.05, "Deviation")):
+            box.setDecimals(3)
+            box.setRange(0.001, 10000)
+            box.setSingleStep(0.1 * value)
+            box.setSuffix(" mm")
+            box.setValue(value)
+            layout.addRow(text, box)
+        self.sharp = QtGui.QCheckBox("Allow sharp edges")
+        self.button = QtGui.QPushButton(f"Check {obj.Label}")
+        self.result, self.places = QtGui.QLabel(""), QtGui.QListWidget()
+        self.result.setWordWrap(True)
+        for widget in (self.sharp, self.button, self.result, self.places):
+            layout.addRow(widget)
+        self.button.clicked.connect(self.run)
+        self.places.currentRowChanged.connect(self.go_to)
+
+    def run(self) -> None:
+        """Checks; the dialog with the progress can cancel."""
+        from PySide import QtCore, QtGui
+
+        dialog = QtGui.QProgressDialog("Checking walls", "Cancel", 0, 100, self.form)
+        dialog.setWindowModality(QtCore.Qt.WindowModal)
+
+        def progress(fraction: float, stage: str) -> bool:
+            dialog.setValue(int(99 * fraction))
+            QtGui.QApplication.processEvents()
+            return not dialog.wasCanceled()
+
+        self.places.clear()
+        try:
+            info = check(self.obj, self.limit.value(), self.deviation.value(), self.sharp.isChecked(), progress)
+        except Exception as error:
+            self.result.setText("cancelled" if type(error).__name__ == "CancelledError" else str(error))
+            return
+        finally:
+            dialog.close()
+        report = info.thickness
+        text = f"<b>{VERDICTS[report.verdict]}</b>: least thickness {length(report.min)}"
+        self.result.setText(f"{text}; places: {len(report.regions)}. A click shows a place.")
+        group = self.obj.Document.getObjectsByLabel(f"Thickness of {self.obj.Label}")[0]
+        self.objects = group.Group[1:]
+        self.places.addItems([place.Label for place in self.objects])
+
+    def go_to(self, row: int) -> None:
+        if row >= 0:
+            show_place(self.objects[row])
+
+    def getStandardButtons(self) -> int:
+        from PySide import QtGui
+
+        return int(QtGui.QDialogButtonBox.Close)
+
+    def reject(self) -> None:
+        import FreeCADGui
+
+        FreeCADGui.Control.closeDialog()
+
+
+def show_panel():
+    """What the macro does."""
+    import FreeCADGui
+
+    selection = FreeCADGui.Selection.getSelection()
+    if len(selection) != 1:
+        FreeCAD.Console.PrintError("asdf-vk: select one solid or mesh, then run the macro\n")
+        return None
+    panel = Panel(selection[0])
+    FreeCADGui.Control.showDialog(panel)
+    return panel
+
+
+if __name__ == "__main__" and FreeCAD.GuiUp:
+    show_panel()
