@@ -1,8 +1,8 @@
 // Binary glTF 2.0: a vertex for each corner of each triangle, because the fields belong to faces and viewers show them
 // flat. Without parts one primitive, whose COLOR_0 shows the field. With the field "segment" a primitive and a material
-// per part, in the order of their numbers: viewers multiply COLOR_0 with the material, so it is white, and COLOR_1 has
-// the colours of the first real field. The other fields are attributes _NAME in float32, 0 for no value. _FACE is the
-// input face where triangles are not in its order; it is exact up to 16,777,216.
+// per part, in the order of their numbers, and no COLOR_0: viewers multiply it with the material, and Blender ignores
+// the colours of materials beside it. The fields are attributes _NAME in float32, 0 for no value. _FACE is the input
+// face where triangles are not in its order; it is exact up to 16,777,216.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint32_t kFloatComponent = 5126, kByteComponent = 5121, kShortComponent = 5123;
+constexpr uint32_t kFloatComponent = 5126, kShortComponent = 5123;
 
 /// The triangles of a result, and their input faces.
 class ResultTriangles {
@@ -179,15 +179,9 @@ class GlbWriter {
                              const Vec3f p = pointOf(triangle, corner);
                              for (size_t axis = 0; axis < 3; ++axis) file_.put(p[axis]);
                            }});
-    const Field* shown = result_.shownField();
-    if (parts_ != nullptr) {
-      attributes_.push_back(
-          {"COLOR_0", kByteComponent, 4, true, [this](uint32_t, uint32_t) { file_.put(uint32_t{0xffffffff}); }});
-      if (shown == nullptr || shown->name == "segment") shown = result_.mainField(FieldLocation::PerFace);
-      if (shown != nullptr) addColours("COLOR_1", *shown);
-    } else if (shown != nullptr) {
-      addColours("COLOR_0", *shown);
-    }
+    const Field* const shown = result_.shownField();
+    materialsShowParts_ = parts_ != nullptr && shown != nullptr && shown->name == "segment";
+    if (shown != nullptr && !materialsShowParts_) addColours("COLOR_0", *shown);
     for (const Field& field : result_.fields()) {
       const bool isSecond = field.location == FieldLocation::PerVertex &&
                             std::any_of(result_.fields().begin(), result_.fields().end(), [&](const Field& other) {
@@ -222,7 +216,7 @@ class GlbWriter {
 
   [[nodiscard]] Json materialOf(const GlbGroup& group, const Field* shown) const {
     Json factor = {1, 1, 1, 1};
-    if (parts_ != nullptr) {
+    if (materialsShowParts_) {
       const std::array<double, 3> colour = linearColour(colourOfPart(group.part));
       for (size_t channel = 0; channel < 3; ++channel) factor[channel] = colour[channel];
     }
@@ -290,6 +284,7 @@ class GlbWriter {
   ResultTriangles triangles_;
   TriangleMesh mesh_;
   const std::vector<uint32_t>* parts_ = nullptr;
+  bool materialsShowParts_ = false;
   std::vector<uint32_t> order_;  ///< Of the triangles.
   std::vector<GlbGroup> groups_;
   std::vector<GlbAttribute> attributes_;

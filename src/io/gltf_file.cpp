@@ -124,7 +124,8 @@ const char* GltfAccessor::elementAt(uint64_t i) const {
     wholeAt(sparseIndices_, middle) < i ? low = middle + 1 : high = middle;
   }
   if (low < sparseCount_ && wholeAt(sparseIndices_, low) == i) return sparseValues_.data + low * sparseValues_.stride;
-  return base_.data + i * base_.stride;
+  constexpr static std::array<char, 12> kZeros{};
+  return base_.data == nullptr ? kZeros.data() : base_.data + i * base_.stride;
 }
 
 Vec3d GltfAccessor::vectorAt(uint64_t i) const {
@@ -328,7 +329,14 @@ GltfAccessor GltfFile::open(uint64_t index, const char* type, uint32_t component
   accessor.isNormalized_ = normalized != nullptr && normalized->is_boolean() && normalized->get<bool>() &&
                            component != kGltfFloat && component != kGltfUInt;
   const GltfJson* const sparse = gltfMember(json, "sparse", where);
-  accessor.base_ = elementsOf(json, accessor.count_, static_cast<uint32_t>(component), componentCount, !isIndex, where);
+  if (sparse == nullptr || gltfMember(json, "bufferView", where) != nullptr) {
+    accessor.base_ =
+        elementsOf(json, accessor.count_, static_cast<uint32_t>(component), componentCount, !isIndex, where);
+  } else {
+    // Elements outside of the sparse part are 0. The limit keeps small files from being large meshes.
+    if (accessor.count_ > size_) failGltf(where, "has more elements without a buffer view than the file has bytes");
+    accessor.base_.componentType = static_cast<uint32_t>(component);
+  }
   if (sparse == nullptr) return accessor;
 
   accessor.sparseCount_ = gltfWhole(*sparse, "count", std::nullopt, where);

@@ -41,7 +41,7 @@ class GltfAccessor {
   friend class GltfFile;
   /// Elements at a distance in a buffer.
   struct Elements {
-    const char* data = nullptr;
+    const char* data = nullptr;  ///< Null: all are 0.
     uint64_t stride = 0;
     uint32_t componentType = 0;
   };

@@ -105,15 +105,14 @@ class ModelReader {
   void read() {
     if (xml_.next() != XmlScanner::Event::Start) xml_.fail("has no model");
     readNamespaces();
-    if (core("model") != xml_.name())
-      xml_.fail(fmt::format("expected a model of 3MF, found {}", asdfvk::quoted(xml_.name())));
+    if (!isCore("model")) xml_.fail(fmt::format("expected a model of 3MF, found {}", asdfvk::quoted(xml_.name())));
     readUnit();
     requireExtensions();
     forEachChild([&] {
-      if (xml_.name() == core("resources"))
-        forEachChild([&] { xml_.name() == core("object") ? readObject() : xml_.skipElement(); });
-      else if (xml_.name() == core("build"))
-        forEachChild([&] { xml_.name() == core("item") ? readItem() : xml_.skipElement(); });
+      if (isCore("resources"))
+        forEachChild([&] { isCore("object") ? readObject() : xml_.skipElement(); });
+      else if (isCore("build"))
+        forEachChild([&] { isCore("item") ? readItem() : xml_.skipElement(); });
       else
         xml_.skipElement();
     });
@@ -122,8 +121,13 @@ class ModelReader {
 
  private:
   ModelFile& model() { return archive_.model(index_); }
-  /// The name of an element of the core specification in this file.
-  [[nodiscard]] std::string core(std::string_view name) const { return corePrefix_ + std::string(name); }
+  /// Whether the current element is that of the core specification; several prefixes may stand for it.
+  [[nodiscard]] bool isCore(std::string_view name) const {
+    const std::string_view found = xml_.name();
+    if (!found.ends_with(name)) return false;
+    const std::string_view prefix = found.substr(0, found.size() - name.size());
+    return std::find(corePrefixes_.begin(), corePrefixes_.end(), prefix) != corePrefixes_.end();
+  }
 
   /// Calls work() at the start of each child; it reads the child to its end.
   template <typename Work>
@@ -132,19 +136,15 @@ class ModelReader {
   }
 
   void readNamespaces() {
-    bool hasCore = false;
     for (const auto& [name, value] : xml_.attributes()) {
-      if (name == "xmlns" && value == kCoreNamespace) hasCore = true;
+      if (name == "xmlns" && value == kCoreNamespace) corePrefixes_.emplace_back();
       if (!name.starts_with("xmlns:")) continue;
       const std::string prefix(name.substr(6));
       namespaces_[prefix] = value;
-      if (value == kCoreNamespace && !hasCore) {
-        corePrefix_ = prefix + ":";
-        hasCore = true;
-      }
+      if (value == kCoreNamespace) corePrefixes_.push_back(prefix + ":");
       if (value.find("/production/") != std::string_view::npos) pathAttribute_ = prefix + ":path";
     }
-    if (!hasCore) xml_.fail("is not a model of 3MF: it does not name the core namespace");
+    if (corePrefixes_.empty()) xml_.fail("is not a model of 3MF: it does not name the core namespace");
   }
 
   void readUnit() {
@@ -241,11 +241,11 @@ class ModelReader {
     object.isSupport = type == "support" || type == "solidsupport";
     archive_.charge(sizeof(ModelObject) + 64);
     forEachChild([&] {
-      if (xml_.name() == core("mesh"))
+      if (isCore("mesh"))
         readMesh(object.mesh);
-      else if (xml_.name() == core("components"))
+      else if (isCore("components"))
         forEachChild([&] {
-          if (xml_.name() == core("component")) object.components.push_back(use());
+          if (isCore("component")) object.components.push_back(use());
           xml_.skipElement();
         });
       else
@@ -258,12 +258,10 @@ class ModelReader {
   void readMesh(PartMesh& mesh) {
     if (!mesh.vertices.empty()) xml_.fail("an object has two meshes");
     forEachChild([&] {
-      if (xml_.name() == core("vertices")) {
-        const std::string vertex = core("vertex");
-        forEachChild([&] { xml_.name() == vertex ? readVertex(mesh) : xml_.skipElement(); });
-      } else if (xml_.name() == core("triangles")) {
-        const std::string triangle = core("triangle");
-        forEachChild([&] { xml_.name() == triangle ? readTriangle(mesh) : xml_.skipElement(); });
+      if (isCore("vertices")) {
+        forEachChild([&] { isCore("vertex") ? readVertex(mesh) : xml_.skipElement(); });
+      } else if (isCore("triangles")) {
+        forEachChild([&] { isCore("triangle") ? readTriangle(mesh) : xml_.skipElement(); });
       } else {
         if (xml_.name().ends_with("beamlattice")) archive_.countLattice();
         xml_.skipElement();
@@ -312,16 +310,17 @@ class ModelReader {
   ThreeMfReader& archive_;
   size_t index_;
   XmlScanner& xml_;
-  std::string corePrefix_, pathAttribute_;
+  std::vector<std::string> corePrefixes_;  ///< With the colon; "" for the default namespace.
+  std::string pathAttribute_;
   std::map<std::string, std::string> namespaces_;
 };
 
 void ThreeMfReader::charge(uint64_t bytes) {
   chargedBytes_ += bytes;
   constexpr uint64_t kMaxBytesPerByte = 20;  // Arrays grow: for a moment they take three times as much.
-  if (chargedBytes_ > std::max(kMaxInstanceBytes, kMaxBytesPerByte * archive_.bytes().size()))
-    throw Error(ErrorCode::InputTooLarge,
-                fmt::format("its mesh needs more than {} MiB of memory", kMaxInstanceBytes >> 20));
+  const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * archive_.bytes().size());
+  if (chargedBytes_ > limit)
+    throw Error(ErrorCode::InputTooLarge, fmt::format("its mesh needs more than {} MiB of memory", limit >> 20));
 }
 
 size_t ThreeMfReader::modelAt(std::string_view path) {

@@ -68,8 +68,9 @@ TEST_CASE("a GLB has a primitive and a material per part, and reads as the same 
   for (size_t i = 0; i < 3; ++i) {
     const size_t position = primitives[i]["attributes"]["POSITION"];
     CHECK(json["accessors"][position]["count"] == 3 * triangleCounts[i]);
-    for (const char* name : {"COLOR_0", "COLOR_1", "_SDF", "_SEGMENT", "_FACE"})
-      CHECK(primitives[i]["attributes"].contains(name));
+    for (const char* name : {"_SDF", "_SEGMENT", "_FACE"}) CHECK(primitives[i]["attributes"].contains(name));
+    CHECK(!primitives[i]["attributes"].contains("COLOR_0"));
+    CHECK(json["materials"][i]["pbrMetallicRoughness"]["baseColorFactor"] != nlohmann::json{1, 1, 1, 1});
   }
   const auto& first = primitives[0]["attributes"];
   CHECK(floatAt(bytes, json, first["_SDF"], 0) == 2);
@@ -84,6 +85,16 @@ TEST_CASE("a GLB has a primitive and a material per part, and reads as the same 
   for (const Face& face : again.faces)
     volume += dot(again.vertices[face[0]], cross(again.vertices[face[1]], again.vertices[face[2]])) / 6;
   CHECK(volume == doctest::Approx(6));
+}
+
+TEST_CASE("a GLB with parts and the colours of another field has them in COLOR_0, and white materials") {
+  const Folder folder;
+  const std::filesystem::path file = folder / "parts.glb";
+  writeResult(file, boxOfQuads(), partFields(), {.colourOf = "sdf"});
+  const nlohmann::json json = documentOf(contentOf(file));
+  CHECK(json["meshes"][0]["primitives"].size() == 3);
+  CHECK(json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+  CHECK(json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] == nlohmann::json{1, 1, 1, 1});
 }
 
 TEST_CASE("a GLB without parts has the colours of the field in COLOR_0") {

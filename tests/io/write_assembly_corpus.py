@@ -192,6 +192,11 @@ def write_gltf():
     sparse_document = copy.deepcopy(document)
     sparse(sparse_document)
     write("glb_sparse.glb", glb(sparse_document, sparse_data))
+    zeros_document = copy.deepcopy(sparse_document)  # All but the fourth position are 0.
+    zeros_document["accessors"][1].pop("bufferView")
+    write("glb_sparse_without_view.glb", glb(zeros_document, sparse_data))
+    zeros_document["accessors"][1]["count"] = 4000000000
+    write("glb_sparse_without_view_huge.glb", glb(zeros_document, sparse_data))
     sparse_document["accessors"][1]["sparse"]["count"] = 4000000000
     write("glb_sparse_huge.glb", glb(sparse_document, sparse_data))
     write("glb_truncated.glb", good[:-5])
@@ -276,6 +281,11 @@ def write_3mf():
         f'<c:model xmlns:c="{CORE}"><c:resources><c:object id="1">' + mesh().replace("</", "</c:").replace("<v", "<c:v")
         .replace("<t", "<c:t").replace("<m", "<c:m") + '</c:object></c:resources><c:build><c:item objectid="1"/>'
         "</c:build></c:model>"))
+    write("3mf_prefixed_twice.3mf", archive(  # The core namespace is the default one, and has a prefix too.
+        f'<m:model xmlns="{CORE}" xmlns:m="{CORE}" unit="inch"><resources><m:object id="1">' + mesh()
+        + '</m:object></resources><m:build><item objectid="1"/></m:build></m:model>'))
+    write("3mf_prefix_of_another.3mf", archive(model(
+        object_of(mesh()), attributes='xmlns:o="other"', build='<o:item objectid="1"/>')))
     write("3mf_two_items.3mf", archive(model(
         build='<item objectid="1"/><item objectid="1" transform="2 0 0 0 2 0 0 0 2 10 20 30"/>')))
     write("3mf_mirrored.3mf", archive(model(build='<item objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/>')))
