@@ -81,6 +81,30 @@ class ASDFVK_API Scene {
   /// Throws Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} where no face counts.
   [[nodiscard]] std::vector<uint32_t> nearestFaces(std::span<const double> points, const RunControl& control = {});
 
+  /// Distance of each point to the nearest point of the surface, in the unit of the mesh; never negative, and the same
+  /// inside and outside. Exact for the facets but for rounding in double, about 1e-15 of the box. Faces without an area
+  /// do not count; a distance beyond the range of double is the largest double. points and errors: as for
+  /// nearestFaces().
+  [[nodiscard]] std::vector<double> distance(std::span<const double> points, const RunControl& control = {});
+
+  /// Radius of the largest ball around each point inside of the shape: distance() where the point is behind its nearest
+  /// face. NaN where it is in front of that face or outside of the bounding box: outside of a closed shape that is
+  /// oriented outwards. On the surface it is about 0, or NaN. Surfaces inside of the shape, such as those of parts that
+  /// overlap, stop the ball too.
+  /// points and errors: as for nearestFaces().
+  [[nodiscard]] std::vector<double> radii(std::span<const double> points, const RunControl& control = {});
+
+  /// First hit of each ray on either side of a face.
+  struct RayHits {
+    std::vector<double> distances;  ///< #R, in the unit of the mesh; infinite without a hit.
+    std::vector<uint32_t> faces;    ///< #R input faces; kNoSegment without a hit.
+  };
+  /// Traces rays in double precision on the CPU, whatever the backend. origins, directions: 3 #R numbers each;
+  /// directions of any length above 0. Of coincident faces the first one is hit. From 2^31 times the longest side of
+  /// the box there are no hits. Throws as valuesAt() does for points and normals.
+  [[nodiscard]] RayHits firstHits(std::span<const double> origins, std::span<const double> directions,
+                                  const RunControl& control = {});
+
   /// Seconds of the constructor: the stages Geometry, Graph and Bvh.
   [[nodiscard]] const StageSeconds& preparationSeconds() const;
 

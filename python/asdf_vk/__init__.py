@@ -21,7 +21,7 @@ from ._errors import (
     UsageError,
 )
 from ._files import Mesh, mesh_of_polygons, read_mesh, write
-from ._functions import compute, segment, shape_diameter, skeleton_points, thickness
+from ._functions import compute, radii, segment, shape_diameter, skeleton_points, thickness
 from ._info import Info
 from ._scene import Scene
 from ._session import Device, Session, close_default_sessions, devices
@@ -45,6 +45,7 @@ __all__ = [
     "compute",
     "devices",
     "mesh_of_polygons",
+    "radii",
     "read_mesh",
     "segment",
     "shape_diameter",

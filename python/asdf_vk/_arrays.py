@@ -65,12 +65,17 @@ def points_array(value: Any, name: str) -> NDArray[Any]:
     return _native(array, np.float32 if array.dtype in (np.float32, np.float16) else np.float64, name)
 
 
+def float_points(value: Any, name: str = "points") -> NDArray[np.float64]:
+    """(n, 3) float64, C-contiguous."""
+    return _native(points_array(value, name), np.float64, name)
+
+
 def pairs_array(points: Any, normals: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Points and normals, both (k, 3) float64."""
-    pair = points_array(points, "points"), points_array(normals, "normals")
+    pair = float_points(points), float_points(normals, "normals")
     if len(pair[0]) != len(pair[1]):
         raise error_of("arraySize", f"there are {len(pair[0])} points and {len(pair[1])} normals")
-    return _native(pair[0], np.float64, "points"), _native(pair[1], np.float64, "normals")
+    return pair
 
 
 def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:

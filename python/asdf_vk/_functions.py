@@ -11,7 +11,8 @@ from . import _core
 from ._arrays import mesh_argument
 from ._compute import computed, method_of, skeleton_of, values_of, with_diameter
 from ._info import Info, info_of
-from ._options import FunctionOptions
+from ._options import BackendOptions, FunctionOptions, Progress
+from ._scene import Scene
 from ._session import session_of
 
 if TYPE_CHECKING:
@@ -105,3 +106,26 @@ def skeleton_points(
     """
     given = dict(options)
     return skeleton_of(_computed(vertices, faces, given, centres=True), given)
+
+
+def radii(
+    vertices: Any,
+    faces: ArrayLike | None,
+    points: ArrayLike,
+    *,
+    orient: Literal["keep", "auto", "flip"] | None = "keep",
+    progress: Progress | None = None,
+    **options: Unpack[BackendOptions],
+) -> NDArray[np.float64]:
+    """Radius of the largest ball around each point inside of the shape, as of the nodes of a skeleton.
+
+    vertices, faces: as for shape_diameter(); faces is None where `vertices` is an object with both.
+    points: (k, 3). orient: inverted closed components, as for asdf_vk.Scene, which saves time for several calls.
+    options: session, or backend, device, require_gpu and threads.
+
+    Returns float64 (k,), in the unit of the mesh: the distance to the surface behind the nearest face, NaN in front of
+    it or outside of the bounding box. Surfaces inside of the shape, as of parts that overlap, stop the ball too.
+    Raises InputError, UsageError, DeviceError, CancelledError.
+    """
+    with Scene(vertices, faces, orient=orient, **options) as scene:
+        return scene.radii(points, progress=progress)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import mask_array, mesh_argument, pairs_array
+from ._arrays import float_points, mask_array, mesh_argument, pairs_array
 from ._compute import computed, method_of, skeleton_of, split_progress, values_of, with_diameter
 from ._errors import error_of
 from ._info import Info, info_of
@@ -83,6 +83,18 @@ class Scene:
         settings: dict[str, Any] = dict(options)
         progress = split_progress(settings, ConeOptions.__annotations__)
         return self._opened.values_at(*pairs_array(points, normals), settings, progress)
+
+    def distance(self, points: ArrayLike, *, progress: Progress | None = None) -> NDArray[np.float64]:
+        """Distance of each point to the nearest point of the surface, inside and outside alike.
+
+        points: (k, 3). Returns float64 (k,), in the unit of the mesh, never negative. Faces without an area do not
+        count. Raises InputError for a point that is not finite, and where no face has an area.
+        """
+        return self._opened.distance(float_points(points), False, checked_progress(progress))
+
+    def radii(self, points: ArrayLike, *, progress: Progress | None = None) -> NDArray[np.float64]:
+        """Radius of the largest ball around each point inside of the shape; as asdf_vk.radii()."""
+        return self._opened.distance(float_points(points), True, checked_progress(progress))
 
     def _computed(self, faces: ArrayLike | None, options: dict[str, Any], **implied: Any) -> _core.ComputedFields:
         scene = self._opened

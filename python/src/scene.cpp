@@ -87,6 +87,28 @@ class SharedScene {
     return asArray(std::move(values));
   }
 
+  /// points: #P x 3 double. Returns #P double: radii, or distances.
+  [[nodiscard]] py::array_t<double> distance(const py::array& points, bool givesRadii, const py::object& progress) {
+    const std::span<const double> places = entriesOf<double>(points);
+    std::vector<double> distances;
+    session_->run(
+        [&](Session&, const RunControl& control) {
+          distances = givesRadii ? scene_->radii(places, control) : scene_->distance(places, control);
+        },
+        progress);
+    return asArray(std::move(distances));
+  }
+
+  /// origins, directions: #R x 3 double. Returns #R double, and #R input faces, -1 for none.
+  [[nodiscard]] py::tuple firstHits(const py::array& origins, const py::array& directions, const py::object& progress) {
+    const std::span<const double> starts = entriesOf<double>(origins), axes = entriesOf<double>(directions);
+    Scene::RayHits hits;
+    session_->run([&](Session&, const RunControl& control) { hits = scene_->firstHits(starts, axes, control); },
+                  progress);
+    return py::make_tuple(asArray(std::move(hits.distances)),
+                          asArray(std::vector<int32_t>(hits.faces.begin(), hits.faces.end())));
+  }
+
   /// points: #P x 3 double. Returns #P input faces.
   [[nodiscard]] py::array_t<uint32_t> nearestFaces(const py::array& points, const py::object& progress) {
     const std::span<const double> places = entriesOf<double>(points);
@@ -148,7 +170,9 @@ void bindScenes(py::module_& module) {
       .def("compute", &SharedScene::compute)
       .def("values_at", &SharedScene::valuesAt)
       .def("thickness_at", &SharedScene::thicknessAt)
-      .def("nearest_faces", &SharedScene::nearestFaces);
+      .def("nearest_faces", &SharedScene::nearestFaces)
+      .def("distance", &SharedScene::distance)
+      .def("first_hits", &SharedScene::firstHits);
 }
 
 }  // namespace asdfvk::python

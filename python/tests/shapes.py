@@ -34,6 +34,18 @@ def sphere(subdivisions: int = 3, radius: float = 1) -> Mesh:
     return vertices, triangles.astype(np.int32)
 
 
+def tube(side_count: int, radius: float, length: float) -> Mesh:
+    """A closed prism along z, around the origin, of 4 * side_count faces."""
+    angles = 2 * np.pi * np.arange(side_count) / side_count
+    ring = radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    low, high = (np.column_stack([ring, np.full(side_count, z)]) for z in (-length / 2, length / 2))
+    vertices = np.concatenate([low, high, [[0, 0, -length / 2], [0, 0, length / 2]]])
+    i = np.arange(side_count)
+    j, n = (i + 1) % side_count, side_count
+    parts = [(i, j, j + n), (i, j + n, i + n), (j, i, np.full(n, 2 * n)), (i + n, j + n, np.full(n, 2 * n + 1))]
+    return vertices, np.concatenate([np.stack(part, axis=1) for part in parts]).astype(np.int32)
+
+
 def _subdivided(vertices: NDArray[Any], faces: NDArray[Any]) -> Mesh:
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     unique, index = np.unique(edges, axis=0, return_inverse=True)

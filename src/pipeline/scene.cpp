@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -73,6 +74,14 @@ void requireNoConflict(const Options& options, Orientation orientation, bool has
     throw Error(ErrorCode::OptionConflict, "a region is not post-processed; post-process the whole mesh");
 }
 
+/// In the unit of the mesh. From very far, where squares overflow, the mesh is a point.
+double distanceOf(const SurfacePoint& found, const Normalization& unit, const Vec3d& p) {
+  constexpr double kFar = 1e100;
+  if (found.distance < kFar) return unit.toMeshLength(found.distance);
+  const Vec3d way = p - unit.centre;
+  return std::min(std::hypot(way.x, way.y, way.z), std::numeric_limits<double>::max());
+}
+
 std::vector<double> valuesWith(const KeptTracer& tracer, const PreparedScene& scene, std::span<const double> points,
                                std::span<const double> normals, const RunControl& control) {
   const Box3d& bounds = scene.prepared.geometry.bounds;
@@ -110,6 +119,14 @@ struct Scene::State {
     if (!tracers_ || &tracers_->backend() != session.named.backend.get())
       tracers_ = std::make_unique<KeptTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
     return *tracers_;
+  }
+
+  /// findNearestPoints(). Throws Error{NoValues} where there is no surface.
+  void takeNearest(std::span<const double> points, const RunControl& control,
+                   FunctionRef<void(size_t, const SurfacePoint&)> take) const {
+    if (!points.empty() && scene->bvh.nodes.empty())
+      throw Error(ErrorCode::NoValues, "the mesh has no face with an area");
+    findNearestPoints(*scene, vectorsOf(points), control, take);
   }
 
   SessionState& session;
@@ -171,12 +188,47 @@ std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span
 
 std::vector<uint32_t> Scene::nearestFaces(std::span<const double> points, const RunControl& control) {
   requirePoints(points);
-  std::vector<uint32_t> faces = nearestTriangles(*state_->scene, vectorsOf(points), control);
-  for (uint32_t& face : faces) {
-    if (face == kNoFace) throw Error(ErrorCode::NoValues, "the mesh has no face with an area");
-    face = state_->scene->prepared.mesh.inputFaceOf(face);
-  }
+  std::vector<uint32_t> faces(points.size() / 3);
+  state_->takeNearest(points, control, [&](size_t i, const SurfacePoint& found) {
+    faces[i] = state_->scene->prepared.mesh.inputFaceOf(found.face);
+  });
   return faces;
+}
+
+std::vector<double> Scene::distance(std::span<const double> points, const RunControl& control) {
+  requirePoints(points);
+  std::vector<double> distances(points.size() / 3);
+  state_->takeNearest(points, control, [&](size_t i, const SurfacePoint& found) {
+    distances[i] = distanceOf(found, state_->scene->bvh.normalization, vectorAt(points, i));
+  });
+  return distances;
+}
+
+std::vector<double> Scene::radii(std::span<const double> points, const RunControl& control) {
+  requirePoints(points);
+  std::vector<double> radii(points.size() / 3, kNoValue);
+  state_->takeNearest(points, control, [&](size_t i, const SurfacePoint& found) {
+    const Vec3d p = vectorAt(points, i);
+    if ((found.side < 0 || found.distance == 0) && containsBy(0, state_->scene->prepared.geometry.bounds, {p, p}))
+      radii[i] = distanceOf(found, state_->scene->bvh.normalization, p);
+  });
+  return radii;
+}
+
+Scene::RayHits Scene::firstHits(std::span<const double> origins, std::span<const double> directions,
+                                const RunControl& control) {
+  requirePoints(origins, directions);
+  const PreparedScene& scene = *state_->scene;
+  std::vector<Vec3d> units = vectorsOf(directions);
+  for (Vec3d& direction : units) direction = unitVector(direction);
+  const std::vector<RayHit> found = findFirstHits(scene, vectorsOf(origins), units, control);
+  RayHits hits{std::vector<double>(found.size(), kNoHit), std::vector<uint32_t>(found.size(), kNoSegment)};
+  for (size_t i = 0; i < found.size(); ++i) {
+    if (found[i].face == kNoFace) continue;
+    hits.distances[i] = scene.bvh.normalization.toMeshLength(found[i].distance);
+    hits.faces[i] = scene.prepared.mesh.inputFaceOf(found[i].face);
+  }
+  return hits;
 }
 
 }  // namespace asdfvk

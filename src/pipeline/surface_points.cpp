@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "trace/chunks.h"
 #include "trace/greatest_section.h"
-#include "trace/nearest_point.h"
+#include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 #include "trace/solids.h"
 #include "trace/wall_tree.h"
@@ -24,18 +24,30 @@ constexpr double kNearestDone = 0.3, kSectionsDone = 0.5;
 
 }  // namespace
 
-std::vector<uint32_t> nearestTriangles(const PreparedScene& scene, std::span<const Vec3d> points,
-                                       const RunControl& control) {
+void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, const RunControl& control,
+                       FunctionRef<void(size_t, const SurfacePoint&)> take) {
   const TraceScene view = scene.view();
-  std::vector<uint32_t> nearest(points.size());
   forEachChunk(points.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(points.size(), 1)), control,
                [&](size_t begin, size_t end) {
                  forEachInParallel(end - begin, [&](uint32_t i) {
                    const Vec3d p = scene.bvh.normalization.toNormalized(points[begin + i]);
-                   nearest[begin + i] = nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }).face;
+                   take(begin + i, nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }));
                  });
                });
-  return nearest;
+}
+
+std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Vec3d> origins,
+                                  std::span<const Vec3d> directions, const RunControl& control) {
+  const TraceScene view = scene.view();
+  std::vector<RayHit> hits(origins.size());
+  forEachChunk(hits.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(hits.size(), 1)), control,
+               [&](size_t begin, size_t end) {
+                 forEachInParallel(end - begin, [&](uint32_t i) {
+                   const Vec3d origin = scene.bvh.normalization.toNormalized(origins[begin + i]);
+                   hits[begin + i] = nearestHitFromAnywhere(view, origin, directions[begin + i], kNoFace, 0);
+                 });
+               });
+  return hits;
 }
 
 std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<const Vec3d> points,
@@ -43,7 +55,9 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
                                       const RunControl& control) {
   const TraceScene view = scene.view();
   const Normalization& unit = scene.bvh.normalization;
-  const std::vector<uint32_t> nearest = nearestTriangles(scene, points, control.part(0, kNearestDone));
+  std::vector<uint32_t> nearest(points.size());
+  findNearestPoints(scene, points, control.part(0, kNearestDone),
+                    [&](size_t i, const SurfacePoint& found) { nearest[i] = found.face; });
   const Solids solids = findSolids(view.mesh, scene.prepared.components);
   std::vector<uint8_t> isWanted(solids.isClosed.size());
   for (const uint32_t face : nearest)

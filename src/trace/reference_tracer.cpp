@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "mesh/coincident_faces.h"
 #include "trace/chunks.h"
-#include "trace/nearest_hit.h"
 
 namespace asdfvk {
 namespace {
@@ -31,19 +30,6 @@ double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
     leave = std::min(leave, std::max(a, b));
   }
   return enter <= leave ? enter : kNoHit;
-}
-
-/// nearestHit() from any origin.
-RayHit hitOf(const TraceScene& scene, const Cone& cone, const Vec3d& origin, const Vec3d& direction,
-             uint32_t skippedFace) {
-  if (isNearBox(origin)) return nearestHit(scene.bvh, scene.mesh, origin, direction, skippedFace, cone.contactDistance);
-  if (!(std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) <= kFarthestOrigin)) return {};
-  const double entry = entryIntoBox(origin, direction);
-  const Vec3d entered = origin + entry * direction;
-  if (!isNearBox(entered)) return {};  // It misses the box.
-  RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace, cone.contactDistance);
-  hit.distance += entry;
-  return hit;
 }
 
 bool isValid(const TraceScene& scene, const Cone& cone, const Vec3d& direction, const Vec3d& normal,
@@ -87,6 +73,18 @@ class ReferenceTracer final : public ConeTracer {
 
 }  // namespace
 
+RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction,
+                              uint32_t skippedFace, double contactDistance) {
+  if (isNearBox(origin)) return nearestHit(scene.bvh, scene.mesh, origin, direction, skippedFace, contactDistance);
+  if (!(std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) <= kFarthestOrigin)) return {};
+  const double entry = entryIntoBox(origin, direction);
+  const Vec3d entered = origin + entry * direction;
+  if (!isNearBox(entered)) return {};  // It misses the box.
+  RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace, contactDistance);
+  hit.distance += entry;
+  return hit;
+}
+
 ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
   const Vec3d& normal = scene.geometry.normals[face];
   if (cone.definition == Definition::Paper) return paperConeFrame(cone, normal, face);
@@ -110,7 +108,8 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
 
 double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
   const Vec3d origin = scene.originOf(seedFace);
-  const RayHit hit = hitOf(scene, cone, origin, direction, scene.representatives[seedFace]);
+  const RayHit hit =
+      nearestHitFromAnywhere(scene, origin, direction, scene.representatives[seedFace], cone.contactDistance);
   return isValid(scene, cone, direction, scene.geometry.normals[seedFace], hit)
              ? scene.bvh.normalization.toMeshLength(hit.distance)
              : kNoValue;
@@ -121,7 +120,7 @@ double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart&
   size_t validCount = 0;
   for (size_t i = 0; i < cone.directions.size(); ++i) {
     const Vec3d direction = start.frame.toWorld(cone.directions[i]);
-    const RayHit hit = hitOf(scene, cone, start.origin, direction, start.skippedFace);
+    const RayHit hit = nearestHitFromAnywhere(scene, start.origin, direction, start.skippedFace, cone.contactDistance);
     if (!hits.empty()) hits[i] = {static_cast<float>(hit.distance), hit.face};
     if (!isValid(scene, cone, direction, start.normal, hit)) continue;
     distances[validCount] = hit.distance;

@@ -1,8 +1,13 @@
 #pragma once
 
 #include "trace/cone_tracer.h"
+#include "trace/nearest_hit.h"
 
 namespace asdfvk {
+
+/// nearestHit() from any origin; none from 2^32 normalised units.
+[[nodiscard]] RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction,
+                                            uint32_t skippedFace, double contactDistance);
 
 /// Length of one ray in the mesh's unit, or kNoValue for an invalid ray (no hit, or a false hit). Precondition: the
 /// seed face is not degenerate.
