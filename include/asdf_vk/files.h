@@ -61,10 +61,13 @@ struct WriteOptions {
 ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                             const WriteOptions& options = {});
 
-/// Writes the points of the face fields "centre" and "sdf" (Options::computesCentres) as a point cloud in binary PLY. A
-/// point has `double x y z`, `float radius`, which is half of the shape diameter, and `uint part` where there is the
+/// Writes the points of the face fields "centre" and "sdf" (Options::computesCentres). A .swc has a tree for each
+/// component of the face field "component", or one of all points without it: the minimum spanning tree, with the point
+/// of the greatest radius as its root; points of radius 0 are left out. Any other name is a point cloud in binary PLY.
+/// A point has `double x y z`, `float radius`, which is half of the shape diameter, and `uint part` where there is the
 /// face field "segment". Faces without a value have no point. The file is replaced atomically; "-" is standard output.
-/// Throws Error{UnknownField} without these fields; Error{OptionConflict} where their sizes do not fit each other;
+/// Throws Error{UnknownField} without these fields; Error{OptionConflict} where their sizes do not fit each other, or
+/// "component" has real numbers;
 /// Error{ValueOutOfRange}, see requireSingles(); Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 

@@ -198,7 +198,7 @@ struct Options {
   std::string solver = "auto";
   SolverOptions solverOptions;
   Orientation orientation = Orientation::Keep;
-  bool computesCentres = false;  ///< Adds the field "centre", for skeletons.
+  bool computesCentres = false;  ///< Adds the fields "centre" and "component", for skeletons.
   PerElement per = PerElement::Faces;
   /// Number of random traced faces, and of random faces of the whole mesh, that the double-precision reference
   /// recomputes.

@@ -44,8 +44,8 @@ struct ThinSurface {
 /// with Options::segmentation "segment" (ascending by the mean value); with Options::measuresThickness() "thickness"
 /// (at the barycentre, in the unit of the mesh) and "least_thickness" (over all points of the face), of an input face
 /// that is a polygon the least of its triangles; with Options::computesCentres "centre" (x, y, z: the barycentre, moved
-/// inwards along the normal by half of the shape diameter). With PerElement::Vertices fields per vertex with the same
-/// names follow those per face.
+/// inwards along the normal by half of the shape diameter) and "component" (faces connected by edges). With
+/// PerElement::Vertices fields per vertex with the same names follow those per face.
 struct Result {
   std::vector<Field> fields;
   Report report;

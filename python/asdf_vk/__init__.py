@@ -20,7 +20,7 @@ from ._errors import (
     OutputError,
     UsageError,
 )
-from ._files import Mesh, mesh_of_polygons, read_mesh, write
+from ._files import Mesh, mesh_of_polygons, read_mesh, write, write_points
 from ._functions import compute, radii, segment, shape_diameter, skeleton_points, thickness
 from ._info import Info
 from ._scene import Scene
@@ -52,6 +52,7 @@ __all__ = [
     "skeleton_points",
     "thickness",
     "write",
+    "write_points",
 ]
 
 for _name in __all__:  # In tracebacks and in help(): the module that users import.

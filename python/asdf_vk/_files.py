@@ -8,7 +8,7 @@ from typing import Any, Mapping
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import field_array, mesh_argument, polygon_arrays
+from ._arrays import field_array, float_points, mesh_argument, polygon_arrays, values_array
 from ._errors import error_of
 from ._session import flag_of
 
@@ -60,6 +60,26 @@ def write(
         raise error_of("optionOutOfRange", f"format={format!r} is not a string")
     argument = mesh_argument(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_argument(mesh)
     _core.write(_path(path), argument, _arrays_of(fields), _arrays_of(vertex_fields), format, flag_of(ascii, "ascii"))
+
+
+def write_points(
+    path: str | os.PathLike[str], points: ArrayLike, radii: ArrayLike, *, components: ArrayLike | None = None
+) -> None:
+    """Writes skeleton points with their radii: trees in .swc, else a point cloud in binary PLY. Replaces atomically.
+
+    points, radii: (k, 3) and (k,), as of skeleton_points(); points with a NaN are left out.
+    components: (k,) integers: each component is a tree of .swc, as by info.fields["component"] of
+        compute(centres=True); None: one tree.
+
+    A tree is the minimum spanning tree of its points, and its root the one with the greatest radius.
+    Raises OutputError, InputError, UsageError.
+    """
+    places = float_points(points)
+    diameters = 2 * values_array(radii, "radii", len(places))
+    fields = {"centre": places, "sdf": diameters}
+    if components is not None:
+        fields["component"] = field_array(components, "components")
+    _core.write_points(_path(path), fields)
 
 
 def _arrays_of(fields: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[Any]]:

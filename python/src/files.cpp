@@ -98,6 +98,13 @@ void write(const std::filesystem::path& path, const py::object& mesh, const py::
   writeResult(path, view, fields, {.format = format, .fields = {}, .ascii = ascii});
 }
 
+void writePointsOf(const std::filesystem::path& path, const py::dict& perFace) {
+  requireSameProcess();
+  const std::vector<Field> fields = fieldsOf(perFace, {});
+  const GilRelease released;
+  writePoints(path, fields);
+}
+
 /// The arrays of a mesh, for pickle.
 py::tuple stateOf(const Mesh& mesh) {
   const auto bytesOf = [](const auto& entries) {
@@ -153,6 +160,7 @@ void bindFiles(py::module_& module) {
   module.def("read_mesh", readWithoutGil);
   module.def("mesh_of_polygons", meshOfPolygons);
   module.def("write", write);
+  module.def("write_points", writePointsOf);
 }
 
 }  // namespace asdfvk::python

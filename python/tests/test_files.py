@@ -14,7 +14,7 @@ import pytest
 
 import asdf_vk
 from ply import fields_of_ply
-from shapes import cube, sphere
+from shapes import cube, joined, sphere
 
 
 def test_a_mesh_survives_a_file(tmp_path: Path) -> None:
@@ -111,6 +111,34 @@ def test_a_mesh_can_be_pickled(tmp_path: Path) -> None:
         np.testing.assert_array_equal(other.vertices, mesh.vertices)
         np.testing.assert_array_equal(other.faces, mesh.faces)
         assert other.face_count == 2 and repr(other) == repr(mesh) == "<asdf_vk.Mesh, 4 vertices, 2 faces>"
+
+
+def test_skeleton_points_are_trees_of_components(tmp_path: Path) -> None:
+    mesh = joined(sphere(2), (sphere(1)[0] + [5, 0, 0], sphere(1)[1]))
+    info = asdf_vk.compute(*mesh, centres=True, seeds="all")
+    components = info.fields["component"]
+    np.testing.assert_array_equal(components, np.repeat([0, 1], [320, 80]))
+    points, radii = info.fields["centre"], info.fields["sdf"] / 2
+    asdf_vk.write_points(tmp_path / "x.swc", points, radii, components=components)
+    rows = np.loadtxt(tmp_path / "x.swc")
+    assert rows.shape == (400, 7)
+    parents = rows[:, 6].astype(int)
+    roots = np.flatnonzero(parents == -1)
+    np.testing.assert_array_equal(roots, [0, 320])
+    np.testing.assert_array_equal(rows[:, 0], np.arange(1, 401))
+    assert (parents < rows[:, 0]).all()
+    np.testing.assert_array_equal(rows[:, 2] > 2.5, np.arange(400) >= 320)
+    np.testing.assert_allclose(rows[roots, 5], [radii[:320].max(), radii[320:].max()])
+    asdf_vk.write_points(tmp_path / "one.swc", points, radii)
+    assert (np.loadtxt(tmp_path / "one.swc")[:, 6] == -1).sum() == 1
+    asdf_vk.write_points(tmp_path / "x.ply", points, radii)
+    assert b"element vertex 400" in (tmp_path / "x.ply").read_bytes()
+    wrong: list[dict[str, Any]] = [{"components": np.zeros(400)}, {"components": [1]}, {"radii": radii[1:]}]
+    for arguments in wrong:
+        given: dict[str, Any] = {"points": points, "radii": radii, **arguments}
+        with pytest.raises(asdf_vk.Error):
+            asdf_vk.write_points(tmp_path / "no.swc", **given)
+    assert not (tmp_path / "no.swc").exists()
 
 
 def test_failures_leave_nothing_behind(tmp_path: Path) -> None:

@@ -52,6 +52,7 @@ def test_none_is_the_default(tmp_path: Path) -> None:
         (asdf_vk.skeleton_points, MESH),
         (asdf_vk.radii, (*MESH, TOP / 2)),
         (asdf_vk.write, (tmp_path / "mesh.ply", MESH)),
+        (asdf_vk.write_points, (tmp_path / "points.swc", TOP, [1])),
         (asdf_vk.Session, ()),
         (asdf_vk.Scene, MESH),
         (scene.at, (TOP, TOP)),

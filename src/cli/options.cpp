@@ -148,7 +148,7 @@ void completeFields(CommandLine& line, bool choosesPicture) {
   const auto shows = [&](std::string_view name) {
     return std::any_of(shown.begin(), shown.end(), [&](const auto& field) { return field.second == name; });
   };
-  if (shows("centre") || !outputs.points.empty()) options.computesCentres = true;
+  if (shows("centre") || shows("component") || !outputs.points.empty()) options.computesCentres = true;
   if (options.segmentation != Segmentation::None && !choosesPicture) outputs.pictureOf = "segment";
   if (options.measuresThickness()) {
     if (shows("sdf") || shows("seed") || shows("error")) options.measure = Measure::Both;

@@ -26,7 +26,7 @@ struct Outputs {
   std::string pictureOf = "sdf";  ///< Name of the field to show; empty: the thin places.
   View pictureView;
   bool choosesView = false;  ///< --picture-view is given.
-  std::string points;        ///< A .ply for the skeleton points, "-" for standard output; empty: none.
+  std::string points;        ///< A .ply or .swc for the skeleton points, "-" for standard output; empty: none.
   bool opensPage = false;    ///< Start the browser with the page.
   bool json = false;
   bool quiet = false;

@@ -170,12 +170,13 @@ const std::array kOutputRows{
     OptionRow{.name = "points",
               .group = kOutputGroup,
               .text = "Also write the skeleton points of the faces, half of the shape diameter below each, with radius "
-                      "and segment, for one mesh; - is standard output",
-              .placeholder = "FILE.ply",
-              .wanted = "a file that ends in .ply",
+                      "and segment, or as trees in SWC, for one mesh; - is standard output, as PLY",
+              .placeholder = "FILE.ply|FILE.swc",
+              .wanted = "a file that ends in .ply or .swc",
               .read =
                   [](void* t, const OptionValue& value) {
-                    return hasExtension(textOf(value), ".ply") && readName<&Outputs::points>(t, value);
+                    return (hasExtension(textOf(value), ".ply") || hasExtension(textOf(value), ".swc")) &&
+                           readName<&Outputs::points>(t, value);
                   },
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
     OptionRow{

@@ -381,7 +381,7 @@ const std::array kComputationRows{
     OptionRow{.name = "centres",
               .group = kOutputGroup,
               .access = COMPUTATION_MEMBER(options.computesCentres),
-              .text = "The field centre, skeleton points",
+              .text = "The fields centre, skeleton points, and component",
               .flags = ""},
     OptionRow{.name = "weights",
               .group = kExperimentGroup,

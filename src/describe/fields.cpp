@@ -48,6 +48,13 @@ constexpr std::array kFields{
              .meaning = "skeleton point: the barycentre of the face, moved inwards along its normal by half of the "
                         "shape diameter. For a polygon, the means of both over its triangles, weighted by area. No "
                         "value without a value, or without a normal (zero area)"},
+    FieldRow{.name = "component",
+             .label = "components",
+             .type = FieldType::Label,
+             .needs = "fields component",
+             .meaning =
+                 "number of the component, faces connected by edges, from 0 by their first faces; 4294967295 for "
+                 "a face with fewer than three corners"},
 };
 
 }  // namespace

@@ -1,40 +1,153 @@
 // Skeleton points as a binary PLY of the element `vertex`: double x y z, float radius, and uint part where there are
-// segments.
+// segments; or as trees in SWC, the text format of neurons (Cannon et al. 1998).
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/files.h"
+#include "asdf_vk/version.h"
 #include "core/atomic_file.h"
+#include "core/buckets.h"
+#include "core/text.h"
+#include "mesh/spanning_tree.h"
 
 namespace asdfvk {
+namespace {
 
-void writePoints(const std::filesystem::path& path, std::span<const Field> fields) {
-  const Field &centre = requireField(fields, "centre"), &sdf = requireField(fields, "sdf");
-  const Field* const segment = findField(fields, "segment", FieldLocation::PerFace);
-  const auto fits = [&](const Field& field, uint32_t componentCount) {
-    return field.componentCount == componentCount && field.size() == sdf.size() * componentCount;
-  };
-  if (!fits(sdf, 1) || !fits(centre, 3) || (segment != nullptr && !fits(*segment, 1)))
-    throw Error(ErrorCode::OptionConflict, "the sizes of the fields centre, sdf and segment do not fit each other");
-  if (sdf.reals() != nullptr) requireSingles(*sdf.reals(), "'sdf'");
-  std::vector<size_t> faces;  // Faces with a point.
-  for (size_t face = 0; face < sdf.size(); ++face)
-    if (std::isfinite(sdf.at(face)) && std::isfinite(centre.at(3 * face)) && std::isfinite(centre.at(3 * face + 1)) &&
-        std::isfinite(centre.at(3 * face + 2)))
-      faces.push_back(face);
-  AtomicFile file(path);
+struct SkeletonPoint {
+  uint32_t face = 0;  ///< Input face.
+  Vec3d place;
+  float radius = 0;
+};
+
+std::vector<SkeletonPoint> skeletonPointsOf(const Field& centre, const Field& sdf) {
+  std::vector<SkeletonPoint> points;
+  for (uint32_t face = 0; face < sdf.size(); ++face) {
+    const size_t first = 3 * size_t{face};
+    const Vec3d place{centre.at(first), centre.at(first + 1), centre.at(first + 2)};
+    if (std::isfinite(sdf.at(face)) && isFinite(place))
+      points.push_back({face, place, static_cast<float>(sdf.at(face) / 2)});
+  }
+  return points;
+}
+
+void writePly(AtomicFile& file, std::span<const SkeletonPoint> points, const Field* segment) {
   file.write(fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment asdf-vk: skeleton points, radius is half of the shape diameter\n"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty float radius\n"
       "{}end_header\n",
-      faces.size(), segment != nullptr ? "property uint part\n" : ""));
-  for (const size_t face : faces) {
-    for (size_t axis = 0; axis < 3; ++axis) file.put(centre.at(3 * face + axis));
-    file.put(static_cast<float>(sdf.at(face) / 2));
-    if (segment != nullptr) file.put(static_cast<uint32_t>(segment->at(face)));
+      points.size(), segment != nullptr ? "property uint part\n" : ""));
+  for (const SkeletonPoint& point : points) {
+    file.put(point.place);
+    file.put(point.radius);
+    if (segment != nullptr) file.put(static_cast<uint32_t>(segment->at(point.face)));
+  }
+}
+
+/// Writes trees with one root each: the point with the greatest radius, where a neuron has its body.
+class SwcWriter {
+ public:
+  explicit SwcWriter(AtomicFile& file) : file_(file) {
+    file_.write(
+        fmt::format("# asdf-vk {}: skeleton points, joined by their minimum spanning trees, one per component\n"
+                    "# radius: half of the shape diameter; unit: that of the mesh\n"
+                    "# id type x y z radius parent\n",
+                    ASDFVK_VERSION));
+  }
+
+  void write(std::span<const SkeletonPoint> points) {
+    std::vector<Vec3d> places;
+    for (const SkeletonPoint& point : points) places.push_back(point.place);
+    const std::vector<std::array<uint32_t, 2>> edges = minimumSpanningTree(places);
+    const auto neighbours = sortIntoBuckets<uint32_t>(points.size(), edges.size(), [&](uint32_t edge, auto put) {
+      put(edges[edge][0], edges[edge][1]);
+      put(edges[edge][1], edges[edge][0]);
+    });
+    const auto root = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+      return a.radius != b.radius ? a.radius < b.radius : a.face > b.face;
+    });
+    struct Step {
+      uint32_t point, from;
+      int64_t parent;
+    };
+    std::vector<Step> stack{{static_cast<uint32_t>(root - points.begin()), kNoPoint, -1}};
+    while (!stack.empty()) {
+      const Step step = stack.back();
+      stack.pop_back();
+      writeLine(points[step.point], step.parent);
+      for (const uint32_t next : neighbours[step.point])
+        if (next != step.from) stack.push_back({next, step.point, id_});
+    }
+  }
+
+ private:
+  static constexpr uint32_t kNoPoint = 0xffffffff;
+
+  void writeLine(const SkeletonPoint& point, int64_t parent) {
+    char* const line = file_.reserve(8 * kNumberTextSize);
+    char* end = appendNumber(line, ++id_);
+    const auto append = [&](auto number) {
+      *end++ = ' ';
+      end = appendNumber(end, number);
+    };
+    append(0);  // Of no known type.
+    append(point.place.x);
+    append(point.place.y);
+    append(point.place.z);
+    append(point.radius);
+    append(parent);
+    *end++ = '\n';
+    file_.advance(static_cast<size_t>(end - line));
+  }
+
+  AtomicFile& file_;
+  int64_t id_ = 0;
+};
+
+/// A tree per component, in the order of their first points. A point without a radius, as where walls touch, has none.
+void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* component) {
+  std::erase_if(points, [](const SkeletonPoint& point) { return !(point.radius > 0); });
+  const auto componentOf = [&](const SkeletonPoint& point) {
+    return component != nullptr ? static_cast<uint32_t>(component->at(point.face)) : 0;
+  };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const auto& a, const auto& b) { return componentOf(a) < componentOf(b); });
+  SwcWriter writer(file);
+  for (auto begin = points.begin(); begin != points.end();) {
+    const auto end = std::find_if(begin, points.end(), [&, first = componentOf(*begin)](const SkeletonPoint& point) {
+      return componentOf(point) != first;
+    });
+    writer.write({begin, end});
+    begin = end;
+  }
+}
+
+}  // namespace
+
+void writePoints(const std::filesystem::path& path, std::span<const Field> fields) {
+  const Field &centre = requireField(fields, "centre"), &sdf = requireField(fields, "sdf");
+  const auto optional = [&](const char* name) { return findField(fields, name, FieldLocation::PerFace); };
+  const Field *const segment = optional("segment"), *const component = optional("component");
+  const auto fits = [&](const Field* field, uint32_t componentCount = 1) {
+    return field == nullptr ||
+           (field->componentCount == componentCount && field->size() == sdf.size() * componentCount);
+  };
+  if (!fits(&sdf) || !fits(&centre, 3) || !fits(segment) || !fits(component))
+    throw Error(ErrorCode::OptionConflict,
+                "the sizes of the fields centre, sdf, segment and component do not fit each other");
+  if (component != nullptr && component->reals() != nullptr)
+    throw Error(ErrorCode::OptionConflict, "the field component has real numbers; give integers");
+  if (sdf.reals() != nullptr) requireSingles(*sdf.reals(), "'sdf'");
+  const std::vector<SkeletonPoint> points = skeletonPointsOf(centre, sdf);
+  AtomicFile file(path);
+  if (lowerCase(path.extension().string()) == ".swc") {
+    writeSwc(file, points, component);
+  } else {
+    writePly(file, points, segment);
   }
   file.commit();
 }

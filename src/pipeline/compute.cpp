@@ -106,9 +106,12 @@ void measureThickness(Result& result, const Computation& computation, const RunC
 
 /// Adds the fields that derive from other fields.
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
-  if (options.computesCentres)
+  if (options.computesCentres) {
     fields.push_back(makeField(
         "centre", centresOfInputFaces(prepared.mesh, prepared.geometry, *requireField(fields, "sdf").reals())));
+    fields.push_back(makeField(
+        "component", labelsOfInputFaces(prepared.mesh, prepared.components.componentOf, prepared.geometry.areas)));
+  }
   if (options.per != PerElement::Vertices) return;
   std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
   fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));

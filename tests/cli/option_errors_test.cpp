@@ -113,8 +113,8 @@ TEST_CASE("options that contradict each other are refused") {
 }
 
 TEST_CASE("skeleton points go to one .ply file, and a picture shows none of their components") {
-  CHECK_EQ(refusal({"a.ply", "--points", "b.obj"}), "--points: 'b.obj' is not a file that ends in .ply");
-  CHECK_EQ(refusal({"a.ply", "--points", ""}), "--points: '' is not a file that ends in .ply");
+  CHECK_EQ(refusal({"a.ply", "--points", "b.obj"}), "--points: 'b.obj' is not a file that ends in .ply or .swc");
+  CHECK_EQ(refusal({"a.ply", "--points", ""}), "--points: '' is not a file that ends in .ply or .swc");
   CHECK_EQ(refusal({"a.ply", "b.ply", "--points", "c.ply"}),
            "--points takes one mesh; name one mesh, or run them one by one");
   for (const auto& other : {std::vector<std::string>{"--json"}, {"-o", "-"}, {"--picture", "-"}}) {

@@ -1,8 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <sstream>
 
 #include "asdf_vk/error.h"
+#include "core/random.h"
 #include "written_file.h"
 
 using namespace asdfvk;
@@ -95,4 +99,110 @@ TEST_CASE("points need the fields centre and sdf of the same faces") {
         ErrorCode::OptionConflict);
   CHECK(codeOf({fields[0], fields[1], makeField("segment", std::vector<uint32_t>(2))}) == ErrorCode::OptionConflict);
   CHECK(codeOf(fields, "/nonexistent/points.ply") == ErrorCode::OutputNotWritable);
+}
+
+namespace {
+
+struct SwcLine {
+  int64_t id = 0;
+  int type = 0;
+  Vec3d place;
+  double radius = 0;
+  int64_t parent = 0;
+};
+
+std::vector<SwcLine> swcOf(const std::vector<Field>& fields) {
+  const Folder folder;
+  writePoints(folder / "points.SWC", fields);
+  CHECK(folder.names() == std::vector<std::string>{"points.SWC"});
+  std::istringstream text(contentOf(folder / "points.SWC"));
+  std::vector<SwcLine> lines;
+  bool hasHeader = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with('#')) {
+      hasHeader = true;
+      CHECK(lines.empty());
+      continue;
+    }
+    std::istringstream words(line);
+    SwcLine read;
+    words >> read.id >> read.type >> read.place.x >> read.place.y >> read.place.z >> read.radius >> read.parent;
+    CHECK(!words.fail());
+    CHECK(words.eof());
+    lines.push_back(read);
+  }
+  CHECK(hasHeader);
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("a .swc is a minimum spanning tree for each component, with its thickest point as the root") {
+  constexpr size_t kCount = 240;
+  Random random(3);
+  std::vector<double> centre, sdf;
+  std::vector<uint32_t> component;
+  for (size_t i = 0; i < kCount; ++i) {
+    component.push_back(i % 3 == 1 ? 4 : i % 3 == 2 ? 0xffffffff : 0);
+    for (int axis = 0; axis < 3; ++axis) centre.push_back(i % 5 == 0 && axis == 1 ? kNoValue : random.real());
+    sdf.push_back(i % 7 == 0 ? 0 : 0.5 + random.real());
+  }
+  std::vector<Field> fields{makeField("centre", centre, FieldLocation::PerFace, 3), makeField("sdf", sdf),
+                            makeField("component", component)};
+  const std::vector<SwcLine> lines = swcOf(fields);
+  size_t expectedCount = 0;
+  std::array<double, 3> greatest{};
+  for (size_t i = 0; i < kCount; ++i) {
+    if (i % 5 == 0 || i % 7 == 0) continue;
+    ++expectedCount;
+    greatest[i % 3] = std::max(greatest[i % 3], sdf[i]);
+  }
+  REQUIRE(lines.size() == expectedCount);
+  std::vector<size_t> roots;
+  std::vector<double> lengths;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const SwcLine& line = lines[i];
+    CHECK(line.id == static_cast<int64_t>(i) + 1);
+    CHECK(line.type == 0);
+    CHECK(line.radius > 0);
+    CHECK(line.parent < line.id);
+    if (line.parent == -1) {
+      CHECK(line.radius == doctest::Approx(greatest[roots.size()] / 2).epsilon(1e-6));
+      roots.push_back(i);
+      lengths.push_back(0);
+    } else {
+      REQUIRE(line.parent > static_cast<int64_t>(roots.back()));  // In the tree of the last root.
+      lengths.back() += length(line.place - lines[static_cast<size_t>(line.parent) - 1].place);
+    }
+  }
+  REQUIRE(roots.size() == 3);
+  roots.push_back(lines.size());
+  for (size_t tree = 0; tree < 3; ++tree) {  // Prim's algorithm.
+    const std::span<const SwcLine> points = std::span(lines).subspan(roots[tree], roots[tree + 1] - roots[tree]);
+    std::vector<double> away(points.size(), 1e9);
+    away[0] = 0;
+    double sum = 0;
+    for (size_t step = 0; step < points.size(); ++step) {
+      const size_t next = static_cast<size_t>(std::min_element(away.begin(), away.end()) - away.begin());
+      sum += away[next];
+      for (size_t i = 0; i < points.size(); ++i)
+        if (away[i] < 1e10) away[i] = std::min(away[i], length(points[i].place - points[next].place));
+      away[next] = 1e10;
+    }
+    CHECK(lengths[tree] == doctest::Approx(sum).epsilon(1e-9));
+  }
+  fields.pop_back();
+  const std::vector<SwcLine> together = swcOf(fields);
+  CHECK(together.size() == expectedCount);
+  CHECK(std::count_if(together.begin(), together.end(), [](const SwcLine& l) { return l.parent == -1; }) == 1);
+  fields.push_back(makeField("component", std::vector<double>(kCount)));
+  CHECK(codeOf(fields, "/dev/null") == ErrorCode::OptionConflict);
+  fields.back() = makeField("component", std::vector<uint32_t>(3));
+  CHECK(codeOf(fields, "/dev/null") == ErrorCode::OptionConflict);
+}
+
+TEST_CASE("a .swc without a point has its header only") {
+  CHECK(swcOf({makeField("sdf", std::vector<double>{kNoValue, 0}),
+               makeField("centre", std::vector<double>(6, 0), FieldLocation::PerFace, 3)})
+            .empty());
 }

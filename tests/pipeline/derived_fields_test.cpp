@@ -134,20 +134,20 @@ TEST_CASE("fields per vertex follow those per face and have their names") {
   const Result plain = referenceSession().compute(mesh, options);
   options.per = PerElement::Vertices;
   const Result result = referenceSession().compute(mesh, options);
-  const std::vector<std::string> names{"sdf", "seed", "error", "centre"};
-  REQUIRE(plain.fields.size() == 4);
-  REQUIRE(result.fields.size() == 8);
-  for (size_t i = 0; i < 4; ++i) {
+  const std::vector<std::string> names{"sdf", "seed", "error", "centre", "component"};
+  REQUIRE(plain.fields.size() == 5);
+  REQUIRE(result.fields.size() == 10);
+  for (size_t i = 0; i < 5; ++i) {
     CHECK(result.fields[i].name == names[i]);
     CHECK(result.fields[i].values == plain.fields[i].values);
-    CHECK(result.fields[4 + i].name == names[i]);
-    CHECK(result.fields[4 + i].location == FieldLocation::PerVertex);
-    CHECK(result.fields[4 + i].itemCount() == mesh.vertices.size());
+    CHECK(result.fields[5 + i].name == names[i]);
+    CHECK(result.fields[5 + i].location == FieldLocation::PerVertex);
+    CHECK(result.fields[5 + i].itemCount() == mesh.vertices.size());
   }
   CHECK(result.field("sdf") == &result.fields[0]);
-  CHECK(findField(result.fields, "sdf", FieldLocation::PerVertex) == &result.fields[4]);
+  CHECK(findField(result.fields, "sdf", FieldLocation::PerVertex) == &result.fields[5]);
   CHECK(findField(plain.fields, "sdf", FieldLocation::PerVertex) == nullptr);
-  const FieldSummary faces = summarize(result.fields[0]), vertices = summarize(result.fields[4]);
+  const FieldSummary faces = summarize(result.fields[0]), vertices = summarize(result.fields[5]);
   CHECK(vertices.min >= faces.min);
   CHECK(vertices.max <= faces.max);
   CHECK(vertices.missingCount == 0);

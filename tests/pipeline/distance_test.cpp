@@ -188,7 +188,8 @@ TEST_CASE("distances and radii from far away") {
   for (const double x : {1e3, 1e9, 1e99, 1e103, 1e200, 1e308}) {
     CAPTURE(x);
     CHECK(scene.distance(std::array{x, 0.3, 0.2}).front() == doctest::Approx(x - 1).epsilon(1e-12));
-    CHECK(scene.distance(std::array{-x, x, x}).front() == doctest::Approx(std::min(std::sqrt(3.0) * x, 1.7e308)).epsilon(0.06));
+    CHECK(scene.distance(std::array{-x, x, x}).front() ==
+          doctest::Approx(std::min(std::sqrt(3.0) * x, 1.7e308)).epsilon(0.06));
     CHECK(std::isnan(scene.radii(std::array{x, 0.3, 0.2}).front()));
     CHECK(std::isnan(scene.radii(std::array{-x, x, x}).front()));
   }
@@ -214,12 +215,13 @@ TEST_CASE("rays hit the first face on either side, from anywhere") {
     double distance;
   };
   for (const auto& [origin, direction, expected] :
-       {Ray{{0.2, 0.1, 0}, {5, 0, 0}, 0.8}, Ray{{-3, 0.1, 0.3}, {1e-200, 0, 0}, 2}, Ray{{-3, 0.1, 0.3}, {-1, 0, 0}, kNone},
-        Ray{{-1e6, 0.1, 0.3}, {1, 0, 0}, 1e6 - 1}, Ray{{4, 4, 0.3}, {-1, -1, 0}, std::sqrt(18.0)},
-        Ray{{1e200, 0, 0}, {-1, 0, 0}, kNone}, Ray{{2, 2, 2}, {0, 1, 0}, kNone}}) {
+       {Ray{{0.2, 0.1, 0}, {5, 0, 0}, 0.8}, Ray{{-3, 0.1, 0.3}, {1e-200, 0, 0}, 2},
+        Ray{{-3, 0.1, 0.3}, {-1, 0, 0}, kNone}, Ray{{-1e6, 0.1, 0.3}, {1, 0, 0}, 1e6 - 1},
+        Ray{{4, 4, 0.3}, {-1, -1, 0}, std::sqrt(18.0)}, Ray{{1e200, 0, 0}, {-1, 0, 0}, kNone},
+        Ray{{2, 2, 2}, {0, 1, 0}, kNone}}) {
     const double distance = expected;
-    const Scene::RayHits hits = scene.firstHits(std::array{origin.x, origin.y, origin.z},
-                                                std::array{direction.x, direction.y, direction.z});
+    const Scene::RayHits hits =
+        scene.firstHits(std::array{origin.x, origin.y, origin.z}, std::array{direction.x, direction.y, direction.z});
     if (std::isinf(distance)) {
       CHECK(std::isinf(hits.distances[0]));
       CHECK(hits.faces[0] == kNoSegment);

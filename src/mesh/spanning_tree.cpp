@@ -1,0 +1,159 @@
+#include "mesh/spanning_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/box3.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kLeafPointCount = 8, kNone = 0xffffffff;
+constexpr double kFarAway = std::numeric_limits<double>::infinity();
+
+struct PointNode {
+  Box3d box;
+  uint32_t begin = 0, end = 0;  ///< Points.
+  uint32_t left = kNone;        ///< The right child follows; kNone for a leaf.
+  uint32_t group = kNone;       ///< Of all points below; kNone where they are of several.
+};
+
+/// An edge from a point, and its squared length.
+struct Edge {
+  double square = kFarAway;
+  uint32_t from = kNone, to = kNone;
+};
+
+class SpanningTree {
+ public:
+  explicit SpanningTree(std::span<const Vec3d> points)
+      : order_(points.size()), groups_(points.size()), nearest_(points.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    nodes_.push_back({.end = static_cast<uint32_t>(points.size())});
+    for (uint32_t node = 0; node < nodes_.size(); ++node) split(points, node);
+    // In a unit in which squares neither overflow nor underflow.
+    double greatest = 0;
+    for (const Vec3d& p : points) greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const auto scaled = [&](const Vec3d& p) { return greatest > 0 ? p / greatest : p; };
+    for (const uint32_t point : order_) points_.push_back(scaled(points[point]));
+    for (PointNode& node : nodes_) node.box = {scaled(node.box.min), scaled(node.box.max)};
+    std::iota(groups_.begin(), groups_.end(), 0);
+  }
+
+  std::vector<std::array<uint32_t, 2>> run() {
+    while (edges_.size() + 1 < points_.size()) joinGroups();
+    return std::move(edges_);
+  }
+
+ private:
+  void split(std::span<const Vec3d> points, uint32_t index) {
+    PointNode node = nodes_[index];
+    for (uint32_t i = node.begin; i < node.end; ++i) node.box.add(points[order_[i]]);
+    if (node.end - node.begin > kLeafPointCount) {
+      const Vec3d size = node.box.halfSize();
+      const size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      const uint32_t middle = node.begin + (node.end - node.begin) / 2;
+      std::nth_element(order_.begin() + node.begin, order_.begin() + middle, order_.begin() + node.end,
+                       [&](uint32_t a, uint32_t b) {
+                         return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b;
+                       });
+      node.left = static_cast<uint32_t>(nodes_.size());
+      nodes_.push_back({.begin = node.begin, .end = middle});
+      nodes_.push_back({.begin = middle, .end = node.end});
+    }
+    nodes_[index] = node;
+  }
+
+  [[nodiscard]] uint32_t groupOf(uint32_t point) {
+    while (groups_[point] != point) point = groups_[point] = groups_[groups_[point]];
+    return point;
+  }
+
+  /// One round: the shortest edge of each group to another one.
+  void joinGroups() {
+    for (uint32_t i = 0; i < groups_.size(); ++i) groups_[i] = groupOf(i);
+    for (size_t index = nodes_.size(); index-- > 0;) {  // Children follow their parents.
+      PointNode& node = nodes_[index];
+      node.group = node.left == kNone ? groups_[node.begin] : nodes_[node.left].group;
+      if (node.left != kNone && nodes_[node.left + 1].group != node.group) node.group = kNone;
+      for (uint32_t i = node.begin; node.left == kNone && i < node.end; ++i)
+        if (groups_[i] != node.group) node.group = kNone;
+    }
+    std::vector<Edge> best(groups_.size());
+    const auto offer = [&](const Edge& edge) {
+      if (Edge& known = best[groups_[edge.from]]; edge.square < known.square) known = edge;
+    };
+    const auto isValid = [&](const Edge& edge) { return edge.to != kNone && groups_[edge.to] != groups_[edge.from]; };
+    for (const Edge& edge : nearest_)
+      if (isValid(edge)) offer(edge);
+    for (uint32_t i = 0; i < groups_.size(); ++i) {
+      // The nearest point of another group can only become farther from round to round.
+      Edge& edge = nearest_[i];
+      const double limit = best[groups_[i]].square, least = edge.from == kNone ? -1 : edge.square;
+      if (isValid(edge) || least >= limit) continue;
+      edge = nearestOfOthers(i, limit);
+      if (edge.to != kNone) offer(edge);
+    }
+    std::erase_if(best, [](const Edge& edge) { return edge.to == kNone; });
+    std::sort(best.begin(), best.end(), [](const Edge& a, const Edge& b) {
+      return a.square != b.square ? a.square < b.square : a.from < b.from;
+    });
+    for (const Edge& edge : best) {
+      const uint32_t a = groupOf(edge.from), b = groupOf(edge.to);
+      if (a == b) continue;  // Equally long edges may close a cycle.
+      groups_[std::max(a, b)] = std::min(a, b);
+      edges_.push_back({order_[edge.from], order_[edge.to]});
+    }
+  }
+
+  [[nodiscard]] static double squaredDistance(const Box3d& box, const Vec3d& p) {
+    double square = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
+      square += gap * gap;
+    }
+    return square;
+  }
+
+  /// Of a squared length below `limit`; else that limit, without an end.
+  [[nodiscard]] Edge nearestOfOthers(uint32_t i, double limit) const {
+    const Vec3d& p = points_[i];
+    Edge found{limit, i, kNone};
+    std::array<uint32_t, 64> stack;  // The depth is below 32: nodes are halved.
+    size_t stackSize = 0;
+    stack[stackSize++] = 0;
+    while (stackSize > 0) {
+      const PointNode& node = nodes_[stack[--stackSize]];
+      if (node.group == groups_[i] || !(squaredDistance(node.box, p) < found.square)) continue;
+      if (node.left == kNone) {
+        for (uint32_t j = node.begin; j < node.end; ++j) {
+          const Vec3d way = points_[j] - p;
+          if (groups_[j] != groups_[i] && dot(way, way) < found.square) found = {dot(way, way), i, j};
+        }
+        continue;
+      }
+      const bool leftFirst = squaredDistance(nodes_[node.left].box, p) < squaredDistance(nodes_[node.left + 1].box, p);
+      stack[stackSize++] = node.left + (leftFirst ? 1 : 0);
+      stack[stackSize++] = node.left + (leftFirst ? 0 : 1);
+    }
+    return found;
+  }
+
+  std::vector<uint32_t> order_;  ///< Point of the caller by the position in the tree; all other indices are positions.
+  std::vector<Vec3d> points_;
+  std::vector<PointNode> nodes_;
+  std::vector<uint32_t> groups_;  ///< Links of a disjoint-set forest; the groups themselves while edges are searched.
+  std::vector<Edge> nearest_;     ///< Where `to` is of the same group or kNone, `square` is a lower bound.
+  std::vector<std::array<uint32_t, 2>> edges_;
+};
+
+}  // namespace
+
+std::vector<std::array<uint32_t, 2>> minimumSpanningTree(std::span<const Vec3d> points) {
+  if (points.size() < 2) return {};
+  return SpanningTree(points).run();
+}
+
+}  // namespace asdfvk
