@@ -7,6 +7,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/random.h"
+#include "core/vec3.h"
 #include "written_file.h"
 
 using namespace asdfvk;

@@ -26,6 +26,7 @@ from .._errors import error_of
 from .._options import BackendOptions
 from .._scene import Scene
 from .._session import flag_of
+from ._normals import face_normals
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -62,10 +63,7 @@ def thickness(
     triangles = getattr(mesh, "vertices", mesh), getattr(mesh, "faces", None)
     with Scene(*triangles, orient="flip" if exterior else "keep", **options) as scene:
         if normals is None:
-            of_faces = _face_normals(mesh)
-            if len(of_faces) != scene.face_count:
-                raise error_of("arraySize", f"there are {len(of_faces)} normals and {scene.face_count} faces")
-            normals = of_faces[scene._opened.nearest_faces(places, None)]
+            normals = face_normals(mesh)[scene._opened.nearest_faces(places, None)]
         places, axes = pairs_array(places, normals)
         if exterior:
             axes = -axes
@@ -74,12 +72,3 @@ def thickness(
         else:  # One ray on the axis, which drops no hit by the direction of the face that it hits.
             values = scene.at(places, axes, rays=1, cone_angle=0.01, false_hit_angle=0).astype(np.float64)
     return np.where(np.isnan(values), np.inf, values)
-
-
-def _face_normals(mesh: Any) -> NDArray[np.float64]:
-    """Outwards, of any length; those of degenerate faces may be 0."""
-    if hasattr(mesh, "face_normals"):
-        return points_array(mesh.face_normals, "face_normals").astype(np.float64)
-    a, b, c = np.asarray(mesh.vertices, np.float64)[np.asarray(mesh.faces)].transpose(1, 0, 2)
-    normals: NDArray[np.float64] = np.cross(b - a, c - a)
-    return normals
