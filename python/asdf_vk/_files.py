@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import field_array, float_points, mesh_argument, polygon_arrays, values_array
 from ._errors import error_of
+from ._info import Info
 from ._session import flag_of
+from ._shown import texts_of
 
 Mesh = _core.Mesh
 
@@ -40,26 +42,68 @@ def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: Arra
 def write(
     path: str | os.PathLike[str],
     mesh: Any,
-    fields: Mapping[str, ArrayLike] | None = None,
-    *,
+    fields: Mapping[str, ArrayLike] | Info | None = None,
+    *further: Mapping[str, ArrayLike] | Info,
     vertex_fields: Mapping[str, ArrayLike] | None = None,
     format: str | None = "",
     ascii: bool | None = False,
+    labels: Sequence[str] | None = None,
+    picture_of: str | None = "",
 ) -> None:
-    """Writes fields, and in .ply, .vtu, .glb and .obj also the mesh. The file is replaced atomically.
+    """Writes results: data in .ply, .vtu, .glb, .obj, .npy, .npz, .csv, a page in .html, or a picture in .png.
 
     mesh: a Mesh, an object with `vertices` and `faces`, or a tuple of these two arrays.
-    fields, vertex_fields: arrays by name, per face and per vertex: (items,) or (items, 3). Info has them too. The
-        first field of real numbers is the quality and the colour of a .ply.
-    format: "ply", "obj", "glb", "vtu", "npy", "npz" or "csv"; empty: by the extension.
+    fields: a result of compute(), or arrays by name, per face: (items,) or (items, 3). The first field of real
+        numbers is the quality and the colour of a .ply.
+    further: more of them: a page shows several results of one mesh; the other formats hold one.
+    vertex_fields: arrays by name, per vertex; of an Info its own.
+    format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png"; empty: by the extension.
+    labels: of a page, the names of its results; by default their numbers.
+    picture_of: the field that a picture shows; empty: the segments, else the first field.
 
-    Raises OutputError, InputError, UsageError.
+    The file is replaced atomically. Raises OutputError, InputError, UsageError.
     """
     format = "" if format is None else format
     if not isinstance(format, str):
         raise error_of("optionOutOfRange", f"format={format!r} is not a string")
     argument = mesh_argument(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_argument(mesh)
-    _core.write(_path(path), argument, _arrays_of(fields), _arrays_of(vertex_fields), format, flag_of(ascii, "ascii"))
+    target = _path(path)
+    kind = (format or os.path.splitext(target)[1]).lower().removeprefix(".")
+    results = [{} if fields is None else fields, *further]
+    if kind == "html":
+        if vertex_fields:
+            raise error_of("optionConflict", "a page shows fields per face; drop vertex_fields")
+        _core.write_page(target, argument, _layers_of(results, labels, target, argument))
+        return
+    if labels is not None:
+        raise error_of("optionConflict", "labels name the results of a page (.html); drop them")
+    if len(results) > 1:
+        raise error_of("optionConflict", f"{target!r} holds one result and {len(results)} are given; a page (.html) "
+                       "shows several")
+    per_face, per_vertex = _arrays_of(results[0]), _arrays_of(vertex_fields)
+    if kind == "png":
+        if not isinstance(picture_of or "", str):
+            raise error_of("optionOutOfRange", f"picture_of={picture_of!r} is not the name of a field")
+        _core.write_picture(target, argument, per_face, picture_of or "")
+        return
+    if vertex_fields is None and isinstance(fields, Info):
+        per_vertex = _arrays_of(fields.vertex_fields)
+    _core.write(target, argument, per_face, per_vertex, format, flag_of(ascii, "ascii"))
+
+
+def _layers_of(
+    results: list[Mapping[str, ArrayLike] | Info], labels: Sequence[str] | None, path: str, mesh: Any
+) -> list[tuple[dict[str, NDArray[Any]], dict[str, object]]]:
+    name = "mesh" if path == "-" else os.path.splitext(os.path.basename(path))[0]
+    if labels is None:
+        labels = [f"{name}, result {i + 1}" for i in range(len(results))] if len(results) > 1 else [name]
+    if isinstance(labels, str) or len(labels) != len(results) or not all(isinstance(label, str) for label in labels):
+        raise error_of("optionConflict", f"labels={labels!r} are not {len(results)} strings, one for each result")
+    face_count = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
+    return [
+        (_arrays_of(result), texts_of(result if isinstance(result, Info) else None, name, label, face_count))
+        for result, label in zip(results, labels)
+    ]
 
 
 def write_points(
@@ -82,9 +126,11 @@ def write_points(
     _core.write_points(_path(path), fields)
 
 
-def _arrays_of(fields: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[Any]]:
+def _arrays_of(fields: Mapping[str, ArrayLike] | Info | None) -> dict[str, NDArray[Any]]:
     if fields is None:
         return {}
+    if isinstance(fields, Info):
+        fields = fields.fields
     if not hasattr(fields, "items"):
         raise error_of("optionOutOfRange", f"fields of type {type(fields).__name__} are no mapping of names to arrays")
     arrays = {}

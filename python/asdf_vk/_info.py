@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._report import Report
+from ._shown import table_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,6 +23,10 @@ class Info(Report):
     """Per vertex, with per="vertex"."""
     reversed_faces: NDArray[np.int64] = field(repr=False)
     """Faces whose orientation was reversed, ascending."""
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        return table_of(self)
 
     @property
     def seed(self) -> NDArray[np.uint8]:

@@ -16,6 +16,23 @@ std::vector<py::ssize_t> shapeOf(const Field& field) {
   return shape;
 }
 
+/// A field of the entries of an array of doubles, bytes or uint32, (items,) or (items, components).
+Field fieldOf(const std::string& name, const py::array& array, FieldLocation location) {
+  Field field{.name = name, .label = name, .unit = {}, .location = location, .componentCount = 1, .values = {}};
+  if (array.ndim() == 2) field.componentCount = static_cast<uint32_t>(array.shape(1));
+  const auto assign = [&]<typename T>(std::span<const T> entries) {
+    field.values = std::vector<T>(entries.begin(), entries.end());
+  };
+  if (py::isinstance<py::array_t<uint8_t>>(array)) {
+    assign(entriesOf<uint8_t>(array));
+  } else if (py::isinstance<py::array_t<uint32_t>>(array)) {
+    assign(entriesOf<uint32_t>(array));
+  } else {
+    assign(entriesOf<double>(array));
+  }
+  return field;
+}
+
 }  // namespace
 
 bool isFlag(const py::handle& object) {
@@ -67,6 +84,15 @@ py::array arrayOf(const Field& field, bool single) {
   }
   if (const auto* flags = std::get_if<std::vector<uint8_t>>(&field.values)) return convert(*flags, uint8_t{});
   return convert(std::get<std::vector<uint32_t>>(field.values), int32_t{});
+}
+
+std::vector<Field> fieldsOf(const py::dict& perFace, const py::dict& perVertex) {
+  std::vector<Field> fields;
+  for (const auto& [name, array] : perFace)
+    fields.push_back(fieldOf(name.cast<std::string>(), array.cast<py::array>(), FieldLocation::PerFace));
+  for (const auto& [name, array] : perVertex)
+    fields.push_back(fieldOf(name.cast<std::string>(), array.cast<py::array>(), FieldLocation::PerVertex));
+  return fields;
 }
 
 }  // namespace asdfvk::python

@@ -33,6 +33,10 @@ template <typename T>
   return array;
 }
 
+/// The fields of dictionaries of names and arrays of doubles, bytes or uint32, (items,) or (items, components). Throws
+/// as entriesOf().
+[[nodiscard]] std::vector<Field> fieldsOf(const pybind11::dict& perFace, const pybind11::dict& perVertex);
+
 /// The numbers as float32. Errors: see requireSingles().
 [[nodiscard]] pybind11::array_t<float> singles(std::span<const double> numbers, const std::string& name);
 

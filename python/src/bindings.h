@@ -7,6 +7,11 @@ namespace asdfvk::python {
 /// Mesh, readers and writers.
 void bindFiles(pybind11::module_& module);
 
+/// Adds write_picture(path, mesh, fields, name), name: of the field or empty for the first one, and write_page(path,
+/// mesh, layers), layers: pairs of fields and of texts with the keys name, label, summary, error_sentence, warnings,
+/// defects.
+void bindShown(pybind11::module_& module);
+
 /// ComputedFields, Session and Scene.
 void bindScenes(pybind11::module_& module);
 

@@ -91,6 +91,7 @@ PYBIND11_MODULE(_core, module) {
   });
   module.def("devices", devices);
   bindFiles(module);
+  bindShown(module);
   bindScenes(module);
   bindCgal(module);
   Py_AtExit(stopAtExit);
