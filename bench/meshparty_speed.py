@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares asdf_vk.compat.meshparty with MeshParty's definition in NumPy: values, and CPU seconds on one core.
 
-    PYTHONPATH=build/develop/python bench/meshparty_speed.py [--generate build/develop/src/asdf-vk-generate] [--points 150]
+    PYTHONPATH=build/develop/python bench/meshparty_speed.py [--generate build/develop/src/asdf-vk-generate] [--points 400]
 
 Ten generated meshes of about 4,000 faces, 200 units large. The values are those of python/tests/meshparty_oracle.py, a loop
 over vertices with rays against all triangles. MeshParty leaves its rays to Embree, so the rest of the definition is timed by
@@ -49,7 +49,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--generate", default=str(ROOT / "build/develop/src/asdf-vk-generate"))
     parser.add_argument("--faces", type=int, default=4000)
-    parser.add_argument("--points", type=int, default=150, help="vertices of each mesh")
+    parser.add_argument("--points", type=int, default=400, help="vertices of each mesh")
     given = parser.parse_args()
     session = asdf_vk.Session(backend="cpu", threads=1)
     print("mesh       faces  NaN  | median and greatest difference: ours     | of the noise          |"
