@@ -90,6 +90,8 @@ def main():
     image = QtGui.QApplication.primaryScreen().grabWindow(int(window.winId()))
     image.save(str(picture))
     checks.picture(picture)
+    document.undo()
+    checks.that("undo removes the result", [o.Name for o in document.Objects] == ["Bracket"])
     panel.reject()
     checks.that("the panel closes", not FreeCADGui.Control.activeDialog())
 

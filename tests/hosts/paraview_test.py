@@ -95,15 +95,18 @@ view.UseColorPaletteForBackground = 0
 view.OrientationAxesVisibility = 0
 shown = Show(walls_filter, view)
 ColorBy(shown, ("CELLS", "least_thickness"))
+shown.Ambient, shown.Diffuse = 0.35, 0.7
 table = GetColorTransferFunction("least_thickness")
 table.ApplyPreset("Viridis (matplotlib)", True)
 table.RescaleTransferFunction(0.6, 4)
 shown.SetScalarBarVisibility(view, True)
 bar = GetScalarBar(table, view)
-bar.Title, bar.ComponentTitle = "least_thickness", ""
+bar.Title, bar.ComponentTitle, bar.RangeLabelFormat = "least_thickness", "", "%.1f"
+bar.WindowLocation = "Upper Right Corner"
 bar.TitleColor = bar.LabelColor = [0, 0, 0]
-view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [30, -28, 26], [0, 0, 0], [0, 0, 1]
+view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [34, -16, 22], [0, 0, 0], [0, 0, 1]
 ResetCamera(view)
+GetActiveCamera().Zoom(1.25)
 SaveScreenshot(str(picture), view, ImageResolution=[1000, 640], CompressionLevel="9")
 checks.picture(picture)
 checks.finish()
