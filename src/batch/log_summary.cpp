@@ -34,6 +34,45 @@ std::string spreadText(const Spread& spread, double factor, const char* unit) {
                      factor * spread.median, factor * spread.percentile90, factor * spread.max, unit);
 }
 
+/// The names and texts of a row of the table.
+using Cells = std::vector<std::pair<std::string, std::string>>;
+
+/// The members of the record that are columns. An object without a value is left out: another mesh may have its
+/// members.
+Json rowOf(const MeshRecord& mesh) {
+  Json row = mesh;
+  row["warnings"] = joined(mesh.warnings, " ");
+  for (const char* key : {"inputHash", "optionsHash", "outputHash", "options"}) row.erase(key);
+  for (const char* key : {"sdf", "thickness", "parts", "estimatedError"})
+    if (const Json& values = row.at(key);
+        std::all_of(values.begin(), values.end(), [](const Json& value) { return value.is_null(); }))
+      row.erase(key);
+  return row;
+}
+
+/// A cell of a text has quotes where it needs them.
+std::string cellText(const Json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return value.dump();
+  const auto& text = value.get_ref<const std::string&>();
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + "\"";
+}
+
+void addCells(const Json& object, const std::string& prefix, Cells& cells) {
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object()) {
+      addCells(value, prefix + key + ".", cells);
+    } else if (!value.is_array()) {
+      cells.emplace_back(prefix + key, cellText(value));
+    }
+  }
+}
+
+constexpr size_t kNamedInputs = 3;  ///< Inputs that the text names for each warning.
+
 }  // namespace
 
 Spread spreadOf(std::vector<double> numbers) {
@@ -61,12 +100,13 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
 
   std::vector<double> seconds, errors;
   std::map<std::string, double> stages;
-  std::map<std::string, uint64_t> warnings, devices;
+  std::map<std::string, uint64_t> devices;
+  std::map<std::string, std::vector<std::string>> warnings;
   std::map<std::tuple<MeshStatus, int, std::string>, FailureGroup> failures;
   for (const MeshRecord& mesh : summary.meshes) {
     ++summary.statusCounts[mesh.status];
     summary.peakMemoryBytes = std::max(summary.peakMemoryBytes, mesh.peakMemoryBytes);
-    for (const std::string& warning : mesh.warnings) ++warnings[warning];
+    for (const std::string& warning : mesh.warnings) warnings[warning].push_back(mesh.input);
     if (!mesh.device.empty()) ++devices[mesh.device];
     if (!isComputed(mesh)) {
       FailureGroup& group = failures[{mesh.status, mesh.code, mesh.error}];
@@ -87,7 +127,9 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   for (auto& [key, group] : failures) summary.failures.push_back(std::move(group));
   std::stable_sort(summary.failures.begin(), summary.failures.end(),
                    [](const auto& a, const auto& b) { return a.count > b.count; });
-  summary.warnings = descending(warnings);
+  for (auto& [code, inputs] : warnings) summary.warnings.push_back({code, inputs.size(), std::move(inputs)});
+  std::stable_sort(summary.warnings.begin(), summary.warnings.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
   summary.devices = descending(devices);
   return summary;
 }
@@ -117,8 +159,13 @@ std::string textOf(const LogSummary& summary) {
     row("error", "estimated average of each mesh: " + spreadText(summary.averageErrors, 100, " % of its range"));
   for (const auto& [device, count] : summary.devices)
     row("device", fmt::format("{}: {}", device, counted(count, "mesh", "meshes")));
-  for (const auto& [warning, count] : summary.warnings)
-    row("warning", fmt::format("{}: {}", warning, counted(count, "mesh", "meshes")));
+  for (const WarningGroup& warning : summary.warnings) {
+    std::string names = warning.inputs.front();
+    for (size_t i = 1; i < std::min(warning.inputs.size(), kNamedInputs); ++i) names += ", " + warning.inputs[i];
+    if (warning.inputs.size() > kNamedInputs)
+      names += fmt::format(" and {} more", groupDigits(warning.inputs.size() - kNamedInputs));
+    row("warning", fmt::format("{}: {}; {}", warning.code, counted(warning.count, "mesh", "meshes"), names));
+  }
   for (const FailureGroup& group : summary.failures)
     row(nameOf(group.status),
         fmt::format("code {} {}: {}; {}: {}", group.code, group.error, counted(group.count, "mesh", "meshes"),
@@ -139,30 +186,37 @@ std::string jsonOf(const LogSummary& summary) {
   json["seconds"] = summary.seconds;
   json["averageError"] = summary.averageErrors;
   json["peakMemoryBytes"] = summary.peakMemoryBytes;
-  for (const char* key : {"stageSeconds", "devices", "warnings"}) json[key] = Json::object();
+  for (const char* key : {"stageSeconds", "devices"}) json[key] = Json::object();
   for (const auto& [stage, seconds] : summary.stageSeconds) json["stageSeconds"][stage] = seconds;
   for (const auto& [device, count] : summary.devices) json["devices"][device] = count;
-  for (const auto& [warning, count] : summary.warnings) json["warnings"][warning] = count;
+  json["warnings"] = summary.warnings;
   json["failures"] = summary.failures;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string csvOf(const LogSummary& summary) {
-  std::string table =
-      "input,status,code,error,faces,seconds,peak_memory_bytes,average_error,segments,warnings,backend,device,"
-      "message\n";
-  const auto quoted = [](const std::string& text) {
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-    return cell + "\"";
-  };
-  const auto numberOf = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
-  for (const MeshRecord& mesh : summary.meshes)
-    table += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(mesh.input), nameOf(mesh.status), mesh.code,
-                         mesh.error, numberOf(mesh.faceCount), mesh.totalSeconds, mesh.peakMemoryBytes,
-                         numberOf(averageErrorOf(mesh)), numberOf(mesh.segmentCount), joined(mesh.warnings, " "),
-                         mesh.backend, quoted(mesh.device), quoted(mesh.message));
-  return table;
+  std::vector<Cells> rows;
+  Json all = Json::object();  // Which keys there are.
+  for (const MeshRecord& mesh : summary.meshes) {
+    const Json row = rowOf(mesh);
+    all.update(row, true);
+    addCells(row, "", rows.emplace_back());
+  }
+  if (rows.empty()) all = rowOf({});
+  Cells columns;
+  addCells(all, "", columns);
+  std::string table;
+  for (const auto& [name, ignored] : columns) table += (table.empty() ? "" : ",") + name;
+  for (const Cells& row : rows) {
+    const std::map<std::string, std::string> cellOf(row.begin(), row.end());
+    char separator = '\n';
+    for (const auto& [name, ignored] : columns) {
+      const auto cell = cellOf.find(name);
+      table += separator + (cell == cellOf.end() ? "" : cell->second);
+      separator = ',';
+    }
+  }
+  return table + "\n";
 }
 
 }  // namespace asdfvk

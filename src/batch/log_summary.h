@@ -29,6 +29,15 @@ struct FailureGroup {
 
 ASDFVK_JSON(FailureGroup, status, code, error, count, exampleInput, exampleMessage)
 
+/// The meshes that have a warning.
+struct WarningGroup {
+  std::string code;
+  uint64_t count = 0;
+  std::vector<std::string> inputs;  ///< Of all of them.
+};
+
+ASDFVK_JSON(WarningGroup, code, count, inputs)
+
 /// Counts, times and failures from the logs of a batch. If a mesh has several records, the one with the latest time
 /// counts; of equal times, or without times, the last one.
 struct LogSummary {
@@ -40,7 +49,7 @@ struct LogSummary {
   uint64_t peakMemoryBytes = 0;   ///< The greatest.
   std::vector<std::pair<std::string, double>> stageSeconds;  ///< Sums, descending.
   std::vector<FailureGroup> failures;                        ///< By descending count.
-  std::vector<std::pair<std::string, uint64_t>> warnings;    ///< Meshes with a warning, by its code.
+  std::vector<WarningGroup> warnings;                        ///< By descending count.
   std::vector<std::pair<std::string, uint64_t>> devices;     ///< Meshes by device.
   std::vector<MeshRecord> meshes;                            ///< The last record of each, by input.
 };
@@ -51,7 +60,9 @@ struct LogSummary {
 [[nodiscard]] std::string textOf(const LogSummary& summary);
 /// One document.
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
-/// A table with a row for each mesh, after a row of names (RFC 4180). Warnings of a mesh are separated by spaces.
+/// A table with a row for each mesh, after a row of names (RFC 4180): the keys of the records without options and
+/// hashes. The keys of an object follow its own after a dot, "sdf.median". Keys of an object that no mesh has are left
+/// out. Warnings of a mesh are separated by spaces.
 [[nodiscard]] std::string csvOf(const LogSummary& summary);
 
 }  // namespace asdfvk

@@ -34,14 +34,15 @@ struct MeshRecord {
   std::string time;
   std::optional<std::string> output;               ///< Unset where no output was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of each; empty where unknown.
-  std::optional<uint64_t> faceCount;               ///< Input faces.
-  Json options;                                    ///< The key "options" of the JSON report.
+  /// Keys of the JSON report, without lists of places; null or unset where unknown.
+  std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
+  std::optional<uint32_t> segmentCount;
+  std::string unit;
+  Json sdf, thickness, parts, estimatedError, options;
   std::string version, commit, device, backend;
   std::map<std::string, double> seconds;  ///< Time of each stage that ran.
   double totalSeconds = 0;                ///< From the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
-  Json estimatedError;  ///< The key of the JSON report.
-  std::optional<uint32_t> segmentCount;
   std::vector<std::string> warnings;  ///< The codes of the warnings.
   MeshStatus status = MeshStatus::Done;
   int code = 0;         ///< The exit code of this mesh.
@@ -64,9 +65,10 @@ struct MeshRecord {
 
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
-ASDFVK_JSON(MeshRecord, input, output, time, status, code, error, message, inputHash, optionsHash, outputHash,
-            faceCount, version, commit, device, backend, seconds, totalSeconds, peakMemoryBytes, estimatedError,
-            segmentCount, warnings, options)
+ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
+            noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, totalSeconds, seconds,
+            peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
+            options)
 
 /// A file with one record per line. Several threads and several processes may append to it. Each line is written by one
 /// write(), so that a killed process leaves at most one incomplete line. The next append() of any process ends that

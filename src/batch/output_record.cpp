@@ -8,6 +8,7 @@
 
 #include "batch/content_hash.h"
 #include "core/atomic_file.h"
+#include "io/formats.h"
 
 namespace asdfvk {
 
@@ -22,6 +23,14 @@ bool haveSameOrigin(const MeshRecord& a, const MeshRecord& b) {
 bool isSamePath(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   return fs::absolute(a, ignored).lexically_normal() == fs::absolute(b, ignored).lexically_normal();
+}
+
+/// The hash of an output; of one with a second file, of the hashes of both.
+std::optional<std::string> outputHashOf(const fs::path& output) {
+  std::optional<std::string> hash = contentHashOf(output);
+  const std::optional<std::string> beside = hash ? contentHashOf(besidePathOf(output)) : std::nullopt;
+  if (beside) hash = contentHash(*hash + *beside);
+  return hash;
 }
 
 }  // namespace
@@ -45,7 +54,7 @@ std::optional<MeshRecord> readOutputRecord(const fs::path& output) {
 std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const fs::path& output) {
   std::optional<MeshRecord> record = readOutputRecord(output);
   if (!record || record->code != 0 || !haveSameOrigin(*record, expected) || record->outputHash.empty() ||
-      contentHashOf(output) != record->outputHash)
+      outputHashOf(output) != record->outputHash)
     return std::nullopt;
   record->input = expected.input;
   record->output = output.string();
@@ -60,8 +69,9 @@ void removeOutputRecord(const fs::path& output) {
 
 void removeOutput(const MeshRecord& record, const fs::path& output) {
   std::error_code ignored;
-  if (record.outputHash.empty() || contentHashOf(output) != record.outputHash) return;
+  if (record.outputHash.empty() || outputHashOf(output) != record.outputHash) return;
   removeOutputRecord(output);
+  fs::remove(besidePathOf(output), ignored);
   fs::remove(fs::canonical(output, ignored), ignored);
 }
 
@@ -72,7 +82,7 @@ void removeOutdatedOutput(const MeshRecord& old, const MeshRecord& failed, const
 
 void writeOutputRecord(MeshRecord& record, const fs::path& output) {
   if (!hasOutputRecord(output)) return;
-  record.outputHash = contentHashOf(output).value_or("");
+  record.outputHash = outputHashOf(output).value_or("");
   AtomicFile file(outputRecordPath(output));
   file.write(toJsonLine(record) + "\n");
   file.commit();

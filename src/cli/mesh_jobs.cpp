@@ -16,15 +16,31 @@
 namespace asdfvk {
 namespace {
 
+/// The object of a report without its lists, which may be long.
+Json withoutLists(Json object) {
+  Json kept;
+  for (auto& [key, value] : object.items())
+    if (!value.is_array()) kept[key] = value.is_object() ? withoutLists(std::move(value)) : std::move(value);
+  return kept;
+}
+
 void fillRecord(MeshRecord& record, const Report& report) {
+  const Json json = toJson(report);
+  record.sdf = json.at("sdf");
+  record.thickness = withoutLists(json.at("thickness"));
+  record.parts = withoutLists(json.at("parts"));
+  record.estimatedError = withoutLists(json.at("estimatedError"));
   record.faceCount = report.faceCount;
+  record.vertexCount = report.vertexCount;
+  record.componentCount = report.componentCount;
+  record.noValueCount = report.noValueCount;
+  record.segmentCount = report.segmentCount;
+  record.unit = report.unit;
   record.device = report.device;
   record.backend = report.backend;
   for (size_t i = 0; i < kStageCount; ++i)
     if (const double seconds = report.stageSeconds.seconds[i]; seconds > 0)
       record.seconds[nameOf(static_cast<Stage>(i))] = seconds;
-  record.estimatedError = toJson(report).at("estimatedError");
-  record.segmentCount = report.segmentCount;
   for (const Warning& warning : report.warnings) record.warnings.emplace_back(nameOf(warning.code));
 }
 

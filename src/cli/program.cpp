@@ -54,7 +54,8 @@ MeshSettings settingsOf(const CommandLine& line) {
 /// asdf-vk summarize LOG.jsonl...; arguments: those after the command.
 ExitCode summarize(const std::vector<std::string>& arguments) {
   std::vector<std::string> logs;
-  std::string format = "text";
+  std::string format;
+  bool isJson = false;
   ArgumentParser parser(
       "asdf-vk summarize",
       "Summarises the logs of batches: times, estimated errors, failures by code. Of several records "
@@ -70,13 +71,16 @@ ExitCode summarize(const std::vector<std::string>& arguments) {
         .placeholder = "text|json|csv",
         .text = "text: a summary; json: the same as one document; csv: a table with a row per mesh",
         .receive = into(format)},
-       {.names = "--json", .text = "The same as --format json", .receive = [&format](const Argument::Values&) {
-          format = "json";
+       {.names = "--json", .text = "The same as --format json", .receive = [&isJson](const Argument::Values&) {
+          isJson = true;
         }}});
   if (const std::string answer = parser.parse(arguments); !answer.empty()) {
     writeStandardOutput(answer);
     return ExitCode::Done;
   }
+  if (isJson && !format.empty() && format != "json")
+    refuseOptions(fmt::format("--json and --format {} contradict each other; drop one", format));
+  if (format.empty()) format = isJson ? "json" : "text";
   if (format != "text" && format != "json" && format != "csv")
     throw Error(ErrorCode::UnknownName, fmt::format("--format: '{}' is not one of text|json|csv", format));
   std::vector<MeshRecord> records;

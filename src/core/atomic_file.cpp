@@ -193,16 +193,31 @@ void AtomicFile::flush() {
   used_ = 0;
 }
 
-void AtomicFile::commit() {
+/// A full network disk may report its error only at the close.
+void AtomicFile::close() {
+  if (descriptor_ < 0) return;
   flush();
   const int descriptor = std::exchange(descriptor_, -1);
-  if (isStandardOutput_) return;
-  // A full network disk may report its error only at the close.
-  if (::close(descriptor) != 0 || (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)) {
-    failAndRemove(errno);
-  }
+  if (!isStandardOutput_ && ::close(descriptor) != 0) failAndRemove(errno);
+}
+
+void AtomicFile::commit() {
+  close();
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) failAndRemove(errno);
   withdrawTemporary();
   temporary_.clear();
+}
+
+void AtomicFile::commitBoth(AtomicFile& first, AtomicFile& second) {
+  first.close();
+  second.close();
+  first.commit();
+  try {
+    second.commit();
+  } catch (...) {
+    ::unlink(first.target_.c_str());
+    throw;
+  }
 }
 
 void AtomicFile::failAndRemove(int errorNumber) {

@@ -40,6 +40,10 @@ class AtomicFile {
   /// Writes the remaining bytes and renames the file to its target.
   void commit();
 
+  /// Commits two files. Both are complete on the disk before the first is renamed; where the second then cannot be
+  /// renamed, the first is removed.
+  static void commitBoth(AtomicFile& first, AtomicFile& second);
+
   static constexpr size_t kMaxReserve = size_t{1} << 16;
 
  private:
@@ -49,6 +53,7 @@ class AtomicFile {
   void announceTemporary();
   void withdrawTemporary() noexcept;
   void flush();
+  void close();
   void closeAndRemove() noexcept;
   [[noreturn]] void failAndRemove(int errorNumber);
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;

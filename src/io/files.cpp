@@ -121,6 +121,8 @@ Mesh readMesh(const std::filesystem::path& path) {
   return readMesh(path, [](std::span<const char>) {});
 }
 
+std::filesystem::path besidePathOf(const std::filesystem::path& path) { return path.string() + ".mtl"; }
+
 std::vector<std::string> meshFormats() { return namesOf(isMeshFormat); }
 std::vector<std::string> meshExtensions() {
   std::vector<std::string> extensions;
@@ -147,15 +149,15 @@ void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::s
       path != "-" && (std::filesystem::is_regular_file(path, ignored) || !std::filesystem::exists(path, ignored));
   std::optional<AtomicFile> beside;
   if (format.needsBeside != nullptr && isNamed && format.needsBeside(result)) {
-    const std::filesystem::path besidePath = path.string() + ".mtl";
+    const std::filesystem::path besidePath = besidePathOf(path);
     result.setBesideName(besidePath.filename().string());
     beside.emplace(besidePath);
     format.writeBeside(*beside, result);
   }
   AtomicFile file(path);
   format.write(file, result);
-  if (beside) beside->commit();  // First: the other file refers to it.
-  file.commit();
+  if (!beside) return file.commit();
+  AtomicFile::commitBoth(*beside, file);  // The second refers to the first.
 }
 
 }  // namespace asdfvk

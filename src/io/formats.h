@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -33,12 +34,15 @@ struct FileFormat {
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
-  /// Writes a second file, PATH.mtl, to which the first refers by ResultView::besideName(); null for a format without
-  /// one. It is written where needsBeside(result) is true and the first is a file with a name.
+  /// Writes a second file, besidePathOf(), to which the first refers by ResultView::besideName(); null for a format
+  /// without one. It is written where needsBeside(result) is true and the first is a file with a name.
   void (*writeBeside)(AtomicFile& file, const ResultView& result) = nullptr;
   bool (*needsBeside)(const ResultView& result) = nullptr;
   bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
 };
+
+/// "horse.obj.mtl": the second file of the result "horse.obj".
+[[nodiscard]] std::filesystem::path besidePathOf(const std::filesystem::path& path);
 
 /// The table of formats, in the order of detection.
 [[nodiscard]] std::span<const FileFormat* const> fileFormats();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 
 namespace asdfvk {
 namespace {
@@ -96,21 +97,70 @@ TEST_CASE("the summary has counts and failures") {
   CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures").size(), 2);
 }
 
-TEST_CASE("the table has a row for each mesh, with commas and quotes in quotes") {
-  MeshRecord record = recordOf("a,\"b\".ply", MeshStatus::Done, 0.5);
-  record.warnings = {"openComponents", "coarseParts"};
-  record.segmentCount = 3;
-  const std::string table = csvOf(summarizeRecords({record, recordOf("z", MeshStatus::Failed, 1, 2)}, 0));
-  const size_t end = table.find('\n');
-  CHECK(table.starts_with("input,status,code,error,faces,seconds,"));
-  CHECK_EQ(table.substr(end + 1),
-           "\"a,\"\"b\"\".ply\",done,0,,100,0.5,0,0.01,3,openComponents coarseParts,,\"a device\",\"\"\n"
-           "\"z\",failed,2,unreadableInput,100,1,0,0.01,,,,\"a device\",\"<broken> & \"\"quoted\"\", with a comma\"\n");
+/// The cells of a column without commas in its cells.
+std::vector<std::string> columnOf(const std::string& table, const std::string& name) {
+  std::istringstream lines(table);
+  std::vector<std::string> column;
+  size_t index = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream fields(line);
+    for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
+    if (column.empty()) index = static_cast<size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin());
+    column.push_back(index < cells.size() ? cells[index] : "");
+  }
+  return column;
+}
+
+TEST_CASE("the table has a row for each mesh, with the keys of the records") {
+  MeshRecord walls = recordOf("a", MeshStatus::Done, 0.5), parts = recordOf("b", MeshStatus::Done, 0.5);
+  walls.vertexCount = 50;
+  walls.sdf = {{"min", nullptr}, {"median", nullptr}};  // Not measured.
+  walls.thickness = {{"verdict", "failed"}, {"min", 0.5}, {"unjudged", {{"openCount", 3}}}, {"minPlace", {1, 2, 3}}};
+  walls.warnings = {"openComponents", "coarseParts"};
+  parts.segmentCount = 3;
+  parts.sdf = {{"min", 0.25}, {"median", 2.5}};
+  MeshRecord failed = recordOf("z", MeshStatus::Failed, 1, 2);
+  failed.message = "cannot be read";
+  const std::string table = csvOf(summarizeRecords({walls, parts, failed}, 0));
+  using Column = std::vector<std::string>;
+  CHECK(table.starts_with("input,status,code,error,message,warnings,faceCount,vertexCount,"));
+  for (const Column& column :
+       {Column{"vertexCount", "50", "", ""}, Column{"sdf.min", "", "0.25", ""}, Column{"sdf.median", "", "2.5", ""},
+        Column{"thickness.min", "0.5", "", ""}, Column{"thickness.verdict", "failed", "", ""},
+        Column{"thickness.unjudged.openCount", "3", "", ""}, Column{"warnings", "openComponents coarseParts", "", ""},
+        Column{"segmentCount", "", "3", ""}, Column{"seconds.trace", "0.25", "0.25", "0.5"}})
+    CHECK_EQ(columnOf(table, column.front()), column);
+  for (const char* absent : {"minPlace", "optionsHash", "options"}) CHECK_EQ(table.find(absent), std::string::npos);
+}
+
+TEST_CASE("the table has texts with commas, quotes and line ends in quotes") {
+  const std::string table = csvOf(
+      summarizeRecords({recordOf("a,\"b\"\n.ply", MeshStatus::Done, 0.5), recordOf("z", MeshStatus::Failed, 1, 2)}, 0));
+  CHECK_NE(table.find("\n\"a,\"\"b\"\"\n.ply\",done,0,,,,100,"), std::string::npos);
+  CHECK_NE(table.find("\nz,failed,2,unreadableInput,\"<broken> & \"\"quoted\"\", with a comma\","), std::string::npos);
+}
+
+TEST_CASE("the summary names the meshes of each warning") {
+  std::vector<MeshRecord> records;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    records.push_back(recordOf(name, MeshStatus::Done, 1));
+    records.back().warnings = {"coarseParts"};
+  }
+  records.front().warnings.emplace_back("thinShell");
+  const LogSummary summary = summarizeRecords(records, 0);
+  const std::string text = textOf(summary);
+  CHECK_NE(text.find("\nwarning   coarseParts: 4 meshes; a, b, c and 1 more\n"), std::string::npos);
+  CHECK_NE(text.find("\nwarning   thinShell: 1 mesh; a\n"), std::string::npos);
+  const auto warnings = nlohmann::json::parse(jsonOf(summary)).at("warnings");
+  CHECK_EQ(warnings[0].at("inputs").size(), 4);
+  CHECK_EQ(warnings[1].at("code").get<std::string>(), "thinShell");
 }
 
 TEST_CASE("an empty log has a summary") {
   const LogSummary summary = summarizeRecords({}, 0);
   CHECK_FALSE(textOf(summary).empty());
+  CHECK(csvOf(summary).starts_with("input,status,"));
 }
 
 }  // namespace

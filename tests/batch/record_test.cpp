@@ -157,6 +157,23 @@ TEST_CASE("an output is finished only with its own record and its own bytes") {
   CHECK_FALSE(findFinishedOutput(expected, output).has_value());
 }
 
+TEST_CASE("an output with a file of materials is finished only with that file") {
+  const ScratchFolder folder;
+  const std::string output = folder.write("a.obj", "mtllib a.obj.mtl");
+  folder.write("a.obj.mtl", "colours");
+  MeshRecord record = sampleRecord();
+  record.code = 0;
+  writeOutputRecord(record, output);
+  CHECK(findFinishedOutput(record, output).has_value());
+  folder.write("a.obj.mtl", "colours of another run");
+  CHECK_FALSE(findFinishedOutput(record, output).has_value());
+  std::filesystem::remove(folder / "a.obj.mtl");
+  CHECK_FALSE(findFinishedOutput(record, output).has_value());
+  folder.write("a.obj.mtl", "colours");
+  removeOutput(record, output);
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("an old output is removed only where it is known to be out of date") {
   const ScratchFolder folder;
   const std::string output = folder.write("a.asdf.ply", "values");

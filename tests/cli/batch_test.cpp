@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -37,6 +38,10 @@ TEST_CASE("a tree of meshes gives a tree of results, a record of each, and exit 
     CHECK_EQ(record.at("message").get<std::string>().empty(), isDone);
     if (!isDone) continue;
     CHECK_GT(record.at("faceCount").get<int>(), 0);
+    CHECK_GT(record.at("vertexCount").get<int>(), 0);
+    CHECK_EQ(record.at("componentCount").get<int>(), 1);
+    CHECK_GT(record.at("sdf").at("median").get<double>(), 0);
+    CHECK(record.at("thickness").is_null());
     CHECK_EQ(record.at("inputHash").get<std::string>().size(), 32);
     CHECK_GT(record.at("totalSeconds").get<double>(), 0);
     CHECK_GT(record.at("seconds").at("trace").get<double>(), 0);
@@ -176,10 +181,17 @@ TEST_CASE("summarize counts the last record of each mesh, as text and JSON") {
   CHECK_EQ(text.exitCode, 0);
   CHECK(text.output.find("11: 9 skipped, 2 failed") != std::string::npos);
   CHECK(text.output.find("code 2 ") != std::string::npos);
-  const Json json = Json::parse(runAsdf({"summarize", tree / "log", "--json"}).output);
+  const auto json = nlohmann::ordered_json::parse(runAsdf({"summarize", tree / "log", "--json"}).output);
   CHECK_EQ(json.at("meshCount").get<int>(), 11);
   CHECK_EQ(json.at("recordCount").get<int>(), 22);
   CHECK_EQ(json.at("failedCount").get<int>(), 2);
+  const std::string table = runAsdf({"summarize", tree / "log", "--format", "csv"}).output;
+  CHECK_EQ(std::count(table.begin(), table.end(), '\n'), 12);
+  CHECK_NE(table.find(",sdf.median,"), std::string::npos);
+  CHECK_EQ(table.find(",thickness.min,"), std::string::npos);
+  CHECK(runAsdf({"summarize", tree / "log", "--format", "json", "--json"}).output == json.dump(2) + "\n");
+  checkFailure(runAsdf({"summarize", tree / "log", "--format", "csv", "--json"}), 1,
+               "--json and --format csv contradict each other");
   checkFailure(runAsdf({"summarize", tree / "missing"}), 2, "missing");
   checkFailure(runAsdf({"summarize"}), 1, "summarize --help");
 }

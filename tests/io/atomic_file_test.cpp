@@ -78,6 +78,28 @@ TEST_CASE("without a commit the old file stays and the temporary goes") {
   CHECK(folder.names() == std::vector<std::string>{"out.ply"});
 }
 
+TEST_CASE("of two files both are replaced, or none is left half") {
+  const Folder folder;
+  const auto writeBoth = [&] {
+    AtomicFile first(folder / "out.mtl"), second(folder / "out.obj");
+    first.write("colours");
+    second.write("faces");
+    AtomicFile::commitBoth(first, second);
+  };
+  writeBoth();
+  CHECK(contentOf(folder / "out.mtl") == "colours");
+  CHECK(contentOf(folder / "out.obj") == "faces");
+  for (const std::string& name : folder.names()) std::filesystem::remove(folder / name);
+  const auto writeInto = [&] {
+    AtomicFile first(folder / "out.mtl"), second(folder / "out.obj");
+    std::filesystem::create_directory(folder / "out.obj");  // No file can be renamed to it.
+    AtomicFile::commitBoth(first, second);
+  };
+  std::string message;
+  CHECK(kindOf(writeInto, message) == ErrorKind::Output);
+  CHECK(folder.names() == std::vector<std::string>{"out.obj"});
+}
+
 TEST_CASE("a write that the system refuses leaves the old file and no temporary") {
   const Folder folder;
   putContent(folder / "out.ply", "old");
