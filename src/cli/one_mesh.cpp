@@ -178,15 +178,17 @@ class MeshFiles {
 /// Adds warnings, reports and failed checks of a result that is written.
 void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   const Report& report = outcome.result.report;
+  const bool showsReport = !outcome.outputs.quiet && !isOfBatch;
   run.hasResult = true;
-  if (!outcome.outputs.quiet && !isOfBatch) {
+  if (showsReport) {
     for (const Warning& warning : report.warnings) run.text += warningLine(outcome.mesh, textWarning(warning));
     run.text += textReport(outcome);
   }
   if (outcome.outputs.json) run.json += jsonReport(outcome);
   run.report = report;
   for (Failure& failure : failedChecks(outcome.computation, report)) {
-    run.text += errorLine(outcome.mesh, failure.message);
+    // The first line of a shown report is the verdict on the thickness already.
+    if (!showsReport || failure.name == "checkFailed") run.text += errorLine(outcome.mesh, failure.message);
     if (!run.failure) run.failure = std::move(failure);
   }
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "asdf_vk/error.h"
 #include "core/length_unit.h"
 #include "core/text.h"
 
@@ -89,6 +90,12 @@ bool readMaxError(void* target, const OptionValue& value) {
   const auto* number = std::get_if<double>(&value);
   const std::optional<double> share = number != nullptr ? std::optional(*number) : shareIn(text);
   if (!share || !(*share > 0 && *share < 1)) return false;
+  constexpr double kLeastPercentage = 0.1;  // Without %, 0.5 is more likely to mean 0.5 % than half of the range.
+  if (number == nullptr && !text.ends_with('%') && *share >= kLeastPercentage) {
+    const char* const suffix = isRelative ? kRelative.data() : "";
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("'{0}{2}' has no %; write {0}%{2} or {1:g}%{2}", text, 100 * *share, suffix));
+  }
   RoundOptions& rounds = optionsOf(target).rounds;
   (isRelative ? rounds.maxRelativeError : rounds.maxError) = *share;
   return true;
@@ -172,7 +179,8 @@ const std::array kComputationRows{
                       "the median of error / value is; starts with 2% or --seeds",
               .more = "Compared is the estimate plus 1.5 standard errors. With `rel` half of the faces are within E of "
                       "their value, whatever the range is ([accuracy.md](accuracy.md)); fulfilled where half of the "
-                      "faces cast rays. Excludes `--no-estimate` and `--seeds all`.",
+                      "faces cast rays. A text from 0.1 without `%` is refused: `0.5` may mean 0.5% or 50%. Excludes "
+                      "`--no-estimate` and `--seeds all`.",
               .placeholder = "E%[rel]",
               .keywordType = "float | str",
               .wanted = "an error above 0% and below 100%, such as 1% (of the range) or 5%rel (of the value)",

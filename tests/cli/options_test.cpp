@@ -452,6 +452,7 @@ TEST_CASE("--definition cgal has 25 rays and all faces unless they are given, in
 }
 
 TEST_CASE("errors and times are read with their unit or without") {
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "0.0999"}).computation.options.rounds.maxError.value(), 0.0999);
   for (const char* text : {"1%", "0.01", "1.0%", "1e-2"})
     CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).computation.options.rounds.maxError.value(),
              doctest::Approx(0.01));
