@@ -178,7 +178,8 @@ struct PartsReport {
   std::vector<double> areaShares;  ///< Per part, of the area of all faces; sum 1.
 };
 
-/// A connected part of the surface below the limit. Lengths in the unit of the mesh.
+/// A connected part of the surface below the limit, with the part on the other side of the same wall. Lengths in the
+/// unit of the mesh.
 struct ThinRegion {
   bool isSharp = false;    ///< Contains a sharp edge or tip; otherwise it is a wall.
   double min = 0;          ///< Least thickness; 0 in a sharp region.
@@ -244,8 +245,8 @@ struct ThicknessReport {
   std::vector<SharpEdge> sharpEdges;           ///< Sharp edges and tips, by ascending angle.
   /// Area of all thin regions, and its share of the surface. NaN without a limit.
   double thinArea = kNoValue, thinAreaShare = kNoValue;
-  /// Connected parts of the surface below the limit: walls before sharp regions, by ascending least thickness. Empty
-  /// without a limit.
+  /// Parts of the surface below the limit, both sides of a wall together: walls before sharp regions, by ascending
+  /// least thickness. Empty without a limit.
   std::vector<ThinRegion> regions;
 };
 

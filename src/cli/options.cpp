@@ -138,7 +138,9 @@ bool estimates(const Options& options) {
   return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
 }
 
-/// Fields of the diameter are measured where they are requested; other fields need their options.
+/// Sets what --fields, --picture-of and --points imply: --measure both for a field of the shape diameter, the default
+/// of
+/// --picture-of. Refuses a field that the other options do not compute.
 void completeFields(CommandLine& line, bool choosesPicture) {
   Options& options = line.computation.options;
   Outputs& outputs = line.outputs;

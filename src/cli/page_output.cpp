@@ -56,15 +56,13 @@ std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
                              100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
 }
 
-/// The rows with a capital, and continued ones joined, without those whose title does not fit into its column. Thin
-/// regions are lists of the page. Without times the same mesh and options give the same bytes.
+/// The rows with a capital, and continued ones joined. Thin regions are lists of the page. Without times the same mesh
+/// and options give the same bytes.
 std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome, bool showsTimes) {
   std::vector<std::pair<std::string, std::string>> summary;
-  constexpr size_t kMaxTitleSize = 9;
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(outcome.result.report)) {
-    if (title == "stage seconds" && showsTimes) title = "time";
-    if (title.size() > kMaxTitleSize) continue;
+    if (!showsTimes && (title == "time" || title == "rate")) continue;
     if (!title.empty()) isThinRow = title == "thin";
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;

@@ -28,8 +28,8 @@ struct MeshOutcome {
 /// Title and text; a row without a title continues the one before.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// Thickness where it is measured, its verdict first, or the rows of the short report; then all other keys of the
-/// report with a value, in words.
+/// Thickness where it is measured, its verdict first, or the rows of the short report; then the details of values and
+/// parts, seeds, device, solver and times. Titles have at most nine characters.
 [[nodiscard]] ReportRows reportRows(const Report& report);
 
 /// A title with the mesh or the verdict, rows and files, as aligned lines. Without --verbose at most six lines of at

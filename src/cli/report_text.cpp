@@ -8,14 +8,13 @@
 
 #include "asdf_vk/choices.h"
 #include "cli/exit_code.h"
-#include "core/json.h"
 #include "core/text.h"
 
 namespace asdfvk {
 namespace {
 
-/// Parts whose areas are listed in the short report, and items of a list in the full one.
-constexpr size_t kMaxShortParts = 3, kMaxListedItems = 5;
+/// Parts whose areas are listed in the short report, and in the full one.
+constexpr size_t kMaxShortParts = 3, kMaxListedParts = 10;
 
 /// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
 std::string percent(uint64_t part, uint64_t whole) {
@@ -34,9 +33,10 @@ std::string meshRow(const Report& report) {
 }
 
 std::string shortValueRow(const Report& report) {
-  std::string text = std::isfinite(report.sdf.median) ? fmt::format("{:.4g} to {:.4g}, median {:.4g}", report.sdf.min,
-                                                                    report.sdf.max, report.sdf.median)
-                                                      : std::string("none");
+  std::string text = std::isfinite(report.sdf.median)
+                         ? fmt::format("{} to {}, median {}", lengthText(report.sdf.min), lengthText(report.sdf.max),
+                                       lengthText(report.sdf.median))
+                         : std::string("none");
   if (report.noValueCount > 0) text += fmt::format("; {} without a value", groupedCount(report.noValueCount, "face"));
   return text;
 }
@@ -113,32 +113,60 @@ ReportRows shortRows(const Report& report) {
   return rows;
 }
 
-/// "stage seconds" for the key "stageSeconds".
-std::string wordsOf(const std::string& key) {
-  std::string words;
-  for (const char c : key)
-    words += 'A' <= c && c <= 'Z' ? std::string(" ") + static_cast<char>(c - 'A' + 'a') : std::string(1, c);
-  return words;
+std::string sizeRow(const Report& report) {
+  return fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box{}", report.size.x, report.size.y, report.size.z,
+                     report.unit.empty() ? "" : " in " + report.unit);
 }
 
-/// "min 0.5, median 1.5": the members of an object that are set, and of lists the first ones.
-std::string textOf(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-  if (value.is_number()) return value.dump();
-  std::string text;
-  size_t count = 0;
-  for (const auto& [key, member] : value.items()) {
-    if (member.is_null() || (member.is_number_float() && !std::isfinite(member.get<double>()))) continue;
-    if (value.is_array() && count == kMaxListedItems) return text + fmt::format("; {} in all", value.size());
-    text += fmt::format("{}{}{}",
-                        count++ == 0       ? ""
-                        : value.is_array() ? "; "
-                                           : ", ",
-                        value.is_array() ? "" : wordsOf(key) + " ", textOf(member));
-  }
+std::string seedRow(const Report& report) {
+  std::string text = fmt::format("{} of {} cast {}, random seed {}", groupDigits(report.seedCount),
+                                 groupedCount(report.triangleCount, "triangle"), groupedCount(report.rayCount, "ray"),
+                                 report.randomSeed);
+  if (report.roundCount > 1) text += fmt::format(", {} rounds", report.roundCount);
+  if (report.redoneConeCount > 0)
+    text += fmt::format("; {} by the reference", groupedCount(report.redoneConeCount, "cone"));
   return text;
+}
+
+std::string estimateRow(const ErrorEstimate& estimate) {
+  std::string text = fmt::format("standard error {:.2g} %, 90 % of the faces within {:.3g} % of their value, by {}",
+                                 100 * estimate.standardError, 100 * estimate.relativePercentile90,
+                                 groupedCount(estimate.heldOutCount, "held-out face"));
+  if (!estimate.worstFaces.empty())
+    text += fmt::format("; worst {:.3g} % of the range, face {}", 100 * estimate.worstFaces.front().error,
+                        estimate.worstFaces.front().face);
+  return text;
+}
+
+std::string partRow(const PartsReport& parts) {
+  std::string text = "in order of the parts";
+  for (size_t i = 0; i < std::min(parts.areaShares.size(), kMaxListedParts); ++i)
+    text += fmt::format("{} {}", i == 0 ? "" : ",", twoDigits(parts.areaShares[i]));
+  text += parts.areaShares.size() > kMaxListedParts ? ", ... %" : " %";
+  return parts.agreement ? text + fmt::format("; agreement {:.2g}", *parts.agreement) : text;
+}
+
+std::string deviceRow(const Report& report) {
+  if (!report.traceChoice) return report.device;
+  return fmt::format("{}; kernel {}, fetch {}", report.device, report.traceChoice->kernel, report.traceChoice->fetch);
+}
+
+std::string solverRow(const SolverReport& solver) {
+  return fmt::format("{}, {}, relative residual {:.2g}{}{}", solver.name, groupedCount(solver.iterations, "iteration"),
+                     solver.relativeResidual, solver.converged ? "" : ", not converged",
+                     solver.finishedOnCpu ? ", finished on the CPU" : "");
+}
+
+/// The sum of the stages, then each that ran.
+std::string timeRow(const StageSeconds& seconds) {
+  double sum = 0;
+  std::string stages;
+  for (size_t i = 0; i < kStageCount; ++i) {
+    if (!(seconds.seconds[i] > 0)) continue;
+    sum += seconds.seconds[i];
+    stages += fmt::format(", {} {:.2g}", nameOf(static_cast<Stage>(i)), seconds.seconds[i]);
+  }
+  return fmt::format("{:.3g} s{}", sum, stages);
 }
 
 }  // namespace
@@ -150,16 +178,38 @@ std::string groupedCount(uint64_t count, const char* singular, const char* plura
 
 ReportRows reportRows(const Report& report) {
   ReportRows rows = report.thickness ? thicknessRows(report) : shortRows(report);
-  if (report.thickness) rows.emplace_back("mesh", meshRow(report));
-  Json json = toJson(report);
-  for (Json& seconds : json.at("stageSeconds"))
-    if (seconds == 0.0) seconds = nullptr;  // The stage did not run.
-  for (const auto& [key, value] : json.items()) {
-    // The thickness has its own rows, and warnings and defects are lines of their own.
-    if (key == "thickness" || key == "warnings" || key == "defects" || value.is_null() || value == 0) continue;
-    if (key == "solver" && report.solver.name.empty()) continue;  // Nothing was interpolated.
-    if (std::string text = textOf(value); !text.empty()) rows.emplace_back(wordsOf(key), std::move(text));
+  const bool hasDiameter = report.seedCount > 0;
+  if (report.thickness) {
+    rows.emplace_back("mesh", meshRow(report));
+    if (hasDiameter) rows.emplace_back("diameter", shortValueRow(report));
+    if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));
+    if (report.estimatedError || report.check) rows.emplace_back("error", shortErrorRow(report));
+  } else {
+    rows.emplace_back("size", sizeRow(report));
   }
+  if (hasDiameter && report.sdf.robustRange() > 0)
+    rows.emplace_back("spread", fmt::format("98 % of the faces have {} to {}", lengthText(report.sdf.percentile1),
+                                            lengthText(report.sdf.percentile99)));
+  if (report.parts) rows.emplace_back("areas", partRow(*report.parts));
+  if (report.estimatedError) rows.emplace_back("estimate", estimateRow(*report.estimatedError));
+  if (report.check) rows.emplace_back("check", tracedCheck(*report.check));
+  if (report.postprocess)
+    rows.emplace_back("smoothed", fmt::format("{} to {}, which become 0 and 1", lengthText(report.postprocess->min),
+                                              lengthText(report.postprocess->max)));
+  if (hasDiameter) rows.emplace_back("seeds", seedRow(report));
+  if (report.regionFaceCount != report.faceCount)
+    rows.emplace_back("region", groupedCount(report.regionFaceCount, "face"));
+  if (report.clampedCount > 0)
+    rows.emplace_back("clamped",
+                      fmt::format("{} to the values of the seeds", groupedCount(report.clampedCount, "triangle")));
+  if (report.reversedFaceCount > 0) rows.emplace_back("reversed", groupedCount(report.reversedFaceCount, "face"));
+  rows.emplace_back("backend", report.backend);
+  rows.emplace_back("device", deviceRow(report));
+  if (!report.solver.name.empty() && report.solver.name != "none")
+    rows.emplace_back("solver", solverRow(report.solver));
+  if (report.raysPerSecond > 0)
+    rows.emplace_back("rate", fmt::format("{:.3g} million rays per second", report.raysPerSecond / 1e6));
+  rows.emplace_back("time", timeRow(report.stageSeconds));
   return rows;
 }
 

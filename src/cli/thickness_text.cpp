@@ -16,8 +16,8 @@ std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g},
 
 /// "0.3 at (1, 2, 3), face 12". Precondition: there is a thickness.
 std::string leastText(const ThicknessReport& thickness) {
-  return fmt::format("{:.6g} at {}, face {}{}", thickness.min, pointText(*thickness.minPlace), *thickness.minFace,
-                     thickness.min == 0 ? ", a sharp edge" : "");
+  return fmt::format("{} at {}, face {}{}", lengthText(thickness.min, thickness.thinnerThan),
+                     pointText(*thickness.minPlace), *thickness.minFace, thickness.min == 0 ? ", a sharp edge" : "");
 }
 
 const char* sharpException(const ThicknessReport& thickness) {
@@ -40,18 +40,19 @@ ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
   return rows;
 }
 
-std::string regionText(const ThinRegion& region) {
-  const std::string size = fmt::format("face {}; {}, area {:.4g} ({:.3g} %)", region.minFace,
-                                       groupedCount(region.faceCount, "face"), region.area, 100 * region.areaShare);
+std::string regionText(const ThinRegion& region, const ThicknessReport& thickness) {
+  const std::string size =
+      fmt::format("face {}; {}, area {} ({:.3g} %)", region.minFace, groupedCount(region.faceCount, "face"),
+                  lengthText(region.area), 100 * region.areaShare);
   if (region.isSharp) return fmt::format("sharp edge at {}, {}", pointText(region.place), size);
-  return fmt::format("wall {:.6g} from {} to {}, {}", region.min, pointText(region.place), pointText(region.opposite),
-                     size);
+  return fmt::format("wall {} from {} to {}, {}", lengthText(region.min, thickness.thinnerThan),
+                     pointText(region.place), pointText(region.opposite), size);
 }
 
-std::string edgeText(const SharpEdge& edge) {
+std::string edgeText(const SharpEdge& edge, const ThicknessReport&) {
   const std::string place = fmt::format("at {}, face {}", pointText(edge.place), edge.face);
   if (edge.edgeCount == 0) return fmt::format("tip of {:.3g} degrees {}", edge.angleDegrees, place);
-  return fmt::format("edge of {:.3g} degrees, length {:.4g}, {}", edge.angleDegrees, edge.length, place);
+  return fmt::format("edge of {:.3g} degrees, length {}, {}", edge.angleDegrees, lengthText(edge.length), place);
 }
 
 /// "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
@@ -71,9 +72,10 @@ std::string verdictOf(const ThicknessReport& thickness) {
 /// A row with the title, then at most kListedCount items.
 template <typename Item>
 void addList(const char* title, const std::string& heading, const std::vector<Item>& items,
-             std::string (*textOf)(const Item&), ReportRows& rows) {
+             std::string (*textOf)(const Item&, const ThicknessReport&), const ThicknessReport& thickness,
+             ReportRows& rows) {
   rows.emplace_back(title, heading);
-  for (size_t i = 0; i < std::min(items.size(), kListedCount); ++i) rows.emplace_back("", textOf(items[i]));
+  for (size_t i = 0; i < std::min(items.size(), kListedCount); ++i) rows.emplace_back("", textOf(items[i], thickness));
   if (items.size() > kListedCount)
     rows.emplace_back("", fmt::format("and {} more; --json has all", groupDigits(items.size() - kListedCount)));
 }
@@ -96,12 +98,12 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness) {
                                               groupDigits(unjudged.openCount), groupDigits(unjudged.invertedCount),
                                               groupDigits(unjudged.selfCrossedCount)));
   if (!hasValues) return rows;
-  std::string text = fmt::format("median {:.4g}, greatest {:.4g}", thickness.median, thickness.max);
+  std::string text = fmt::format("median {}, greatest {}", lengthText(thickness.median), lengthText(thickness.max));
   if (!thickness.regions.empty()) {
     text += fmt::format("; {}, {:.3g} % of the area (--verbose)", groupedCount(thickness.regions.size(), "thin region"),
                         100 * thickness.thinAreaShare);
   } else if (thickness.verdict) {
-    text = fmt::format("least {:.4g}, ", thickness.min) + text;
+    text = fmt::format("least {}, ", lengthText(thickness.min, thickness.thinnerThan)) + text;
   }
   rows.emplace_back("thickness", text);
   return rows;
@@ -115,17 +117,18 @@ ReportRows thicknessRows(const Report& report) {
                                         report.size.y, report.size.z));
   if (!thickness.regions.empty())
     addList("thin",
-            fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", groupedCount(thickness.regions.size(), "region"),
-                        *thickness.thinnerThan, thickness.thinArea, 100 * thickness.thinAreaShare),
-            thickness.regions, regionText, rows);
-  if (!thickness.sharpEdges.empty()) addList("sharp", sharpHeading(thickness), thickness.sharpEdges, edgeText, rows);
+            fmt::format("{} below {:g}: area {} ({:.3g} %)", groupedCount(thickness.regions.size(), "region"),
+                        *thickness.thinnerThan, lengthText(thickness.thinArea), 100 * thickness.thinAreaShare),
+            thickness.regions, regionText, thickness, rows);
+  if (!thickness.sharpEdges.empty())
+    addList("sharp", sharpHeading(thickness), thickness.sharpEdges, edgeText, thickness, rows);
   if (const auto& ball = thickness.greatestSection)
-    rows.emplace_back("section", fmt::format("{:.6g}, the diameter of the largest ball inside, centre {}",
-                                             ball->diameter, pointText(ball->centre)));
+    rows.emplace_back("section", fmt::format("{}, the diameter of the largest ball inside, centre {}",
+                                             lengthText(ball->diameter), pointText(ball->centre)));
   if (std::isnan(thickness.median)) return rows;
-  std::string text =
-      fmt::format("by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}", thickness.percentile1,
-                  thickness.percentile5, thickness.median, thickness.percentile95, thickness.max);
+  std::string text = fmt::format("by area p1 {}, p5 {}, p50 {}, p95 {}, max {}", lengthText(thickness.percentile1),
+                                 lengthText(thickness.percentile5), lengthText(thickness.median),
+                                 lengthText(thickness.percentile95), lengthText(thickness.max));
   if (thickness.noValueCount > 0)
     text += fmt::format("; {} without a value", groupedCount(thickness.noValueCount, "face"));
   rows.emplace_back("thickness", text);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -50,6 +51,15 @@ template <typename Names>
   std::string text = std::to_string(number);
   for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
   return text;
+}
+
+/// A diameter, thickness or area in a report, a picture or a legend: four significant digits, and as many more as it
+/// takes to differ from the text of a limit that it is not equal to.
+[[nodiscard]] inline std::string lengthText(double length, std::optional<double> limit = {}) {
+  for (int digits = 4;; ++digits) {
+    std::string text = fmt::format("{:.{}g}", length, digits);
+    if (!limit || length == *limit || digits == 17 || text != fmt::format("{:.{}g}", *limit, digits)) return text;
+  }
 }
 
 /// Capacity for any text of appendNumber().

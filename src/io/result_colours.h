@@ -19,7 +19,8 @@ namespace asdfvk {
 /// by colourOfPart(), flags blue where they are set.
 [[nodiscard]] std::vector<Rgba> coloursOf(const Field& field);
 
-/// The colours of the vertices. From a field of the faces, the mean of the values at a vertex, or the least label.
+/// A colour per vertex, as coloursOf(). Of a field per face, a vertex has the mean value of its faces, or the least
+/// label of them.
 [[nodiscard]] std::vector<Rgba> vertexColoursOf(const ResultView& result, const Field& field);
 
 /// A colour of a screen (sRGB) as a share of light, 0 to 1 (IEC 61966-2-1).

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 
 #include "core/weighted_sample.h"
 #include "pipeline/thickness.h"
 #include "pipeline/value_report.h"
+#include "trace/nearest_point.h"
 
 namespace asdfvk {
 namespace {
@@ -98,6 +100,7 @@ class Description {
       if (parts[i].region >= partsOf.size()) partsOf.resize(parts[i].region + 1);
       partsOf[parts[i].region].push_back(i);
     }
+    joinSides(partsOf);
     std::vector<ThinRegion> regions;
     for (std::vector<uint32_t>& ofRegion : partsOf) regions.push_back(describeRegion(ofRegion));
     std::vector<uint32_t> order(regions.size());
@@ -123,23 +126,70 @@ class Description {
     }
   }
 
+  [[nodiscard]] bool isSharp(std::span<const uint32_t> ofRegion) const {
+    return std::any_of(ofRegion.begin(), ofRegion.end(), [&](uint32_t i) { return thickness_.thinParts[i].isSharp; });
+  }
+
+  /// The part with the least ball, the sharp ones first.
+  [[nodiscard]] uint32_t thinnestOf(std::span<const uint32_t> ofRegion) const {
+    const auto rank = [&](uint32_t i) {
+      const ThinPart& part = thickness_.thinParts[i];
+      return std::pair(part.isSharp ? 0.0 : surelyBelow(part.least.ball.diameter, part.least.wall), i);
+    };
+    return *std::min_element(ofRegion.begin(), ofRegion.end(),
+                             [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+  }
+
+  /// The region of the part of the wall that the least ball of a part touches; unset where that is not thin.
+  [[nodiscard]] std::optional<uint32_t> regionOpposite(const ThinPart& part) const {
+    const std::vector<ThinPart>& parts = thickness_.thinParts;
+    if (part.least.wall == kNoFace) return std::nullopt;
+    const Vec3d touched = leastTouchingBall({part.corners, prepared_.geometry.normals[part.face]},
+                                            triangleOf(computation_.scene, part.least.wall), kContactDistance)
+                              .onWall;
+    auto i = std::lower_bound(parts.begin(), parts.end(), part.least.wall,
+                              [](const ThinPart& other, uint32_t face) { return other.face < face; });
+    for (; i != parts.end() && i->face == part.least.wall; ++i)
+      if (length(nearestPoint({i->corners, {}}, touched) - touched) <= kContactDistance) return i->region;
+    return std::nullopt;
+  }
+
+  /// Makes the two sides of a wall one region, where the least ball of one touches the other. Not with a sharp region,
+  /// which may be left out of the verdict.
+  void joinSides(std::vector<std::vector<uint32_t>>& partsOf) const {
+    std::vector<uint32_t> joinedWith(partsOf.size());
+    std::iota(joinedWith.begin(), joinedWith.end(), 0u);
+    const auto rootOf = [&](uint32_t region) {
+      while (joinedWith[region] != region) region = joinedWith[region];
+      return region;
+    };
+    for (const std::vector<uint32_t>& ofRegion : partsOf) {
+      if (isSharp(ofRegion)) continue;
+      const ThinPart& thinnest = thickness_.thinParts[thinnestOf(ofRegion)];
+      const std::optional<uint32_t> opposite = regionOpposite(thinnest);
+      if (!opposite || isSharp(partsOf[*opposite])) continue;
+      const uint32_t a = rootOf(thinnest.region), b = rootOf(*opposite);
+      joinedWith[std::max(a, b)] = std::min(a, b);
+    }
+    for (uint32_t region = 0; region < partsOf.size(); ++region) {
+      std::vector<uint32_t>&from = partsOf[region], &to = partsOf[rootOf(region)];
+      if (&from == &to) continue;
+      to.insert(to.end(), from.begin(), from.end());
+      from.clear();
+    }
+    std::erase_if(partsOf, [](const std::vector<uint32_t>& ofRegion) { return ofRegion.empty(); });
+  }
+
   /// Leaves in `ofRegion` the parts that are thin at their middle: their area is that of the region. Where there is
   /// none, the part with the least thickness.
   [[nodiscard]] ThinRegion describeRegion(std::vector<uint32_t>& ofRegion) const {
     const std::span<const ThinPart> parts = thickness_.thinParts;
     ThinRegion region;
     std::set<uint64_t> inputFaces;
-    for (const uint32_t i : ofRegion) {
-      inputFaces.insert(prepared_.mesh.inputFaceOf(parts[i].face));
-      region.isSharp = region.isSharp || parts[i].isSharp;
-    }
+    for (const uint32_t i : ofRegion) inputFaces.insert(prepared_.mesh.inputFaceOf(parts[i].face));
+    region.isSharp = isSharp(ofRegion);
     region.faceCount = inputFaces.size();
-    const auto rank = [&](uint32_t i) {
-      const InscribedBall& least = parts[i].least;
-      return std::pair(region.isSharp && parts[i].isSharp ? 0.0 : surelyBelow(least.ball.diameter, least.wall), i);
-    };
-    const uint32_t thinnest =
-        *std::min_element(ofRegion.begin(), ofRegion.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+    const uint32_t thinnest = thinnestOf(ofRegion);
     const ThinPart& part = parts[thinnest];
     region.minFace = prepared_.mesh.inputFaceOf(part.face);
     if (region.isSharp) {

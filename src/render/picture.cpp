@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "io/result_colours.h"
 #include "render/camera.h"
 #include "render/colour_bar.h"
 #include "render/drawing.h"
-#include "render/label_colours.h"
 #include "render/mesh_renderer.h"
 
 namespace asdfvk {
@@ -19,12 +19,11 @@ constexpr Rgb kPass{24, 122, 56};
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
 std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range) {
-  if (!picture.labels.empty()) return labelColours(picture.scene.mesh, picture.scene.geometry.areas, picture.labels);
   std::vector<Rgb> colours(picture.scene.mesh.faceCount(), kNeutral);
-  for (size_t face = 0; face < picture.values.size(); ++face) {
-    const Rgba colour = colourOf(picture.values[face], range);
-    colours[face] = {colour[0], colour[1], colour[2]};
-  }
+  const auto opaque = [](const Rgba& colour) { return Rgb{colour[0], colour[1], colour[2]}; };
+  for (size_t face = 0; face < picture.values.size(); ++face)
+    colours[face] = opaque(colourOf(picture.values[face], range));
+  for (size_t face = 0; face < picture.labels.size(); ++face) colours[face] = opaque(colourOfPart(picture.labels[face]));
   for (size_t face = 0; face < picture.highlighted.size(); ++face)
     if (picture.highlighted[face] != 0) colours[face] = kAlarm;
   return colours;

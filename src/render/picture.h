@@ -22,7 +22,7 @@ struct Picture {
   /// #F, in the colours of colourOf() with a colour bar; grey where NaN. Empty: the mesh is light grey without a bar.
   std::span<const double> values;
   std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the highlight colour; or empty.
-  std::span<const uint32_t> labels;      ///< #F, in the colours of labelColours(); or empty.
+  std::span<const uint32_t> labels;      ///< #F, in the colours of colourOfPart(); or empty.
   std::optional<ThinPlaces> thinPlaces;  ///< On a grey body, with the title as their legend.
   std::string title;                     ///< Above the bar; without one, above the mesh.
   std::optional<ColourRange> range;      ///< Range of the bar; unset: percentileRange() of the values.

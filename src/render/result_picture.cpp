@@ -33,14 +33,16 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3"
+/// "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", "nowhere thinner than 0.8: least 1.2"
 std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = fmt::format("thinner than {:g}", *thickness.thinnerThan);
+  const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);
   if (thickness.regions.empty())
-    return thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, nowhere " + limit : "nowhere " + limit;
+    return fmt::format("{}nowhere {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "",
+                       limit, value.empty() ? "" : ": least " + value);
   // Walls come before sharp edges and tips.
   const ThinRegion &first = thickness.regions.front(), &last = thickness.regions.back();
-  const std::string least = first.isSharp ? "0 at a sharp edge" : fmt::format("{:.4g}", first.min);
+  const std::string least = first.isSharp ? "0 at a sharp edge" : lengthText(first.min, thickness.thinnerThan);
   return fmt::format("{} (pale: behind a wall): {}, least {}{}", limit, counted(thickness.regions.size(), "place"),
                      least, last.isSharp && !first.isSharp ? ", and sharp edges" : "");
 }
@@ -55,7 +57,8 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   std::vector<Callout> callouts;
   for (const ThinRegion& region : thickness.regions) {
     if (callouts.size() == kMaxCount) break;
-    callouts.push_back({region.place, region.opposite, region.isSharp ? "sharp" : fmt::format("{:.3g}", region.min)});
+    callouts.push_back(
+        {region.place, region.opposite, region.isSharp ? "sharp" : lengthText(region.min, thickness.thinnerThan)});
   }
   return callouts;
 }

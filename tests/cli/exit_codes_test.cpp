@@ -221,8 +221,8 @@ TEST_CASE("a check that passes ends with 0, one without any traced face with 5")
         runAsdf({check, mesh, "--seeds", "50%", "--backend", "vulkan", "--verbose"}, *lavapipe);
     INFO(outcome.error);
     CHECK_EQ(outcome.exitCode, 0);
-    CHECK(outcome.error.find(" check     passed yes, ") != std::string::npos);
-    CHECK(outcome.error.find(", average error ") != std::string::npos);
+    CHECK(outcome.error.find("\n  check     100 % of ") != std::string::npos);
+    CHECK(outcome.error.find(" % of the range on average, by the reference; ") != std::string::npos);
   }
   CHECK_EQ(runAsdf({mesh, "--seeds", "1", "--check=5", "--backend", "vulkan"}, *lavapipe).exitCode, 0);
   CHECK_EQ(folder.names(), Names{"sphere.asdf.ply", "sphere.off"});

@@ -62,7 +62,7 @@ TEST_CASE("the report has the smoothed range and the number of segments") {
       runAsdf({mesh, "--backend", "reference", "--seeds", "all", "--segment", "cgal", "--clusters", "2", "--verbose"});
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 0);
-  for (const char* part : {"\n  postprocess min ", "\n  segments  ", ", postprocess ", ", segment "})
+  for (const char* part : {"\n  smoothed  ", "\n  segments  ", ", postprocess ", ", segment "})
     CHECK_MESSAGE(outcome.error.find(part) != std::string::npos, part);
 }
 

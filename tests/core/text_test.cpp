@@ -27,3 +27,13 @@ TEST_CASE("groupDigits puts a comma before every third digit from the end") {
   CHECK(groupDigits(1234567) == "1,234,567");
   CHECK(groupDigits(std::numeric_limits<uint64_t>::max()) == "18,446,744,073,709,551,615");
 }
+
+TEST_CASE("a length has four digits, and as many more as it takes to differ from a limit") {
+  CHECK(lengthText(1.23456) == "1.235");
+  CHECK(lengthText(12345.6) == "1.235e+04");
+  CHECK(lengthText(0.99984, 1.0) == "0.9998");
+  CHECK(lengthText(0.99996, 1.0) == "0.99996");
+  CHECK(lengthText(1.0000001, 1.0) == "1.0000001");
+  CHECK(lengthText(1, 1.0) == "1");
+  CHECK(lengthText(0.6, 0.8) == "0.6");
+}

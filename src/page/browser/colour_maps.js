@@ -24,7 +24,14 @@ export function packedColour(hex) {
 export const cssColour = (packed) => `rgb(${packed & 255},${packed >> 8 & 255},${packed >> 16 & 255})`;
 
 export const kAlarmColour = packedColour('d3231b'), kRestColour = packedColour('b9bcc2');
-export const kLabelColours = stopsOf(kLabelStops);
+/** Thin faces seen through a grey face of 45 % opacity. */
+export const kBehindColour = packedColour('c76866');
+/** Of parts by number, as in files and pictures: twelve colours, then darker ones. */
+const kPartColours = [1, 0.75, 0.75 ** 2, 0.75 ** 3].flatMap((light) => stopsOf(kLabelStops).map((colour) => {
+  const darker = (shift) => Math.round(light * (colour >> shift & 255)) << shift;
+  return (0xff000000 | darker(0) | darker(8) | darker(16)) >>> 0;
+}));
+export const colourOfPart = (part) => kPartColours[part % kPartColours.length];
 export const kFlagColours = stopsOf(kFlagStops);
 
 /** 256 packed colours. */

@@ -1,8 +1,8 @@
 // Packed colours of the faces of a mesh; alpha 0 is the rest, beside the faces that are highlighted.
-import { kAlarmColour, kFlagColours, packedColour, tableIndex } from './colour_maps.js';
+import { colourOfPart, kAlarmColour, kFlagColours, packedColour, tableIndex } from './colour_maps.js';
 
 /**
- * layer: {kind, low, high, table} or {kind, colours} by label; style: {none, below, part}. With `below` {values, limit},
+ * layer: {kind, low, high, table}, of numbers the last three too; style: {none, below, part}. With `below` {values, limit},
  * faces whose value is less have the alarm colour; other faces are the rest. With `part` {labels, label}, faces with
  * other labels are the rest.
  */
@@ -20,7 +20,7 @@ export function colourFaces(values, layer, style) {
     }
   } else {
     for (let i = 0; i < values.length; ++i)
-      colours[i] = (layer.kind === 'flag' ? kFlagColours[values[i]] : layer.colours.get(values[i])) ?? none;
+      colours[i] = (layer.kind === 'flag' ? kFlagColours[values[i]] : colourOfPart(values[i])) ?? none;
   }
   if (style.part) {
     const { labels, label } = style.part;

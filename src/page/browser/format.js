@@ -5,13 +5,22 @@ const kMaxTickCount = 6;
 // "2.5e-05" to "2.5e-5", "1e+7" to "1e7".
 const shortExponent = (text) => text.replace('e+', 'e');
 
-/** Four significant digits, without trailing zeros after a decimal point. */
-export function formatValue(value) {
+function withDigits(value, digits) {
   if (value === null || Number.isNaN(value)) return 'no value';
   const size = Math.abs(value);
-  if (size >= 1e6 || (size > 0 && size < 1e-3)) return shortExponent(value.toExponential(3));
+  if (size >= 1e6 || (size > 0 && size < 1e-3)) return shortExponent(value.toExponential(digits - 1));
   if (size >= 1e4) return formatCount(Math.round(value));
-  return String(Number(value.toPrecision(4)));
+  return String(Number(value.toPrecision(digits)));
+}
+
+/**
+ * Four significant digits, without trailing zeros after a decimal point, and as many more as it takes to differ from a
+ * limit.
+ */
+export function formatValue(value, limit = value) {
+  let digits = 4;
+  while (digits < 17 && value !== limit && withDigits(value, digits) === withDigits(limit, digits)) ++digits;
+  return withDigits(value, digits);
 }
 
 export const formatCount = (count) => count.toLocaleString('en-US');

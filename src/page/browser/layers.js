@@ -1,5 +1,5 @@
 // Fields of all meshes of the page as layers, and how a state shows one: values per mesh, range, colours, histogram.
-import { colourTable, kLabelColours } from './colour_maps.js';
+import { colourTable } from './colour_maps.js';
 import { facesBelow, histogramOf, rangeOf } from './statistics.js';
 
 const kHistogramBinCount = 60;
@@ -108,15 +108,6 @@ export class Layers {
     }
     const shares = [...areas].sort((a, b) => b[1] - a[1]);
     return shares.map(([label, area]) => ({ label, share: total > 0 ? area / total : 0 }));
-  }
-
-  /** Colours of the labels of a mesh; with several meshes a label has the same colour in all of them. */
-  labelColours(index, name) {
-    return this.cached(`labels ${index} ${name}`, () => {
-      const model = this.models[index], values = this.valuesOf(index, name);
-      if (this.models.length === 1) return model.labelColours(values);
-      return new Map(model.labelAreas(values).map(([label]) => [label, kLabelColours[label % kLabelColours.length]]));
-    });
   }
 
   /** The stretch of values that the legend shows: the colours, and a margin where there are values. */

@@ -1,5 +1,5 @@
 // The legend, drawn on a canvas of the page or of a saved picture.
-import { cssColour, kAlarmColour, kFlagColours, kRestColour, packedColour, tableIndex } from './colour_maps.js';
+import { colourOfPart, cssColour, kAlarmColour, kBehindColour, kFlagColours, kRestColour, packedColour, tableIndex } from './colour_maps.js';
 import { formatShare, formatValue, ticksWithin } from './format.js';
 
 const kBarWidth = 18, kTop = 76, kBottom = 40, kLine = 16;
@@ -31,7 +31,7 @@ export const classTitle = (look, label) =>
   look.name === 'seed' ? ['interpolated', 'seed: rays were cast'][label]
     : look.kind === 'flag' ? `${look.title}: ${label ? 'yes' : 'no'}` : `part ${label}`;
 
-/** legend: {look, axis, histogram, thin, none, colourOfLabel}; size: wide or narrow; ink: colour of text. */
+/** legend: {look, axis, histogram, thin, none}; size: wide or narrow; ink: colour of text. */
 export function drawLegend(context, legend, height, size, ink) {
   const { look, thin } = legend;
   context.font = `600 ${kFont}`;
@@ -50,10 +50,12 @@ export function drawLegend(context, legend, height, size, ink) {
 
 const thinTitle = (thin) => `${thin.share > 0 ? 'thinner' : 'nowhere thinner'} than ${formatValue(thin.limit)}`;
 
-// Both colours with their shares of the area.
-function drawThin(context, { share }, top, size, ink) {
-  if (share > 0) drawSwatch(context, cssColour(kAlarmColour), `thin, ${formatShare(share)}`, top + 10, size, ink);
-  drawSwatch(context, cssColour(kRestColour), 'other', top + (share > 0 ? 32 : 10), size, ink);
+// The colours: of thin faces with their share of the area, of those seen through others, and of others.
+function drawThin(context, { share, rest }, top, size, ink) {
+  const rows = [[kRestColour, 'other']];
+  if (share > 0 && rest === 'glass') rows.unshift([kBehindColour, 'thin, behind a wall']);
+  if (share > 0) rows.unshift([kAlarmColour, `thin, ${formatShare(share)}`]);
+  rows.forEach(([colour, text], i) => drawSwatch(context, cssColour(colour), text, top + 10 + 22 * i, size, ink));
 }
 
 function drawNumbers(context, { look, axis, histogram }, height, size, ink) {
@@ -92,11 +94,11 @@ function drawSwatch(context, colour, text, y, size, ink) {
   context.fillText(text, 28, y, size.width - 32);
 }
 
-function drawClasses(context, { look, colourOfLabel }, height, size, ink) {
+function drawClasses(context, { look }, height, size, ink) {
   const rowCount = Math.max(1, Math.floor((height - kTop - kBottom) / 20));
   const rows = look.classes.slice(0, look.classes.length > rowCount ? rowCount - 1 : rowCount);
   rows.forEach(({ label, share }, i) => {
-    const colour = look.kind === 'flag' ? kFlagColours[label] : colourOfLabel(label);
+    const colour = look.kind === 'flag' ? kFlagColours[label] : colourOfPart(label);
     drawSwatch(context, cssColour(colour), `${classTitle(look, label)} · ${formatShare(share)}`, kTop + 20 * i, size, ink);
   });
   if (rows.length < look.classes.length)

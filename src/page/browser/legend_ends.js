@@ -59,16 +59,14 @@ export class LegendPanel {
   legend() {
     const { viewer, axis } = this, { look, state, thin } = viewer;
     return {
-      look, axis, thin: thin && { ...thin, share: thinShare(viewer) }, histogram: this.histogram, none: state.none,
-      colourOfLabel: (label) => look.panes
-        .map(({ index }) => viewer.layers.labelColours(index, look.name).get(label)).find((colour) => colour !== undefined),
+      look, axis, thin: thin && { ...thin, share: thinShare(viewer), rest: state.rest }, histogram: this.histogram, none: state.none,
     };
   }
 
   update() {
     const { viewer } = this, { look } = viewer;
     const key = JSON.stringify([look.name, viewer.state.show, viewer.state.map, look.low, look.high, viewer.thin,
-      viewer.state.none, viewer.theme().ink]);
+      viewer.state.rest, viewer.state.none, viewer.theme().ink]);
     if (this.drawn === key) return;
     this.drawn = key;
     if (look.kind === 'number' && !this.dragged) {

@@ -35,7 +35,7 @@ export function markersOf(pane, viewer) {
     if (!at) continue;
     const [x, y] = at.map(Math.round);
     const isFree = markers.every((other) => Math.abs(other.y - y) > kTextHeight || Math.abs(other.x - x) > kTextWidth);
-    markers.push({ x, y, text: isFree ? regionValue(region) : '', isLeft: x > pane.left + pane.width - kTextWidth });
+    markers.push({ x, y, text: isFree ? regionValue(region, model.thin.limit) : '', isLeft: x > pane.left + pane.width - kTextWidth });
   }
   return markers;
 }

@@ -40,10 +40,10 @@ function thinReport(mesh, index, hasOthers, visits) {
   const { limit, verdict, regions } = mesh.thin, than = `thinner than ${formatValue(limit)}`;
   const least = Math.min(...regions.map((region) => region.isSharp ? 0 : region.value));
   const sentence = regions.length
-    ? `least ${formatValue(least)}: ${formatCount(regions.length)} ${regions.length > 1 ? 'places' : 'place'} ${than}`
+    ? `least ${formatValue(least, limit)}: ${formatCount(regions.length)} ${regions.length > 1 ? 'places' : 'place'} ${than}`
     : `nowhere ${than}${verdict === 'notJudged' ? ' where it could be judged' : ''}`;
   const row = (region, i) => [
-    link(region.isSharp ? '0, sharp' : formatValue(region.value), `thin-${index}-${i}`, visits && (() => visits.region(index, i))),
+    link(region.isSharp ? '0, sharp' : formatValue(region.value, limit), `thin-${index}-${i}`, visits && (() => visits.region(index, i))),
     `${formatValue(region.area)} (${formatShare(region.areaShare)})`, formatCount(region.faceCount)];
   const rows = regions.map((region, i) => [region.isSharp, row(region, i)]);
   const list = (caption, isSharp) => {

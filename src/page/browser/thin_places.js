@@ -31,7 +31,7 @@ export function thinShare({ thin, look, layers, models }) {
 }
 
 /** The value of a region in words. */
-export const regionValue = (region) => region.isSharp ? 'sharp' : formatValue(region.value);
+export const regionValue = (region, limit) => region.isSharp ? 'sharp' : formatValue(region.value, limit);
 
 /** The regions whose least places are marked in the view. */
 export const markedRegions = (model) => model.thin?.regions.slice(0, kMarkerCount) ?? [];

@@ -139,8 +139,7 @@ export class Viewer {
     const part = partMesh === index && hasParts ? { labels: layers.valuesOf(index, 'segment'), label } : null;
     const below = thin && { limit: thin.limit, values: thin.name === look.name ? values : layers.valuesOf(index, thin.name) };
     const style = { none: state.none, below, part };
-    const layer = look.kind === 'label' ? { ...look, colours: layers.labelColours(index, look.name) } : look;
-    this.renderer.setColours(this.meshes[index], colourFaces(values, layer, style));
+    this.renderer.setColours(this.meshes[index], colourFaces(values, look, style));
   }
 
   /** Panes of the canvas in CSS pixels: the grid in which they are largest. */
