@@ -94,13 +94,13 @@ struct SmoothingOptions {
 /// Treatment of the finished values, for the field "normalized".
 enum class Postprocess {
   None,
-  Cgal,  ///< That of CGAL's sdf_values_postprocessing(): missing values filled, bilateral filter, mapped to [0, 1].
+  Cgal,  ///< As CGAL's sdf_values_postprocessing(): fills missing values, filters bilaterally, maps to [0, 1].
 };
 
 /// Division of the mesh by its values, for the field "segment".
 enum class Segmentation {
   None,
-  Cgal,   ///< That of CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
+  Cgal,   ///< As CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
   Parts,  ///< The parts that people see: from values, creases and lines of sight, without a number of parts.
 };
 

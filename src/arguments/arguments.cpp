@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/text.h"
 #include "describe/option.h"
 
 namespace asdfvk {

@@ -69,7 +69,7 @@ class ArgumentParser {
   [[nodiscard]] const Entry* withOptionalValue(const std::string& text) const;
   /// CLI11 takes the next argument as an optional value, whatever it is.
   [[nodiscard]] std::vector<std::string> withAttachedValues(const std::vector<std::string>& arguments) const;
-  /// Those that are no options, and unknown options. CLI11 would read "[a]" as a list.
+  /// Reads the arguments that are no options, and refuses unknown options. CLI11 would read "[a]" as a list.
   void readPositional(const std::vector<std::string>& arguments);
   void read(const std::vector<std::string>& arguments);
 

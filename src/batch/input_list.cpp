@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -129,11 +128,6 @@ void addList(const std::vector<std::string>& paths, std::vector<InputFile>& inpu
   }
 }
 
-bool parseCount(std::string_view text, uint32_t& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 }  // namespace
 
 std::vector<InputFile> listInputs(const InputRequest& request) {
@@ -152,15 +146,13 @@ std::vector<InputFile> listInputs(const InputRequest& request) {
 }
 
 Shard parseShard(const std::string& text) {
-  Shard shard;
-  const size_t slash = text.find('/');
-  const std::string_view view = text;
-  if (slash == std::string::npos || !parseCount(view.substr(0, slash), shard.index) ||
-      !parseCount(view.substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count ||
-      shard.count > kMaxShardCount)
+  const size_t slash = std::min(text.find('/'), text.size());
+  const auto index = numberIn<uint32_t>(std::string_view(text).substr(0, slash)),
+             count = numberIn<uint32_t>(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  if (!index || !count || *index < 1 || *index > *count || *count > kMaxShardCount)
     throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("'{}' is not I/N with I from 1 to N, such as 2/7, and N at most {}", text, kMaxShardCount));
-  return shard;
+  return {*index, *count};
 }
 
 std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard) {

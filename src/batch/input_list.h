@@ -9,7 +9,7 @@ namespace asdfvk {
 /// A mesh of a batch.
 struct InputFile {
   std::string path;        ///< The argument, or a folder of the call and the path below it; "-" for standard input.
-  std::string folder;      ///< Folder of its output, below the folder of the outputs; empty: that folder itself.
+  std::string folder;      ///< Folder of its output, relative to the folder of -o; may be empty.
   uint64_t byteCount = 0;  ///< 0 where it is unknown.
 };
 

@@ -33,7 +33,7 @@ ASDFVK_JSON(FailureGroup, status, code, error, count, exampleInput, exampleMessa
 struct WarningGroup {
   std::string code;
   uint64_t count = 0;
-  std::vector<std::string> inputs;  ///< Of all of them.
+  std::vector<std::string> inputs;  ///< The inputs of all of these meshes.
 };
 
 ASDFVK_JSON(WarningGroup, code, count, inputs)

@@ -69,7 +69,7 @@ UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const Face
 
 /// A part of the hierarchy under construction: either an inner node with two children, or a finished run of nodes.
 struct Subtree {
-  std::unique_ptr<Subtree> left, right;  ///< Both or none.
+  std::unique_ptr<Subtree> left, right;  ///< Both are set, or none is.
   SplitBox box;
   std::vector<BvhNode> nodes;  ///< Without children: root first; child indices are relative to this run.
   uint32_t depth = 0;          ///< Levels below its root.

@@ -14,7 +14,7 @@ namespace asdfvk {
 /// Costs of the surface-area heuristic for wide nodes, in triangle tests of a device.
 struct WideCosts {
   float node = 2;
-  float leaf = 0;      ///< Of a leaf, for any number of triangles.
+  float leaf = 0;      ///< Cost of a leaf, whatever the number of its triangles.
   float triangle = 1;  ///< Added for each of its triangles.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
 

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -33,7 +32,6 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
       return "see --list-devices";
     case ErrorCode::GpuRequired:
       return "see --list-devices, or drop --require-gpu";
-      return "use --backend reference";
     case ErrorCode::NoDeviceForKernel:
       return "use --backend vulkan, or drop --solver, --kernel and --fetch";
     case ErrorCode::KernelUnsupported:
@@ -90,10 +88,6 @@ ExitCode exitCodeOf(ErrorKind kind) {
       return ExitCode::Cancelled;
   }
   return ExitCode::Internal;
-}
-
-const char* meaningOf(ExitCode code) {
-  return std::find_if(kExitCodes.begin(), kExitCodes.end(), [&](const auto& row) { return row.first == code; })->second;
 }
 
 bool hasResult(ExitCode ofMesh) {

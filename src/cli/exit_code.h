@@ -39,7 +39,6 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
      {ExitCode::Limit, "beyond --timeout, --memory-limit, or a limit of the system on open files or threads"},
      {ExitCode::Internal, "internal error"},
      {ExitCode::Cancelled, "cancelled"}}};
-[[nodiscard]] const char* meaningOf(ExitCode code);
 
 inline constexpr const char* kExitCodeOfSeveralMeshes =
     "With several meshes, the others are computed after a failure. The code is 7 if some meshes have a result, also "

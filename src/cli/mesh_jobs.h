@@ -20,7 +20,7 @@ class JobRecords {
 
   [[nodiscard]] const Json& options() const { return options_; }
 
-  /// That of a job whose computation begins.
+  /// The record of a job whose computation begins.
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
   /// Completes the record and writes it beside the output; where that fails, the mesh fails and has no result. old: the

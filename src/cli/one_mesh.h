@@ -50,7 +50,7 @@ struct LoadedMesh {
 /// What is left of a mesh that was computed. The texts are empty or consist of complete lines.
 struct MeshRun {
   std::optional<Failure> failure;  ///< The first one, or the cancellation.
-  std::optional<Report> report;    ///< That of MeshSettings::computation, if its result is written.
+  std::optional<Report> report;    ///< The report, if the result is written.
   bool hasResult = false;          ///< Whether any result is written.
   std::string json;                ///< For --json.
   std::string text;                ///< Errors; outside a batch and without --quiet also warnings and report.

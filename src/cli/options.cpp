@@ -201,7 +201,7 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
       refuseOptions("one page takes one mesh after another; drop --jobs");
     return;
   }
-  if (line.outputs.path == "-") refuseOptions("-o - takes the result of one mesh; give -o a folder");
+  if (line.outputs.path == "-") refuseOptions("standard output (-o -) holds one result; give -o a folder");
   if (!line.outputs.picture.empty() || !line.outputs.points.empty())
     refuseOptions(
         "--picture and --points take one mesh; drop them, or -r, --files-from, --log, --skip-existing, --shard and "

@@ -32,7 +32,7 @@ std::string resultName(const std::string& mesh, const std::string& format) {
 
 bool isPageName(const fs::path& path) { return lowerCase(path.extension().string()) == ".html"; }
 
-/// That of the result; as resultFormatOf(), but the error names the formats of this program.
+/// The format of a result by resultFormatOf(). Its error names the formats of this program.
 std::string plannedFormat(const std::string& output, const WriteOptions& options) {
   try {
     return resultFormatOf(output, options);
@@ -142,7 +142,7 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     if (fs::exists(outputs.path, ignored) || isResultName(outputs.path))
       usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", outputs.path));
   } else if (files.size() > 1 && !sharePage) {
-    if (outputs.path == "-") usageError("-o - takes the result of one mesh; name one mesh");
+    if (outputs.path == "-") usageError("standard output (-o -) holds one result; name one mesh");
     if (!outputs.path.empty() && !takesFolder(outputs, batch))
       usageError(fmt::format(
           "-o {0} is not a folder, which several meshes need; write {0}/ to make it, or name one mesh", outputs.path));

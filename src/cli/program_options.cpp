@@ -108,7 +108,7 @@ bool readName(void* target, const OptionValue& value) {
 }
 
 const std::string kFieldsText =
-    "Fields to write: " + joined(resultFieldNames(), ", ") + "; in a page all of one component";
+    "Fields to write: " + joined(resultFieldNames(), ", ") + ". A page has all fields of one component by default";
 
 const std::array kOutputRows{
     OptionRow{.name = "output",

@@ -47,9 +47,6 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// least thickness; where faces are not judged, how many; the thickness and the thin regions.
 [[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness);
 
-/// "1 face", "1,234 faces".
-[[nodiscard]] std::string groupedCount(uint64_t count, const char* singular, const char* plural = nullptr);
-
 /// The message and, where there is one, the remedy by options.
 [[nodiscard]] std::string textWarning(const Warning& warning);
 

@@ -23,12 +23,11 @@ std::string percent(uint64_t part, uint64_t whole) {
 }
 
 std::string meshRow(const Report& report) {
-  std::string text = groupedCount(report.faceCount, "face");
-  if (report.triangleCount != report.faceCount)
-    text += fmt::format(" ({})", groupedCount(report.triangleCount, "triangle"));
+  std::string text = counted(report.faceCount, "face");
+  if (report.triangleCount != report.faceCount) text += fmt::format(" ({})", counted(report.triangleCount, "triangle"));
   return text +
-         fmt::format(", {}, {}", report.vertexCount == 1 ? "1 vertex" : groupDigits(report.vertexCount) + " vertices",
-                     groupedCount(report.componentCount, "component")) +
+         fmt::format(", {}, {}", counted(report.vertexCount, "vertex", "vertices"),
+                     counted(report.componentCount, "component")) +
          (report.unit.empty() ? "" : ", unit " + report.unit);
 }
 
@@ -37,7 +36,7 @@ std::string shortValueRow(const Report& report) {
                          ? fmt::format("{} to {}, median {}", lengthText(report.sdf.min), lengthText(report.sdf.max),
                                        lengthText(report.sdf.median))
                          : std::string("none");
-  if (report.noValueCount > 0) text += fmt::format("; {} without a value", groupedCount(report.noValueCount, "face"));
+  if (report.noValueCount > 0) text += fmt::format("; {} without a value", counted(report.noValueCount, "face"));
   return text;
 }
 
@@ -52,10 +51,10 @@ std::string tracedCheck(const CheckReport& check) {
   const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
   if (withValue == 0)
     return fmt::format("{}, none with a value in either computation: nothing to compare",
-                       groupedCount(check.tracedCount, "traced face"));
+                       counted(check.tracedCount, "traced face"));
   std::string text =
       fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
-                  percent(check.agreeingCount, withValue), groupedCount(withValue, "traced face"), kAgreementTolerance,
+                  percent(check.agreeingCount, withValue), counted(withValue, "traced face"), kAgreementTolerance,
                   check.medianDifference, check.worstDifference, check.worstFace);
   if (check.noValueAgreeCount > 0)
     text += fmt::format("; {} more without a value in either computation", groupDigits(check.noValueAgreeCount));
@@ -69,7 +68,7 @@ std::string shortErrorRow(const Report& report) {
     return fmt::format("{:.2g} % of the range on average, by the reference; {}", 100 * check.averageError,
                        check.independent
                            ? fmt::format("{} of {} agree", groupDigits(check.tracedCount - check.missCount()),
-                                         groupedCount(check.tracedCount, "traced face"))
+                                         counted(check.tracedCount, "traced face"))
                            : "nothing to compare: it traced the rays");
   }
   const ErrorEstimate& estimate = *report.estimatedError;
@@ -100,7 +99,7 @@ ReportRows shortRows(const Report& report) {
   if (report.thickness) {
     rows = shortThicknessRows(*report.thickness);
     rows.emplace_back(
-        "mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}", groupedCount(report.faceCount, "face"),
+        "mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}", counted(report.faceCount, "face"),
                             report.size.x, report.size.y, report.size.z, report.unit.empty() ? "" : " " + report.unit));
   } else {
     rows = {{"mesh", meshRow(report)}, {"diameter", shortValueRow(report)}};
@@ -119,19 +118,18 @@ std::string sizeRow(const Report& report) {
 }
 
 std::string seedRow(const Report& report) {
-  std::string text = fmt::format("{} of {} cast {}, random seed {}", groupDigits(report.seedCount),
-                                 groupedCount(report.triangleCount, "triangle"), groupedCount(report.rayCount, "ray"),
-                                 report.randomSeed);
+  std::string text =
+      fmt::format("{} of {} cast {}, random seed {}", groupDigits(report.seedCount),
+                  counted(report.triangleCount, "triangle"), counted(report.rayCount, "ray"), report.randomSeed);
   if (report.roundCount > 1) text += fmt::format(", {} rounds", report.roundCount);
-  if (report.redoneConeCount > 0)
-    text += fmt::format("; {} by the reference", groupedCount(report.redoneConeCount, "cone"));
+  if (report.redoneConeCount > 0) text += fmt::format("; {} by the reference", counted(report.redoneConeCount, "cone"));
   return text;
 }
 
 std::string estimateRow(const ErrorEstimate& estimate) {
   std::string text = fmt::format("standard error {:.2g} %, 90 % of the faces within {:.3g} % of their value, by {}",
                                  100 * estimate.standardError, 100 * estimate.relativePercentile90,
-                                 groupedCount(estimate.heldOutCount, "held-out face"));
+                                 counted(estimate.heldOutCount, "held-out face"));
   if (!estimate.worstFaces.empty())
     text += fmt::format("; worst {:.3g} % of the range, face {}", 100 * estimate.worstFaces.front().error,
                         estimate.worstFaces.front().face);
@@ -152,7 +150,7 @@ std::string deviceRow(const Report& report) {
 }
 
 std::string solverRow(const SolverReport& solver) {
-  return fmt::format("{}, {}, relative residual {:.2g}{}{}", solver.name, groupedCount(solver.iterations, "iteration"),
+  return fmt::format("{}, {}, relative residual {:.2g}{}{}", solver.name, counted(solver.iterations, "iteration"),
                      solver.relativeResidual, solver.converged ? "" : ", not converged",
                      solver.finishedOnCpu ? ", finished on the CPU" : "");
 }
@@ -170,11 +168,6 @@ std::string timeRow(const StageSeconds& seconds) {
 }
 
 }  // namespace
-
-std::string groupedCount(uint64_t count, const char* singular, const char* plural) {
-  if (count != 1 && plural != nullptr) return fmt::format("{} {}", groupDigits(count), plural);
-  return fmt::format("{} {}{}", groupDigits(count), singular, count == 1 ? "" : "s");
-}
 
 ReportRows reportRows(const Report& report) {
   ReportRows rows = report.thickness ? thicknessRows(report) : shortRows(report);
@@ -197,12 +190,11 @@ ReportRows reportRows(const Report& report) {
     rows.emplace_back("smoothed", fmt::format("{} to {}, which become 0 and 1", lengthText(report.postprocess->min),
                                               lengthText(report.postprocess->max)));
   if (hasDiameter) rows.emplace_back("seeds", seedRow(report));
-  if (report.regionFaceCount != report.faceCount)
-    rows.emplace_back("region", groupedCount(report.regionFaceCount, "face"));
+  if (report.regionFaceCount != report.faceCount) rows.emplace_back("region", counted(report.regionFaceCount, "face"));
   if (report.clampedCount > 0)
     rows.emplace_back("clamped",
-                      fmt::format("{} to the values of the seeds", groupedCount(report.clampedCount, "triangle")));
-  if (report.reversedFaceCount > 0) rows.emplace_back("reversed", groupedCount(report.reversedFaceCount, "face"));
+                      fmt::format("{} to the values of the seeds", counted(report.clampedCount, "triangle")));
+  if (report.reversedFaceCount > 0) rows.emplace_back("reversed", counted(report.reversedFaceCount, "face"));
   rows.emplace_back("backend", report.backend);
   rows.emplace_back("device", deviceRow(report));
   if (!report.solver.name.empty() && report.solver.name != "none")

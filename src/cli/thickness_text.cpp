@@ -28,8 +28,7 @@ const char* sharpException(const ThicknessReport& thickness) {
 ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
   ReportRows rows;
   const auto add = [&rows](uint64_t count, const char* noun, const char* rest) {
-    if (count > 0)
-      rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", groupedCount(count, noun), rest));
+    if (count > 0) rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", counted(count, noun), rest));
   };
   add(unjudged.openCount, "face", "of open components: what closes them may be thin; close the mesh");
   add(unjudged.invertedCount, "face",
@@ -42,7 +41,7 @@ ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
 
 std::string regionText(const ThinRegion& region, const ThicknessReport& thickness) {
   const std::string size =
-      fmt::format("face {}; {}, area {} ({:.3g} %)", region.minFace, groupedCount(region.faceCount, "face"),
+      fmt::format("face {}; {}, area {} ({:.3g} %)", region.minFace, counted(region.faceCount, "face"),
                   lengthText(region.area), 100 * region.areaShare);
   if (region.isSharp) return fmt::format("sharp edge at {}, {}", pointText(region.place), size);
   return fmt::format("wall {} from {} to {}, {}", lengthText(region.min, thickness.thinnerThan),
@@ -81,7 +80,7 @@ void addList(const char* title, const std::string& heading, const std::vector<It
 }
 
 std::string sharpHeading(const ThicknessReport& thickness) {
-  const std::string count = groupedCount(thickness.sharpEdges.size(), "sharp edge or tip", "sharp edges or tips");
+  const std::string count = counted(thickness.sharpEdges.size(), "sharp edge or tip", "sharp edges or tips");
   if (!thickness.thinnerThan) return count;
   return count + (thickness.allowsSharpEdges ? ": allowed, with all that is thin around them"
                                              : ": thinner than any limit; --allow-sharp-edges leaves them out");
@@ -100,7 +99,7 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness) {
   if (!hasValues) return rows;
   std::string text = fmt::format("median {}, greatest {}", lengthText(thickness.median), lengthText(thickness.max));
   if (!thickness.regions.empty()) {
-    text += fmt::format("; {}, {:.3g} % of the area (--verbose)", groupedCount(thickness.regions.size(), "thin region"),
+    text += fmt::format("; {}, {:.3g} % of the area (--verbose)", counted(thickness.regions.size(), "thin region"),
                         100 * thickness.thinAreaShare);
   } else if (thickness.verdict) {
     text = fmt::format("least {}, ", lengthText(thickness.min, thickness.thinnerThan)) + text;
@@ -117,7 +116,7 @@ ReportRows thicknessRows(const Report& report) {
                                         report.size.y, report.size.z));
   if (!thickness.regions.empty())
     addList("thin",
-            fmt::format("{} below {:g}: area {} ({:.3g} %)", groupedCount(thickness.regions.size(), "region"),
+            fmt::format("{} below {:g}: area {} ({:.3g} %)", counted(thickness.regions.size(), "region"),
                         *thickness.thinnerThan, lengthText(thickness.thinArea), 100 * thickness.thinAreaShare),
             thickness.regions, regionText, thickness, rows);
   if (!thickness.sharpEdges.empty())
@@ -129,8 +128,7 @@ ReportRows thicknessRows(const Report& report) {
   std::string text = fmt::format("by area p1 {}, p5 {}, p50 {}, p95 {}, max {}", lengthText(thickness.percentile1),
                                  lengthText(thickness.percentile5), lengthText(thickness.median),
                                  lengthText(thickness.percentile95), lengthText(thickness.max));
-  if (thickness.noValueCount > 0)
-    text += fmt::format("; {} without a value", groupedCount(thickness.noValueCount, "face"));
+  if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
   rows.emplace_back("thickness", text);
   return rows;
 }

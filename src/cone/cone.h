@@ -31,8 +31,8 @@ struct Cone {
   Definition definition = Definition::Paper;  ///< Selects the frame and the vector that falseHitCosine refers to.
   std::vector<Vec3d> directions;              ///< Unit.
   std::vector<double> weights;                ///< Paper: 1 / angle to the axis, in 1 / radians. Cgal: 1.
-  std::vector<double> solidAngles;            ///< That each ray represents, up to a common factor; Paper: 1.
-  double falseHitCosine = 0;                  ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
+  std::vector<double> solidAngles;  ///< Solid angle that each ray represents, up to a common factor; Paper: 1.
+  double falseHitCosine = 0;        ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
   OutlierRule outliers;
   double halfAngleRadians = 0;  ///< Angle between the axis and the rim.
   /// What is nearer to the origin of a ray is no hit: kContactDistance, more for cones whose rays graze the face. See

@@ -10,7 +10,7 @@ namespace asdfvk {
 /// A unit of length.
 struct LengthUnitRow {
   LengthUnit unit;
-  std::string_view name;  ///< As in Mesh::unit.
+  std::string_view name;  ///< A value of Mesh::unit: "mm".
   double micrometres;     ///< A whole number, so that a conversion rounds once.
 };
 inline constexpr std::array<LengthUnitRow, 6> kLengthUnits{{{LengthUnit::Micrometre, "um", 1},

@@ -29,12 +29,6 @@ namespace asdfvk {
   return text;
 }
 
-/// "1 vertex", "2 vertices". Without a plural, an s is appended to the singular.
-[[nodiscard]] inline std::string counted(uint64_t count, std::string_view singular, std::string_view plural = {}) {
-  if (count == 1) return fmt::format("1 {}", singular);
-  return plural.empty() ? fmt::format("{} {}s", count, singular) : fmt::format("{} {}", count, plural);
-}
-
 /// "sdf, seed" for the names "sdf" and "seed" with the separator ", ".
 template <typename Names>
 [[nodiscard]] std::string joined(const Names& names, std::string_view separator) {
@@ -51,6 +45,21 @@ template <typename Names>
   std::string text = std::to_string(number);
   for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
   return text;
+}
+
+/// "1 vertex", "1,234 vertices". Without a plural, an s is appended to the singular.
+[[nodiscard]] inline std::string counted(uint64_t count, std::string_view singular, std::string_view plural = {}) {
+  if (count == 1 || !plural.empty()) return fmt::format("{} {}", groupDigits(count), count == 1 ? singular : plural);
+  return fmt::format("{} {}s", groupDigits(count), singular);
+}
+
+/// The number that is all of the text.
+template <typename T>
+[[nodiscard]] std::optional<T> numberIn(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 /// A diameter, thickness or area in a report, a picture or a legend: four significant digits, and as many more as it

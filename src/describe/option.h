@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -88,15 +87,6 @@ struct OptionRange {
 [[nodiscard]] constexpr OptionRange aboveAndBelow(double min, double max) { return {min, max, true, true}; }
 [[nodiscard]] constexpr OptionRange aboveUpTo(double min, double max) { return {min, max, true, false}; }
 
-/// The number that is all of the text.
-template <typename T>
-[[nodiscard]] std::optional<T> numberIn(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 /// An option. `target` is the struct of the table that has the row, for example ComputationSettings.
 struct OptionRow {
   const char* name;  ///< "time-budget"
@@ -110,7 +100,7 @@ struct OptionRow {
   const char* defaultText = nullptr;  ///< Replaces that of the default value.
   const char* flags = nullptr;        ///< "-o,--output"; null: -- and the name; empty: no flag.
   const char* keyword = nullptr;      ///< The keyword of Python; null: the name of the option; empty: there is none.
-  const char* keywordType = nullptr;  ///< Its type in Python; null: that of the member.
+  const char* keywordType = nullptr;  ///< Type of the keyword in Python; null: the type of the member.
   const char* valueNames = nullptr;   ///< Names of a string: "auto|seed|ray".
   bool emptyIsAuto = false;           ///< The member of the name "auto" is empty.
   std::vector<std::string> (*moreNames)() = nullptr;  ///< Further names of a string.

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An interpolation on a dual graph and its solution, as poisson/poisson_system.h has it. References only; values are
-/// #F.
+/// An interpolation on a dual graph and its solution, as poisson/poisson_system.h has it. It owns nothing. Spans of
+/// values have an entry per face.
 struct SolvedInterpolation {
   const DualGraph& graph;
   std::span<const double> weights;      ///< One per arc.

@@ -57,7 +57,9 @@ class CapsuleUnion {
     double length = 0;
     double radius = 0;       ///< Radius at the origin.
     double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
-    double lean = 0;  ///< Along the axis: (centre of the nearest ball - projection of p) / distance of p from the axis.
+    /// How far along the axis the centre of the ball nearest to a point is from the projection of the point, divided by
+    /// the distance of the point from the axis.
+    double lean = 0;
     double blend = 0;
     uint32_t part = 0;
   };

@@ -285,7 +285,7 @@ class GlbWriter {
   TriangleMesh mesh_;
   const std::vector<uint32_t>* parts_ = nullptr;
   bool materialsShowParts_ = false;
-  std::vector<uint32_t> order_;  ///< Of the triangles.
+  std::vector<uint32_t> order_;  ///< The triangles in the order of the file.
   std::vector<GlbGroup> groups_;
   std::vector<GlbAttribute> attributes_;
   Vec3d middle_, origin_;

@@ -85,7 +85,7 @@ class GltfFile {
   GltfJson document_;
   std::span<const char> binary_;  ///< The chunk BIN; empty without.
   bool hasBinary_ = false;
-  std::vector<std::vector<char>> decoded_;  ///< Of data URIs.
+  std::vector<std::vector<char>> decoded_;  ///< The bytes of data URIs.
   std::vector<std::span<const char>> buffers_;
 };
 

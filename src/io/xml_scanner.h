@@ -26,9 +26,9 @@ class XmlScanner {
   /// Skips the rest of the element whose start was the last event.
   void skipElement();
 
-  /// Of the last tag, with its prefix. Valid until next().
+  /// The name of the last tag, with its prefix. Valid until next().
   [[nodiscard]] std::string_view name() const { return tagName_; }
-  /// Of the last start, as in the file. Valid until next().
+  /// An attribute of the last start tag, as in the file. Valid until next().
   [[nodiscard]] std::optional<std::string_view> attribute(std::string_view name) const;
   [[nodiscard]] const std::vector<std::pair<std::string_view, std::string_view>>& attributes() const {
     return attributes_;

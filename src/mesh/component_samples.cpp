@@ -9,8 +9,8 @@ namespace {
 
 using Triangle = std::array<Vec3d, 3>;
 
-/// Of samples in front of and behind a face, in contact distances: a face that touches another component lies on either
-/// side of it.
+/// Distance of the samples from their face, in contact distances. A sample on each side, because a face that touches
+/// another component lies on either side of it.
 constexpr double kSampleDepth = 2;
 /// Points of a component at equal shares of its area; beside them, one at each of its ends along the axes. Fewer where
 /// all components together would have more than kMaxPointCount.
@@ -22,7 +22,7 @@ double areaOf(const Triangle& triangle) {
   return 0.5 * length(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
 }
 
-/// On both sides of a face.
+/// Adds a sample on each side of a face.
 void addSamples(const Triangle& triangle, const Vec3d& p, uint32_t component, std::vector<Sample>& samples) {
   const Vec3d normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   const double norm = length(normal);
@@ -32,7 +32,7 @@ void addSamples(const Triangle& triangle, const Vec3d& p, uint32_t component, st
   samples.push_back({component, p + step});
 }
 
-/// Of the components with isWanted[component] != 0.
+/// Makes the samples of the components with isWanted[component] != 0.
 class Sampler {
  public:
   Sampler(const ClosedComponents& closed, std::span<const uint8_t> isWanted)

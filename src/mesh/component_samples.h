@@ -30,9 +30,9 @@ struct Sample {
   Vec3d point;
 };
 
-/// Of the closed components with isWanted[component] != 0, grouped by component, ascending: pairs closely in front of
-/// and behind at most 70 points of the surface, which are at equal shares of its area and at the ends along the axes;
-/// at most 10 where there are tens of thousands of components.
+/// Samples of the closed components with isWanted[component] != 0, grouped by component, ascending. A component has at
+/// most 70 points, at equal shares of its area and at the ends along the axes, and a sample closely in front of and
+/// behind each. It has at most 10 points where there are tens of thousands of components.
 [[nodiscard]] std::vector<Sample> samplesOf(const ClosedComponents& closed, std::span<const uint8_t> isWanted);
 
 }  // namespace asdfvk

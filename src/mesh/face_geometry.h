@@ -31,7 +31,7 @@ struct FaceGeometry {
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
 /// Faces that are nearer to each other are in contact; in units of half of the longest side of the mesh. Coordinates in
-/// float32 cannot resolve such a distance, also where parts that touch are turned.
+/// float32 cannot resolve such a distance. It also covers the rounding of parts that touch and are rotated.
 inline constexpr double kContactDistance = 0x1p-20;
 
 /// Maps the box of the mesh to [-1, 1] along its longest side, around its centre. Coordinates in float32 are the same

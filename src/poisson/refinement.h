@@ -11,8 +11,9 @@
 /// Iterative refinement, the outer iteration of the solvers.
 namespace asdfvk {
 
-/// Converts residuals to a fraction of the work. A Krylov or Jacobi iteration reduces the residual by about the same
-/// factor each time, so the fraction is logarithmic between the first residual and the target. It never decreases.
+/// Reports the progress of a solver as a fraction of its work, from the residual. A Krylov or Jacobi iteration reduces
+/// the residual by about the same factor each time, so the fraction is logarithmic between the first residual and the
+/// target. It never decreases.
 class SolverProgress {
  public:
   /// rightHandNorm: residualNorm() of the right-hand side.

@@ -15,8 +15,8 @@ struct Tick {
 };
 
 /// Round numbers within the range, ascending and evenly spaced: 3 to 6 multiples of 1, 2, 2.5 or 5 times a power of
-/// ten, with labels of the fewest digits that distinguish them. For a range that is a point, or so narrow that its
-/// numbers need more than 9 digits: its ends, rounded in the label.
+/// ten, with labels of the fewest digits that distinguish them. A range that is a point, or so narrow that its numbers
+/// need more than 9 digits, has ticks at its ends, with rounded labels.
 [[nodiscard]] std::vector<Tick> ticksWithin(const ColourRange& range);
 
 /// The colour bar as a column of its own at the right side of a picture.

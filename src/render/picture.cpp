@@ -23,7 +23,8 @@ std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range)
   const auto opaque = [](const Rgba& colour) { return Rgb{colour[0], colour[1], colour[2]}; };
   for (size_t face = 0; face < picture.values.size(); ++face)
     colours[face] = opaque(colourOf(picture.values[face], range));
-  for (size_t face = 0; face < picture.labels.size(); ++face) colours[face] = opaque(colourOfPart(picture.labels[face]));
+  for (size_t face = 0; face < picture.labels.size(); ++face)
+    colours[face] = opaque(colourOfPart(picture.labels[face]));
   for (size_t face = 0; face < picture.highlighted.size(); ++face)
     if (picture.highlighted[face] != 0) colours[face] = kAlarm;
   return colours;

@@ -117,9 +117,9 @@ class WindowFilter {
 
   std::span<const double> values_, ringWeights_;
   FaceWindows windows_;
-  std::vector<uint32_t> ringEnds_;    ///< Those of the rings of each lane in turn.
+  std::vector<uint32_t> ringEnds_;    ///< The ends of the rings of each lane in turn.
   std::vector<uint32_t> faces_;       ///< The window of each lane in turn.
-  std::vector<double> valuesAround_;  ///< Of windows_.faces().
+  std::vector<double> valuesAround_;  ///< The values of windows_.faces().
   std::vector<double> others_;        ///< The values of the windows, the lanes side by side.
   std::array<uint32_t, kLanes> counts_{};
   uint32_t longest_ = 0;

@@ -17,7 +17,7 @@ struct MergeWeights {
   double neck;                   ///< Weight of smaller values at the border than in both regions.
   double stepLimit, angleLimit;  ///< Upper limits of the differences, and of the angles in radians.
   double areaExponent, borderExponent;
-  double threshold;  ///< Merging stops before the first cost above it.
+  double threshold;  ///< Merging stops where the next cost is above this.
 };
 
 /// Weights with lines of sight.

@@ -47,9 +47,9 @@ ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Ve
   return x * x + y * y + z * z;
 }
 
-/// The balls of some queries, one in each lane. A walk through the hierarchy shrinks limits of their diameters by a
-/// point of each wall, and collects the walls whose planes are within the limits; those still within the final limits
-/// are measured.
+/// The balls of some queries, one in each lane. A walk through the hierarchy lowers an upper limit of each diameter by
+/// a point of each wall, and collects the walls whose planes are within the limits. At the end it measures those that
+/// are still within the limits.
 template <typename Floats>
 class BallPacket {
  public:

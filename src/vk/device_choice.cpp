@@ -41,10 +41,8 @@ bool isSelected(const DeviceFacts& device, uint32_t index, size_t deviceCount, c
   if (selector.empty()) return true;
   if (!std::all_of(selector.begin(), selector.end(), [](unsigned char c) { return std::isdigit(c); }))
     return lowerCase(device.name).find(lowerCase(selector)) != std::string::npos;
-  uint32_t wanted = 0;
-  const bool isIndex = std::from_chars(selector.data(), selector.data() + selector.size(), wanted).ec == std::errc{} &&
-                       wanted < deviceCount;
-  return isIndex ? wanted == index : holdsNumber(device.name, selector);
+  const auto wanted = numberIn<uint32_t>(selector);
+  return wanted && *wanted < deviceCount ? wanted == index : holdsNumber(device.name, selector);
 }
 
 /// The reason for a refusal, or empty.

@@ -18,6 +18,7 @@ TEST_CASE("a count of one takes the singular, all other counts the plural") {
   CHECK(counted(2, "face") == "2 faces");
   CHECK(counted(1, "vertex", "vertices") == "1 vertex");
   CHECK(counted(21, "vertex", "vertices") == "21 vertices");
+  CHECK(counted(1234, "face") == "1,234 faces");
 }
 
 TEST_CASE("groupDigits puts a comma before every third digit from the end") {

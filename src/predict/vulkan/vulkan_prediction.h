@@ -33,8 +33,8 @@ class VulkanPredictionKernels {
   ComputePipeline points_, faces_;
 };
 
-/// Bounded by 32 MiB of hit points, by the limits of the device, and, for the length of a submission, by the number of
-/// rays.
+/// The largest batch within 32 MiB of hit points, the limits of the device, and a number of rays that keeps a
+/// submission short.
 [[nodiscard]] PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels);
 
 /// Uploads the faces of the scene. Scene, cone and kernels must outlive it. Values differ from those of the CPU by

@@ -78,7 +78,6 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
     const Vec3Double4 tangent = loadRows(frames.tangents, first), bitangent = loadRows(frames.bitangents, first),
                       axis = loadRows(frames.axes, first), origin = loadRows(frames.origins, first),
                       seedNormal = loadRows(frames.normals, first);
-    Mask leaves{};
     for (size_t ray = 0; ray < hits.size(); ++ray) {
       const LaneHits& hit = hits[ray];
       Double4 planes[kDoubleCount], distance{};
@@ -105,9 +104,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
       const Double4 length = isNear ? onPlane : distance;
       const Mask counts = isHit & (facing <= falseHitCosine);
       store(&lengths[ray][first], counts ? length : broadcast<Double4>(kInfinity));
-      leaves |= ~(isHit & (cosine > 0));
     }
-    store(&leavesSurface_[first], leaves);
   }
 }
 

@@ -45,8 +45,6 @@ class LaneCones {
   /// Computes the lengths of all rays; hits: one entry per ray of the cone. The length is the distance to the
   /// triangle's plane; on a sliver, whose plane is not near the hit, it is the distance of the hit.
   void measure(const LaneFrames& frames, std::span<const LaneHits> hits);
-  /// Whether a ray had no hit, or hit the outer side of a face: impossible from inside a closed surface.
-  [[nodiscard]] bool leavesSurface(size_t lane) const { return leavesSurface_[lane] != 0; }
 
   /// One length per ray and lane; infinite for invalid rays.
   [[nodiscard]] std::span<std::array<double, kWidth>> lengths() { return lengths_; }
@@ -64,7 +62,6 @@ class LaneCones {
   InstructionSet instructionSet_;
   std::vector<std::array<double, kWidth>> lengths_, sorted_;  // Per ray.
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // The sorting network.
-  std::array<int64_t, kWidth> leavesSurface_{};
 };
 
 }  // namespace asdfvk

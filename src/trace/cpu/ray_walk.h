@@ -41,7 +41,7 @@ class RayWalk {
 
   /// Sets distances and primitives of the active rays to the nearest hits.
   void findNearest(RayGroup& rays);
-  /// The same for the first hits that are found.
+  /// Sets distances and primitives of the active rays to the first hits that are found.
   void findAny(RayGroup& rays);
 
   /// A box or block that a ray is still to test, and the distance at which it enters.
