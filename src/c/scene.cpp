@@ -29,8 +29,9 @@ class SessionUse {
 };
 
 /// The prepared scene. Precondition: its session is in use by this thread.
-Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control) {
+Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control, bool* isNew = nullptr) {
   if (scene.prepared == nullptr || scene.orientation != orientation) {
+    if (isNew != nullptr) *isNew = true;
     scene.prepared.reset();
     scene.prepared = std::make_unique<Scene>(*scene.session->session, *scene.mesh, orientation, control);
     scene.orientation = orientation;
@@ -176,7 +177,12 @@ asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk_options* opti
     const Options& computed = object->computation.options;
     const RunControl control = call.control();
     const SessionUse use(*used->session);
-    object->result = preparedScene(*used, computed.orientation, control).compute(computed, {}, control);
+    bool isNew = false;
+    Scene& prepared = preparedScene(*used, computed.orientation, control, &isNew);
+    object->result = prepared.compute(computed, {}, control);
+    if (isNew)
+      for (size_t i = 0; i < kStageCount; ++i)
+        object->result.report.stageSeconds.seconds[i] += prepared.preparationSeconds().seconds[i];
     *result = handles<asdf_vk_result>().add(std::move(object));
   });
 }

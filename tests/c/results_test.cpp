@@ -57,6 +57,8 @@ TEST_CASE("values, labels and the report are those of the library, with the back
         asdf_vk_result_copy(result.get(), "segment", ASDF_VK_PER_FACE, ASDF_VK_INT32, labels.data(), labels.size()));
     CHECK(*std::max_element(labels.begin(), labels.end()) + 1 == std::stoi(jsonAt(result.get(), "/segmentCount")));
     CHECK(std::stod(jsonAt(result.get(), "/sdf/median")) == expected.report.sdf.median);
+    CHECK(std::stod(jsonAt(result.get(), "/stageSeconds/bvh")) > 0);
+    CHECK(std::stod(jsonAt(resultOfC(scene.get()).get(), "/stageSeconds/bvh")) == 0);  // The scene is prepared once.
     const Json report = Json::parse(jsonAt(result.get(), ""));
     CHECK(report.at("options").at("seeds") == "20%");
     CHECK(report.at("fields").size() == count);
