@@ -2,8 +2,9 @@
  *
  * Functions return a status; asdf_vk_last_error() has the reason. A handle that is null, of another type or destroyed
  * is an error, not a crash. Handles may be used from any thread; calls on one session, and on its scenes, wait for each
- * other. No C++ exception leaves a function. Functions compute in the default floating-point environment (rounding,
- * traps, flushing of denormals), on all their threads, and restore that of the caller, status flags included.
+ * other. Options are not set while another call uses them. No C++ exception leaves a function. Functions compute in the
+ * default floating-point environment (rounding, traps, flushing of denormals), on all their threads, and restore that
+ * of the caller, status flags included.
  *
  * Arrays and texts that are passed are copied or read during the call only. Texts are UTF-8 and end with 0. Pointers
  * that a function returns belong to the object in its first argument and are valid until that object is destroyed.

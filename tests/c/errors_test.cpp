@@ -156,6 +156,23 @@ TEST_CASE("options have names, values and the objects that they belong to") {
               "require-gpu contradicts backend=cpu");
 }
 
+TEST_CASE("threads compute on one session, whose scenes other threads destroy") {
+  const Owned<asdf_vk_session> session = sessionOfC("cpu");
+  const Mesh mesh = makeSphere(2000).mesh;
+  const std::vector<double> expected = numbersOf(resultOfC(sceneOfC(session.get(), mesh).get()).get(), "sdf");
+  const Owned<asdf_vk_scene> shared = sceneOfC(session.get(), mesh);
+  std::array<std::vector<double>, 3> values;
+  std::vector<std::thread> threads;
+  for (std::vector<double>& own : values)
+    threads.emplace_back([&] {
+      const Owned<asdf_vk_scene> scene = sceneOfC(session.get(), mesh);
+      own = numbersOf(resultOfC(shared.get()).get(), "sdf");
+      if (own == expected) own = numbersOf(resultOfC(scene.get()).get(), "sdf");
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::vector<double>& own : values) CHECK(own == expected);
+}
+
 TEST_CASE("the progress function stops a computation, and may neither compute on its session nor throw") {
   const Owned<asdf_vk_session> session = sessionOfC("reference");
   const Owned<asdf_vk_scene> scene = sceneOfC(session.get(), makeSphere(2000).mesh);
