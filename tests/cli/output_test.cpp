@@ -1,3 +1,7 @@
+#include <fmt/core.h>
+
+#include <array>
+
 #include "asdf_vk/files.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
@@ -128,6 +132,17 @@ TEST_CASE("--per vertex adds fields per vertex, and .csv holds these only") {
   CHECK(run("out.npy").find("'shape': (" + std::to_string(vertexCount) + ",)") != std::string::npos);
 }
 
+std::string twoTetrahedraOff() {
+  std::string vertices, faces;
+  for (const int at : {0, 1}) {
+    for (const auto& [x, y, z] : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+      vertices += fmt::format("{} {} {}\n", x + 5 * at, y, z);
+    for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+      faces += fmt::format("3 {} {} {}\n", a + 4 * at, b + 4 * at, c + 4 * at);
+  }
+  return "OFF\n8 8 0\n" + vertices + faces;
+}
+
 TEST_CASE("--points writes the skeleton points beside the result") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(10));
@@ -145,6 +160,15 @@ TEST_CASE("--points writes the skeleton points beside the result") {
   const ChildOutcome streamed =
       runAsdf({mesh, "-o", folder / "out.csv", "--points", "-", "--quiet", "--backend", "reference"});
   CHECK(streamed.output.starts_with("ply\n"));
+  const std::string two = folder.write("two.off", twoTetrahedraOff());
+  const ChildOutcome trees = runAsdf({two, "-o", folder / "out.csv", "--points", folder / "trees.swc", "--fields",
+                                      "component", "--backend", "reference"});
+  REQUIRE_EQ(trees.exitCode, 0);
+  std::vector<std::string> lines = linesOf(folder.read("trees.swc"));
+  std::erase_if(lines, [](const std::string& line) { return line.starts_with('#'); });
+  REQUIRE_EQ(lines.size(), 8);
+  for (size_t i = 0; i < 8; ++i) CHECK_EQ(lines[i].ends_with(" -1"), i % 4 == 0);
+  CHECK_EQ(folder.read("out.csv"), "face,component\n0,0\n1,0\n2,0\n3,0\n4,1\n5,1\n6,1\n7,1\n");
 }
 
 }  // namespace
