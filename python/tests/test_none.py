@@ -11,7 +11,7 @@ import numpy as np
 import asdf_vk
 import cgal_Segmentation_Module
 from asdf_vk import _options
-from asdf_vk.compat import cgal, trimesh
+from asdf_vk.compat import cgal, meshparty, trimesh
 from shapes import sphere
 
 MESH = sphere(1)
@@ -67,6 +67,7 @@ def test_none_is_the_default(tmp_path: Path) -> None:
         (cgal.sdf_values_postprocessing, (*MESH, VALUES)),
         (cgal.segmentation_from_sdf_values, (*MESH, VALUES)),
         (trimesh.thickness, (asdf_vk.read_mesh(off), TOP)),
+        (meshparty.shape_diameter_function, ([0, 1], asdf_vk.read_mesh(off))),
         (cgal_Segmentation_Module.cgal_segmentation, (off.with_suffix(""), 3, 0.2)),
         (cgal_Segmentation_Module.cgal_segmentation_arrays, (*MESH, 3, 0.2)),
     ]

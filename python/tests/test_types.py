@@ -49,10 +49,12 @@ def test_a_caller_sees_types(tmp_path: Path) -> None:
         "reveal_type(asdf_vk.shape_diameter(v, f))\n"
         "reveal_type(asdf_vk.compute(v, f, segment='parts').segment_count)\n"
         "asdf_vk.shape_diameter(v, f, rays='many')\n"
+        "reveal_type(asdf_vk.radii(v, f, v, threads=1))\n"
     )
     found = mypy("--cache-dir=/dev/null", "caller.py", folder=tmp_path)
     assert re.search(r"numpy\.floating\[numpy\._typing\.(_nbit_base\.)?_32Bit\]", found), found
     assert "Union[builtins.int, None]" in found, found
+    assert re.search(r"caller.py:7: note: .*numpy\.floating\[numpy\._typing\.(_nbit_base\.)?_64Bit\]", found), found
     assert re.search(r'caller.py:6: error: Argument "rays"', found) and "Found 1 error" in found, found
 
 
