@@ -82,9 +82,8 @@ class ASDFVK_API Scene {
   [[nodiscard]] std::vector<uint32_t> nearestFaces(std::span<const double> points, const RunControl& control = {});
 
   /// Distance of each point to the nearest point of the surface, in the unit of the mesh; never negative, and the same
-  /// inside and outside. Exact for the facets but for rounding in double, about 1e-15 of the box. Faces without an area
-  /// do not count; a distance beyond the range of double is the largest double. points and errors: as for
-  /// nearestFaces().
+  /// inside and outside. Exact for the facets but for rounding in double. Faces without an area do not count; a
+  /// distance beyond the range of double is the largest double. points and errors: as for nearestFaces().
   [[nodiscard]] std::vector<double> distance(std::span<const double> points, const RunControl& control = {});
 
   /// Radius of the largest ball around each point inside of the shape: distance() where the point is behind its nearest
