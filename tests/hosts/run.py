@@ -101,7 +101,7 @@ def main() -> int:
         ("Blender", "blender", ["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
                                 str(HERE / "blender_test.py"), "--", str(folder)]),
         ("Blender window", "blender", [*XVFB, "blender", "--factory-startup", "--enable-event-simulate",
-                                       "--window-geometry", "0", "0", "1100", "640", "--python-exit-code", "3", "--python",
+                                       "--window-geometry", "0", "0", "920", "540", "--python-exit-code", "3", "--python",
                                        str(HERE / "blender_window_test.py"), "--", str(folder), str(shots / "blender.png")]),
         ("FreeCAD", "freecadcmd", ["freecadcmd", *paths, str(HERE / "freecad_test.py")]),
         ("FreeCAD window", "freecad", [*XVFB, "freecad", *paths, str(HERE / "freecad_window_test.py")]),
