@@ -24,6 +24,8 @@ def test_the_package_has_the_add_ons() -> None:
     for path in paths:
         documentation = ast.get_docstring(ast.parse(path.read_text()))
         assert documentation and path.parent == Path(next(iter(asdf_vk.hosts.__path__)))
+    version = tuple(map(int, asdf_vk.__version__.split(".")))
+    assert f'"version": {version},' in paths[0].read_text()  # Of the add-on, which Blender reads without running it.
 
 
 def _surface(with_line: bool) -> Any:
