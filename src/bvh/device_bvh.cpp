@@ -6,6 +6,7 @@
 
 #include "bvh/wide_bvh.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 
 namespace asdfvk {
 namespace {
@@ -35,8 +36,8 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveF
     const uint32_t face = primitiveFaces[primitive];
     if (primitive + kPrefetchDistance < primitiveFaces.size()) {
       const uint32_t later = primitiveFaces[primitive + kPrefetchDistance];
-      __builtin_prefetch(&mesh.faces[later]);
-      __builtin_prefetch(&geometry.normals[later]);
+      prefetchMemory(&mesh.faces[later]);
+      prefetchMemory(&geometry.normals[later]);
     }
     const auto corner = [&](size_t k) {
       return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));

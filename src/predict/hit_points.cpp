@@ -1,4 +1,5 @@
 #include "predict/hit_points.h"
+#include "core/prefetch.h"
 
 #include <algorithm>
 #include <array>
@@ -73,7 +74,7 @@ HitRange HitPoints::append(uint32_t seed) {
   const uint32_t seedFace = hits_.seeds[seed];
   // The normals are at random places in memory: without the prefetch the cache misses take most of the time.
   for (const ConeHit& hit : hits)
-    if (hit.face != kNoFace) __builtin_prefetch(&scene_.geometry.normals[hit.face]);
+    if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
   const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);
   const LengthWindow window = inlierWindow(seed, frame);
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);

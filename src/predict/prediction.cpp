@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "predict/hit_points.h"
 #include "predict/prediction_kernel.h"
 
@@ -84,9 +85,9 @@ void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
 void CellPredictor::prefetchFaces(uint32_t cell) const {
   const FaceGeometry& geometry = input_.scene.geometry;
   for (const uint32_t face : input_.cells.faces[cell]) {
-    __builtin_prefetch(&geometry.barycentres[face]);
-    __builtin_prefetch(&geometry.normals[face]);
-    __builtin_prefetch(&input_.scene.representatives[face]);
+    prefetchMemory(&geometry.barycentres[face]);
+    prefetchMemory(&geometry.normals[face]);
+    prefetchMemory(&input_.scene.representatives[face]);
   }
 }
 

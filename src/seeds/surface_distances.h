@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/prefetch.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
@@ -48,13 +49,13 @@ class SurfaceDistances {
   static constexpr size_t kPrefetchDistance = 16;
   /// Prefetches the memory that at(face) and the addition of the face access first.
   void prefetch(uint32_t face) const {
-    __builtin_prefetch(&distances_[face]);
-    __builtin_prefetch(&graph_.offsets[face]);
+    prefetchMemory(&distances_[face]);
+    prefetchMemory(&graph_.offsets[face]);
   }
   /// Prefetches the memory that the addition of the face accesses next. Some time after prefetch().
   void prefetchArcs(uint32_t face) const {
-    __builtin_prefetch(graph_.neighbours.data() + graph_.offsets[face]);
-    __builtin_prefetch(arcLengths_.data() + graph_.offsets[face]);
+    prefetchMemory(graph_.neighbours.data() + graph_.offsets[face]);
+    prefetchMemory(arcLengths_.data() + graph_.offsets[face]);
   }
 
   /// Removes all seeds.

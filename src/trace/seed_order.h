@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/prefetch.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
@@ -22,8 +23,8 @@ class SeedOrder {
 
   /// Prefetches the memory that primitiveOf() reads.
   void prefetch(uint32_t face) const {
-    __builtin_prefetch(&representatives_[face]);
-    __builtin_prefetch(&primitiveOfFace_[face]);
+    prefetchMemory(&representatives_[face]);
+    prefetchMemory(&primitiveOfFace_[face]);
   }
 
  private:

@@ -1,4 +1,5 @@
 #include "trace/cpu/cone_group.h"
+#include "core/prefetch.h"
 
 #include <limits>
 
@@ -33,7 +34,7 @@ void ConeGroup::trace() {
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     cast(cones_.cone.directions[ray], hits_[ray]);
     for (const uint32_t primitive : hits_[ray].primitives)
-      if (primitive != kNoFace) __builtin_prefetch(&cones_.planes[primitive]);
+      if (primitive != kNoFace) prefetchMemory(&cones_.planes[primitive]);
   }
   lanes_.measure(frames_, hits_);
   values_ = lanes_.values();

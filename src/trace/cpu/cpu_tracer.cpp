@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "trace/chunks.h"
 #include "trace/cpu/cone_group.h"
 #include "trace/reference_tracer.h"
@@ -34,7 +35,7 @@ class CpuTracer final : public ConeTracer {
                           const RunControl& control) override {
     if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->traceAt(starts, results, control);
     const auto seedOf = [&](uint32_t i) { return CpuSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
-    const auto prefetchSeed = [&](uint32_t i) { __builtin_prefetch(&starts[i]); };
+    const auto prefetchSeed = [&](uint32_t i) { prefetchMemory(&starts[i]); };
     return traceAll(spatialOrder(starts), seedOf, prefetchSeed, results, control);
   }
 
@@ -50,9 +51,9 @@ class CpuTracer final : public ConeTracer {
   }
 
   void prefetch(uint32_t face) const {
-    __builtin_prefetch(&scene_.geometry.barycentres[face]);
-    __builtin_prefetch(&scene_.geometry.normals[face]);
-    __builtin_prefetch(&scene_.geometry.areas[face]);
+    prefetchMemory(&scene_.geometry.barycentres[face]);
+    prefetchMemory(&scene_.geometry.normals[face]);
+    prefetchMemory(&scene_.geometry.areas[face]);
     seedOrder_.prefetch(face);
   }
 
