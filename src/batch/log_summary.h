@@ -51,7 +51,7 @@ struct LogSummary {
   std::vector<FailureGroup> failures;                        ///< By descending count.
   std::vector<WarningGroup> warnings;                        ///< By descending count.
   std::vector<std::pair<std::string, uint64_t>> devices;     ///< Meshes by device.
-  std::vector<MeshRecord> meshes;                            ///< The last record of each, by input.
+  std::vector<MeshRecord> meshes;                            ///< One record per mesh, the latest, sorted by input.
 };
 
 [[nodiscard]] LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineCount);

@@ -179,7 +179,7 @@ const std::array kComputationRows{
                       "the median of error / value is; starts with 2% or --seeds",
               .more = "Compared is the estimate plus 1.5 standard errors. With `rel` half of the faces are within E of "
                       "their value, whatever the range is ([accuracy.md](accuracy.md)); fulfilled where half of the "
-                      "faces cast rays. A text from 0.1 without `%` is refused: `0.5` may mean 0.5% or 50%. Excludes "
+                      "faces cast rays. A text of 0.1 or more needs a `%`: `0.5` may mean 0.5% or 50%. Excludes "
                       "`--no-estimate` and `--seeds all`.",
               .placeholder = "E%[rel]",
               .keywordType = "float | str",

@@ -95,12 +95,15 @@ std::vector<Rgba> vertexColoursOf(const ResultView& result, const Field& field) 
 }
 
 std::array<double, 3> linearColour(const Rgba& colour) {
-  std::array<double, 3> linear{};
-  for (size_t channel = 0; channel < 3; ++channel) {
-    const double share = colour[channel] / 255.0;
-    linear[channel] = share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
-  }
-  return linear;
+  static const std::array<double, 256> kLinear = [] {
+    std::array<double, 256> table{};
+    for (size_t i = 0; i < table.size(); ++i) {
+      const double share = static_cast<double>(i) / 255;
+      table[i] = share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+    }
+    return table;
+  }();
+  return {kLinear[colour[0]], kLinear[colour[1]], kLinear[colour[2]]};
 }
 
 }  // namespace asdfvk

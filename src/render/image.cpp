@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/result_colours.h"
+
 namespace asdfvk {
 
 Vec3d toLinear(const Rgb& colour) {
-  static const std::array<double, 256> kLinear = [] {
-    std::array<double, 256> table{};
-    for (size_t i = 0; i < table.size(); ++i) {
-      const double s = static_cast<double>(i) / 255;
-      table[i] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    }
-    return table;
-  }();
-  return {kLinear[colour[0]], kLinear[colour[1]], kLinear[colour[2]]};
+  const auto [red, green, blue] = linearColour({colour[0], colour[1], colour[2], 255});
+  return {red, green, blue};
 }
 
 Rgb toRgb(const Vec3d& linear) {

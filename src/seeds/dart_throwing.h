@@ -13,7 +13,7 @@ inline constexpr uint32_t kRadiiPerOctave = 64;
 
 struct ThrownDarts {
   std::vector<uint32_t> faces;  ///< The seeds, in the order of their selection.
-  /// All darts were found at the start radius and more would fit: part of the surface may be without darts.
+  /// Whether all darts were found at the start radius, where more would fit: a part of the surface may have no dart.
   bool leaveGaps = false;
 };
 

@@ -22,6 +22,7 @@ def test_first_view_shows_the_hidden_place(page):
     assert page.text("verdict-0") == "FAIL least 0.5: 1 place thinner than 0.8"
     assert page.js("document.getElementById('thin').checked && document.getElementById('thin-at').value") == "0.8"
     assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").startswith("thinner than 0.8, ")
+    assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").endswith("; pale: behind a wall")
     # The list is above the controls, the walls in it are links; rings with the values are in the view.
     assert page.js("document.getElementById('thin-places').nextElementSibling.className") == "needs-view"
     assert page.text("thin-0-0") == "0.5"
@@ -34,6 +35,7 @@ def test_other_faces(page):
     glass = settled_view(page)
     page.choose("rest", "grey")
     grey = settled_view(page)
+    assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").endswith(" of the area")
     assert alarm_share(grey) == 0 and drawn_share(grey) > 0.2
     page.choose("rest", "hidden")
     hidden = settled_view(page)

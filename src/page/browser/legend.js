@@ -50,11 +50,14 @@ export function drawLegend(context, legend, height, size, ink) {
 
 const thinTitle = (thin) => `${thin.share > 0 ? 'thinner' : 'nowhere thinner'} than ${formatValue(thin.limit)}`;
 
+/** Whether thin faces are seen through others. */
+const showsBehind = ({ share, rest }) => share > 0 && rest === 'glass';
+
 // The colours: of thin faces with their share of the area, of those seen through others, and of others.
-function drawThin(context, { share, rest }, top, size, ink) {
+function drawThin(context, thin, top, size, ink) {
   const rows = [[kRestColour, 'other']];
-  if (share > 0 && rest === 'glass') rows.unshift([kBehindColour, 'thin, behind a wall']);
-  if (share > 0) rows.unshift([kAlarmColour, `thin, ${formatShare(share)}`]);
+  if (showsBehind(thin)) rows.unshift([kBehindColour, 'thin, behind a wall']);
+  if (thin.share > 0) rows.unshift([kAlarmColour, `thin, ${formatShare(thin.share)}`]);
   rows.forEach(([colour, text], i) => drawSwatch(context, cssColour(colour), text, top + 10 + 22 * i, size, ink));
 }
 
@@ -107,7 +110,7 @@ function drawClasses(context, { look }, height, size, ink) {
 
 /** What the legend shows, in words. */
 export function legendSentence(look, thin) {
-  if (thin) return `${thinTitle(thin)}, ${formatShare(thin.share)} of the area`;
+  if (thin) return `${thinTitle(thin)}, ${formatShare(thin.share)} of the area${showsBehind(thin) ? '; pale: behind a wall' : ''}`;
   const unit = look.unit ? ` ${look.unit}` : '';
   if (look.kind !== 'number') return `${look.title}: ${look.classes.length} classes`;
   if (!look.range) return `${look.title}: no face has a value`;
