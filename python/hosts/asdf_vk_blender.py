@@ -292,6 +292,10 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
+    def cancel(self, context):
+        """Blender ends."""
+        self.computation.is_cancelled = True
+
     def modal(self, context, event):
         if event.type == "ESC":
             self.computation.is_cancelled = True

@@ -102,6 +102,10 @@ wedge = add(Part.Face(knife).extrude(vector(0, 5, 0)), "Wedge")
 checks.that("a sharp edge fails", host.check(wedge, 0.5).thickness.verdict == "failed")
 checks.that("unless allowed", host.check(wedge, 0.5, allow_sharp_edges=True).thickness.verdict == "passed")
 
+sheet = add(Part.makePlane(10, 10), "Sheet")
+checks.that("an open sheet is not judged", host.check(sheet, 1).thickness.verdict == "notJudged")
+checks.that("and in the document", document.getObjectsByLabel("Thickness of Sheet")[0].Verdict == "NOT JUDGED")
+
 # Wrong objects, cancel: one line, and the document is unchanged.
 count = len(document.Objects)
 empty = document.addObject("App::DocumentObjectGroup", "Empty")

@@ -41,6 +41,8 @@ checks.that("thin faces", (walls["thin"] == (walls["least_thickness"] < 0.8)).al
 facts = servermanager.Fetch(walls_filter).GetFieldData()
 checks.that("verdict", facts.GetAbstractArray("verdict").GetValue(0) == "failed")
 checks.that("least thickness", abs(facts.GetArray("least_thickness_of_part").GetValue(0) - 0.6) < 1e-6)
+sheet = servermanager.Fetch(WallThickness(Input=Plane(), Limit=1))
+checks.that("an open sheet is not judged", sheet.GetFieldData().GetAbstractArray("verdict").GetValue(0) == "notJudged")
 figure = PLYReader(FileNames=[str(folder / "figure.ply")])
 checks.same_bits("segment", arrays_of(ShapeParts(Input=figure))["segment"], folder / "figure.segment.npy")
 three = arrays_of(ShapeParts(Input=figure, NumberOfParts=3))["segment"]

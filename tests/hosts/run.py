@@ -6,20 +6,22 @@ Everything is made below FOLDER. A host that is not installed is skipped with a 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Iterator
 
 import numpy as np
 
 import polygons
 
 HERE = Path(__file__).resolve().parent
-XVFB = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
 TIMEOUT = 120  # Seconds for one host.
 
 
@@ -44,19 +46,39 @@ def meshes(folder: Path, program: Path) -> None:
         call("asdf-vk", f"{mesh}.ply", *options, "--fields", field, "-o", f"{mesh}.{field}.npy")
 
 
-def run(host: str, needed: str, command: list[str], folder: Path, environment: dict[str, str]) -> tuple[str, str, str]:
+@contextlib.contextmanager
+def display() -> Iterator[dict[str, str] | None]:
+    """The variables of a display in memory; None where there is no Xvfb."""
+    if shutil.which("Xvfb") is None:
+        yield None
+        return
+    read, write = os.pipe()
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]
+    server = subprocess.Popen(command, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as numbers:
+        yield {"DISPLAY": f":{numbers.readline().strip()}"}
+    server.terminate()
+    server.wait()
+
+
+def run(host: str, needed: str, command: list[str], folder: Path, environment: dict[str, str] | None
+        ) -> tuple[str, str, str]:
     """A row of the table."""
-    if shutil.which(needed) is None:
-        print(f"test-hosts: {host} is skipped: there is no program {needed}", flush=True)
+    if shutil.which(needed) is None or environment is None:
+        program = needed if shutil.which(needed) is None else "Xvfb"
+        print(f"test-hosts: {host} is skipped: there is no program {program}", flush=True)
         return host, "0", "skipped"
     started = time.monotonic()
     log = folder / f"{host.lower()}.log"
     with log.open("w") as output:
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+                                   stderr=subprocess.STDOUT, start_new_session=True)  # fmt: skip
         try:
-            code = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output,
-                                  stderr=subprocess.STDOUT, timeout=TIMEOUT).returncode  # fmt: skip
+            code = process.wait(TIMEOUT)
         except subprocess.TimeoutExpired:
-            code = -1
+            os.killpg(process.pid, signal.SIGKILL)
+            code = process.wait()
             output.write(f"\n{host}: FAILED: no end after {TIMEOUT} s\n")
     text = log.read_text(errors="replace")
     found = re.search(r"^checks: .*?: (\d+) checks, (\d+) failed$", text, re.MULTILINE)
@@ -97,19 +119,24 @@ def main() -> int:
     shots.mkdir()
     paths = ["-P", str(build / "python"), "-P", str(HERE)]  # FreeCAD with a window ignores PYTHONPATH.
     rows = []
-    for host, needed, command in (
-        ("Blender", "blender", ["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
-                                str(HERE / "blender_test.py"), "--", str(folder)]),
-        ("Blender window", "blender", [*XVFB, "blender", "--factory-startup", "--enable-event-simulate",
-                                       "--window-geometry", "0", "0", "920", "540", "--python-exit-code", "3", "--python",
-                                       str(HERE / "blender_window_test.py"), "--", str(folder), str(shots / "blender.png")]),
-        ("FreeCAD", "freecadcmd", ["freecadcmd", *paths, str(HERE / "freecad_test.py")]),
-        ("FreeCAD window", "freecad", [*XVFB, "freecad", *paths, str(HERE / "freecad_window_test.py")]),
-        ("ParaView", "pvbatch", [*XVFB, "pvbatch", str(HERE / "paraview_test.py"), str(folder), str(shots / "paraview.png")]),
-        ("Exchange", sys.executable, [sys.executable, str(HERE / "exchange_test.py"), str(folder)]),
-    ):  # fmt: skip
-        if not arguments.only or any(name in host.lower() for name in arguments.only.lower().split(",")):
-            rows.append(run(host, needed, command, folder, {**environment, "ASDF_VK_SHOTS": str(shots)}))
+    blender = ["blender", "--factory-startup", "--python-exit-code", "3"]
+    window = ["--enable-event-simulate", "--window-geometry", "0", "0", "920", "540"]
+    with display() as shown:
+        for host, needed, needs_display, command in (
+            ("Blender", "blender", False, [*blender, "-b", "--python", HERE / "blender_test.py", "--", folder]),
+            ("Blender window", "blender", True, [*blender, *window, "--python", HERE / "blender_window_test.py", "--",
+                                                 folder, shots / "blender.png"]),
+            ("FreeCAD", "freecadcmd", False, ["freecadcmd", *paths, HERE / "freecad_test.py"]),
+            ("FreeCAD window", "freecad", True, ["freecad", *paths, HERE / "freecad_window_test.py"]),
+            ("ParaView", "pvbatch", True, ["pvbatch", HERE / "paraview_test.py", folder, shots / "paraview.png"]),
+            ("Exchange", sys.executable, False, [sys.executable, "-B", HERE / "exchange_test.py", folder]),
+        ):  # fmt: skip
+            if arguments.only and not any(name in host.lower() for name in arguments.only.lower().split(",")):
+                continue
+            variables = {**environment, "ASDF_VK_SHOTS": str(shots)}
+            if needs_display:
+                variables = None if shown is None else {**variables, **shown}
+            rows.append(run(host, needed, [str(word) for word in command], folder, variables))
     print(f"\n{'host':16} {'checks':>6}  result")
     for host, checks, result in rows:
         print(f"{host:16} {checks:>6}  {result}")
