@@ -167,7 +167,12 @@ def show_place(place) -> None:
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.Selection.addSelection(place)
     FreeCADGui.SendMsgToActiveView("ViewSelection")
-    camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+    try:
+        from pivy import coin  # noqa: F401; the type of the camera
+
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+    except (ImportError, RuntimeError):
+        return
     if hasattr(camera, "height"):  # Orthographic: some of the neighbourhood too.
         result = place.InList[0].Group[0].Mesh.BoundBox
         camera.height.setValue(max(camera.height.getValue(), 0.4 * result.DiagonalLength))

@@ -36,7 +36,8 @@ bpy.context.view_layer.update()
 world = [np.array(obj.matrix_world) for obj in (parent, child)]
 np.save(folder / "blender.matrices.npy", world)
 bpy.ops.export_scene.gltf(filepath=str(folder / "blender.glb"), export_format="GLB")
-bpy.ops.export_scene.gltf(filepath=str(folder / "blender.gltf"), export_format="GLTF_EMBEDDED")
+if bpy.app.version < (4,):
+    bpy.ops.export_scene.gltf(filepath=str(folder / "blender.gltf"), export_format="GLTF_EMBEDDED")
 
 # Read by Blender: what asdf-vk writes.
 found = {}

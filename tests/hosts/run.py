@@ -119,7 +119,7 @@ def main() -> int:
     shots.mkdir()
     paths = ["-P", str(build / "python"), "-P", str(HERE)]  # FreeCAD with a window ignores PYTHONPATH.
     rows = []
-    blender = ["blender", "--factory-startup", "--python-exit-code", "3"]
+    blender = ["blender", "--python-use-system-env", "--factory-startup", "--python-exit-code", "3"]
     window = ["--enable-event-simulate", "--window-geometry", "0", "0", "920", "540"]
     with display() as shown:
         for host, needed, needs_display, command in (
