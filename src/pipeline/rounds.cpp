@@ -165,6 +165,7 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const dou
     else
       prediction_.predict({traced_.faces, traced_.hits}, predicting);
   }
+  if (!tracing_) traced_.hits = {};  // The equation needs memory; there are no further rounds.
   control.checkpoint(kPredictedProgress);
   {
     const auto scope = clock_.time(Stage::Solve);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -51,7 +52,7 @@ SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions&
     return report;
   }
   const double target = options.tolerance * normOfRightHandSide;
-  UnsetVector<double> residual(solution.size()), correction(solution.size());
+  UnsetVector<double> residual(solution.size());
   computeResidual(system, solution, residual);
   double norm = residualNorm(system, residual);
   for (auto corrector = correctors.begin(); corrector != correctors.end();) {
@@ -60,13 +61,15 @@ SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions&
                                              .norm = norm,
                                              .reduction = passReduction(target, norm, corrector->minReduction),
                                              .maxIterations = options.maxIterations - report.iterations,
-                                             .correction = correction});
-    forEachInParallel(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
-    computeResidual(system, correction, residual);
+                                             .correction = residual});
+    UnsetVector<double> corrected = std::move(residual);
+    forEachInParallel(solution.size(), [&](size_t row) { corrected[row] += solution[row]; });
+    residual.resize(solution.size());  // Not before the memory of the corrector is free.
+    computeResidual(system, corrected, residual);
     const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.
     const bool helps = newNorm <= norm, stagnates = passStagnates(newNorm, norm);
     if (helps) {
-      std::copy(correction.begin(), correction.end(), solution.begin());
+      std::copy(corrected.begin(), corrected.end(), solution.begin());
       norm = newNorm;
     } else {
       computeResidual(system, solution, residual);

@@ -36,7 +36,7 @@ struct CorrectionRequest {
   double norm = 0;                   ///< residualNorm() of `residual`, > 0.
   double reduction = 0;              ///< The pass may end when the norm is at or below this share of `norm`.
   uint32_t maxIterations = 0;
-  std::span<double> correction;  ///< #U: e, overwritten.
+  std::span<double> correction;  ///< #U: e, overwritten. In the place of the residual.
 };
 
 /// The share of the norm of the residual that a pass is to reach.
