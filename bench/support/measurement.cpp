@@ -20,7 +20,7 @@ double medianOfSorted(const std::vector<double>& sorted) {
 }
 
 /// The text after the colon in the first line that begins with `key`; empty without such a line.
-std::string valueIn(const char* file, std::string_view key) {
+std::string valueIn(const std::string& file, std::string_view key) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
     const size_t colon = line.find(':');
@@ -76,6 +76,10 @@ Machine thisMachine() {
 
 std::string toText(const Machine& machine) {
   return fmt::format("{}, {} threads, load average {:.1f}", machine.processor, machine.threads, machine.loadAverage);
+}
+
+double peakMemoryBytes(int process) {
+  return std::strtod(valueIn(fmt::format("/proc/{}/status", process), "VmHWM").c_str(), nullptr) * 1024;
 }
 
 }  // namespace asdfvk::bench

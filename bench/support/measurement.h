@@ -65,4 +65,7 @@ struct Machine {
 /// One line.
 [[nodiscard]] std::string toText(const Machine& machine);
 
+/// Peak resident memory of a running process so far (VmHWM); 0 after its end.
+[[nodiscard]] double peakMemoryBytes(int process);
+
 }  // namespace asdfvk::bench

@@ -2,12 +2,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -17,6 +19,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/stopwatch.h"
+#include "support/measurement.h"
 #include "support/program.h"
 
 namespace asdfvk::bench {
@@ -48,10 +51,18 @@ pid_t spawn(std::string program, std::vector<std::string> arguments, int standar
   return process;
 }
 
-std::string readAll(int descriptor) {
+// Between two readings of the peak memory; that of wait4() is at least the memory of this process.
+constexpr int kPollMilliseconds = 5;
+
+std::string readAll(int descriptor, pid_t process, double& peakBytes) {
   std::string text;
   std::array<char, 4096> buffer;
   for (;;) {
+    pollfd waiting{descriptor, POLLIN, 0};
+    if (poll(&waiting, 1, kPollMilliseconds) == 0) {
+      peakBytes = std::max(peakBytes, peakMemoryBytes(process));
+      continue;
+    }
     const ssize_t count = read(descriptor, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return text;
@@ -78,15 +89,14 @@ std::string outputOf(const std::string& program, const std::vector<std::string>&
     throw;
   }
   close(ends[1]);
-  std::string text = readAll(ends[0]);
+  double peakBytes = 0;
+  std::string text = readAll(ends[0], process, peakBytes);
   close(ends[0]);
   int status = 0;
   rusage used{};
   while (wait4(process, &status, 0, &used) < 0 && errno == EINTR) {
   }
-  if (usage != nullptr)
-    *usage = {watch.seconds(), secondsOf(used.ru_utime) + secondsOf(used.ru_stime),
-              static_cast<double>(used.ru_maxrss) * 1024};
+  if (usage != nullptr) *usage = {watch.seconds(), secondsOf(used.ru_utime) + secondsOf(used.ru_stime), peakBytes};
   if (WIFSIGNALED(status))
     throw std::runtime_error(fmt::format("{} was ended by signal {}", program, WTERMSIG(status)));
   if (WEXITSTATUS(status) == kCancelledExitCode) throw Error(ErrorCode::Cancelled, "cancelled");
