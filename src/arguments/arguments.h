@@ -65,9 +65,9 @@ class ArgumentParser {
     std::vector<Argument::Values> given = {};  ///< The values of each occurrence.
   };
   [[nodiscard]] Entry& find(std::string_view name);
-  /// Null where the text is no option with an optional value.
+  /// The option that the text names, if its value is optional; otherwise null.
   [[nodiscard]] const Entry* withOptionalValue(const std::string& text) const;
-  /// CLI11 takes the next argument as an optional value, whatever it is.
+  /// Joins each optional value to its option by '='. CLI11 would take the next argument as the value, whatever it is.
   [[nodiscard]] std::vector<std::string> withAttachedValues(const std::vector<std::string>& arguments) const;
   /// Reads the arguments that are no options, and refuses unknown options. CLI11 would read "[a]" as a list.
   void readPositional(const std::vector<std::string>& arguments);

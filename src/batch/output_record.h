@@ -27,12 +27,12 @@ namespace asdfvk {
 /// output without a record, never one with the record of another output.
 void removeOutputRecord(const std::filesystem::path& output);
 
-/// Removes the output, if its bytes are those of the record, and the record beside it.
+/// Removes the output and the record beside it; neither where the bytes of the output are not those of `record`.
 void removeOutput(const MeshRecord& record, const std::filesystem::path& output);
 
 /// Removes the output of an earlier run, and its record, where the mesh failed now. `old`: the record that lay beside
-/// the output before. Keeps the output of another mesh, one of the same input, options, version and commit, and each
-/// output where the input was not read, because it may be up to date then.
+/// the output before. Keeps an output of another mesh, and an output of the same input, options, version and commit.
+/// Keeps any output where the input was not read, because the output may be up to date then.
 void removeOutdatedOutput(const MeshRecord& old, const MeshRecord& failed, const std::filesystem::path& output);
 
 /// Writes the record atomically, with the hash of the output. Throws Error{OutputNotWritable}.

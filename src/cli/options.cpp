@@ -191,11 +191,12 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
   if (given.has("files-from") && batch.list.empty()) refuseOptions("--files-from: the name is empty");
   if (given.has("log") && batch.log.empty()) refuseOptions("--log: the name is empty");
   if (batch.list == "-" && readsInput)
-    refuseOptions("--files-from - and the mesh - both read standard input; give one of them a file");
+    refuseOptions("--files-from - and the mesh '-' both read standard input; give one of them a file");
   if (batch.isolates && readsInput)
     refuseOptions(
-        "--isolate and --memory-limit compute in other processes, which cannot read the mesh -; give it a file");
-  if (batch.skipsExisting && readsInput) refuseOptions("--skip-existing does not apply to the mesh -; give it a file");
+        "--isolate and --memory-limit compute in other processes, which cannot read the mesh '-'; give it a file");
+  if (batch.skipsExisting && readsInput)
+    refuseOptions("--skip-existing does not apply to the mesh '-'; give it a file");
   if (!batch.isBatch()) {
     if (batch.jobCount > 1 && writesOnePage(line.outputs))
       refuseOptions("one page takes one mesh after another; drop --jobs");

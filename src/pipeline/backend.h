@@ -16,7 +16,7 @@ namespace asdfvk {
 
 class Device;
 
-/// What a tracer is used for besides the values.
+/// What a tracer has to provide besides the values.
 struct TracerNeeds {
   bool hits = false;  ///< The hits of the rays.
 };

@@ -23,7 +23,7 @@ struct SeedChoice {
 /// The sampler of completed options.
 [[nodiscard]] const Sampler& samplerOf(const Options& options);
 
-/// Division of a number of further seeds when the error is estimated.
+/// How many of the further seeds are of each kind, when the error is estimated.
 struct SeedShares {
   uint64_t sampled = 0, heldOut = 0;
   uint64_t extreme = 0;  ///< See extremeSeeds().

@@ -30,10 +30,10 @@ struct CgalValues {
 /// The second step. The value of a face becomes the mean over the faces within R rings of neighbours around it, itself
 /// included, with the weights
 ///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
-/// R = 1 + floor(sqrt(#F / 2000)), sigma_f: 1.5 times the root mean square of v_g - v_f. All values finite,
-/// with finite squares. Polled every 256 faces. Throws Error{Cancelled}. Sums have the order of a breadth-first search,
-/// so that the result has the same bits on any number of threads, and with any instruction set where exp() has the bits
-/// of core/lane_exp.h.
+/// R = 1 + floor(sqrt(#F / 2000)), sigma_f: 1.5 times the root mean square of v_g - v_f. Precondition: the values and
+/// their squares are finite. `control` is polled every 256 faces. Throws Error{Cancelled}. Sums have the order of a
+/// breadth-first search, so that the result has the same bits on any number of threads, and with any instruction set
+/// where exp() has the bits of core/lane_exp.h.
 [[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                                  const RunControl& control = {},
                                                  InstructionSet instructionSet = widestInstructionSet());

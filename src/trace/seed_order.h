@@ -12,7 +12,7 @@ namespace asdfvk {
 /// Order of the seeds by their triangles in the hierarchy: neighbouring cones traverse the same nodes.
 class SeedOrder {
  public:
-  /// Orders by the primitives of the hierarchy of the scene.
+  /// The order is that of the primitives in the hierarchy of the scene.
   explicit SeedOrder(const TraceScene& scene);
 
   /// A permutation of the indices into seedFaces; equal seeds keep their order.

@@ -20,7 +20,7 @@ struct RayGroup {
   alignas(32) std::array<Floats, 3> origins{}, directions{};  ///< x, y, z. Distances are in lengths of the direction.
   alignas(32) Floats begins{}, ends{};  ///< Hits are from and up to these distances, which are finite.
   alignas(32) Indices skipped{};        ///< A primitive that the ray does not hit.
-  float outerSideAddition = 0;          ///< Added to the distance of hits on the outer side of a face, to compare them.
+  float outerSideAddition = 0;  ///< A hit on the outer side of a face counts as farther by this (kOuterSideFactor).
 
   alignas(32) Floats distances{};    ///< Infinite without a hit. Float32 resolves coordinates of the corners to 2^-24.
   alignas(32) Indices primitives{};  ///< kNoFace without a hit.
