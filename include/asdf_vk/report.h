@@ -224,7 +224,7 @@ struct UnjudgedFaces {
   uint64_t crossedCount = 0;
   uint64_t selfCrossedCount = 0;  ///< Faces that a face of the same solid crosses: inside and outside are mixed up.
 
-  /// Whether a point of the surface may be thinner than what was found.
+  /// Whether the surface may have a point that is thinner than the least thickness found.
   [[nodiscard]] bool preventVerdict() const { return openCount > 0 || invertedCount > 0 || selfCrossedCount > 0; }
 };
 

@@ -211,7 +211,7 @@ const std::array kOutputRows{
               .text = "View, in degrees to the right of the broad side of the mesh (-360 to 360) and up (-90 to 90)",
               .placeholder = "AZIMUTH,ELEVATION",
               .needs = "picture",
-              .defaultText = "30,18, or the view that shows the thin places best",
+              .defaultText = "30,18 (for thin places the view that shows them best)",
               .wanted = "two numbers with a comma between them",
               .read = readView,
               .write = noValue},

@@ -27,8 +27,8 @@ constexpr std::array kFields{
              .label = "segments",
              .type = FieldType::Label,
              .needs = "segment",
-             .meaning = "number of the segment, from 0, ascending by its mean value; 4294967295 for a face with fewer "
-                        "than three corners"},
+             .meaning = "number of the segment: segments are numbered from 0 by ascending mean value; 4294967295 for a "
+                        "face with fewer than three corners"},
     FieldRow{.name = "thickness",
              .label = "wall thickness",
              .unit = "length",
@@ -52,9 +52,8 @@ constexpr std::array kFields{
              .label = "components",
              .type = FieldType::Label,
              .needs = "fields component",
-             .meaning =
-                 "number of the component, faces connected by edges, from 0 by their first faces; 4294967295 for "
-                 "a face with fewer than three corners"},
+             .meaning = "number of the component (faces connected by edges): components are numbered from 0 by their "
+                        "first faces; 4294967295 for a face with fewer than three corners"},
 };
 
 }  // namespace

@@ -10,11 +10,11 @@ namespace asdfvk {
 // Shapes whose diameters are known in closed form, centred at the origin, triangulated evenly. faceCount is
 // approximate.
 
-/// A geodesic sphere of 20 n^2 faces: each side of an icosahedron divided into n^2 triangles, projected. Diameter 2
-/// radius.
+/// A geodesic sphere: each face of an icosahedron is divided into n^2 triangles, and their vertices are projected onto
+/// the sphere. n: such that the 20 n^2 faces are about faceCount. Diameter: 2 * radius.
 [[nodiscard]] GeneratedShape makeSphere(uint64_t faceCount, double radius = 1);
-/// An icosahedron under OpenMesh's Loop subdivision, projected after each step: 20 * 4^n faces, with the n for which 20
-/// * 4^n / faceCount is closest to 1. Radius 1, diameter 2.
+/// An icosahedron under n steps of OpenMesh's Loop subdivision, each followed by a projection onto the sphere. n: such
+/// that the ratio of the 20 * 4^n faces to faceCount is closest to 1. Radius 1, diameter 2.
 [[nodiscard]] GeneratedShape makeIcosphere(uint64_t faceCount);
 /// Diameter: the smallest of the three sizes.
 [[nodiscard]] GeneratedShape makeBox(uint64_t faceCount, const Vec3d& size);
@@ -22,9 +22,9 @@ namespace asdfvk {
 [[nodiscard]] GeneratedShape makeSlab(uint64_t faceCount, double width = 2, double thickness = 0.1);
 /// Diameter: the edge.
 [[nodiscard]] GeneratedShape makeCube(uint64_t faceCount, double edge = 1);
-/// Along z, with flat caps. Diameter 2 radius.
+/// Along z, with flat caps. Diameter: 2 * radius.
 [[nodiscard]] GeneratedShape makeCylinder(uint64_t faceCount, double radius = 0.25, double length = 5);
-/// ringRadius: from the axis z to the centre of the tube. Diameter 2 tubeRadius.
+/// ringRadius: from the axis z to the centre of the tube. Diameter: 2 * tubeRadius.
 [[nodiscard]] GeneratedShape makeTorus(uint64_t faceCount, double ringRadius = 1, double tubeRadius = 0.3);
 
 }  // namespace asdfvk

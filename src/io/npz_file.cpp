@@ -73,7 +73,7 @@ std::vector<ZipMember> namedMembers(FieldReferences fields) {
       member.kind = std::string(kRenamed) + field.name;
     }
     if (!names.insert(member.name).second)
-      throw Error(ErrorCode::OptionConflict, fmt::format("two fields need the member {} of a .npz", member.name));
+      throw Error(ErrorCode::OptionConflict, fmt::format("two fields would have the name {} in the .npz", member.name));
   }
   return members;
 }

@@ -25,11 +25,11 @@ class SkyLight {
   struct Source {
     SampleGrid grid;
     double radiance = 0;
-    double reach = 0;           ///< Shadows fade with the distance between their surface and the point, up to this one.
+    double reach = 0;           ///< A shadow fades behind the surface that casts it, and ends at this distance from it.
     std::vector<float> depths;  ///< Depths of the surface that is nearest to the light.
   };
 
-  /// 1 where the point is not behind the surface; behind it less, see reach. Bilinear between the texels.
+  /// 1 where the point is not behind the surface; behind it from 0 to 1, see reach. Bilinear between the texels.
   [[nodiscard]] double litShare(const Source& source, const Vec3d& point) const;
 
   Vec3d toViewer_;
