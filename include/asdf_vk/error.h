@@ -30,7 +30,7 @@ enum class ErrorCode {
   UnreadableInput,  ///< The file cannot be opened or violates its format; the message contains line or byte.
   EmptyMesh,        ///< No faces in the mesh, or in the region of it.
   ArraySize,        ///< An array has a wrong size, or offsets do not ascend.
-  ArrayType,        ///< The elements of an array have an unsupported type. Python module only.
+  ArrayType,        ///< The elements of an array have an unsupported type. Python module and C interface only.
   NonFiniteNumber,  ///< A NaN or an infinite number where only finite ones are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.

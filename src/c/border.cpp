@@ -94,11 +94,13 @@ asdf_vk_status guarded(FunctionRef<void()> body) noexcept {
 }
 
 void requireArgument(const void* pointer, const char* name) {
-  if (pointer == nullptr) throw Error(ErrorCode::InvalidArgument, fmt::format("{} is null", name));
+  if (pointer == nullptr)
+    throw Error(ErrorCode::InvalidArgument, fmt::format("a null pointer was passed for {}", name));
 }
 
 RunControl ProgressCall::control() {
   if (callback_ == nullptr) return {};
+  source_ = std::stop_source();
   return {source_.get_token(),
           [this](double fraction) {
             fraction_ = fraction;

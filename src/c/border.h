@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 
 #include "asdf_vk/asdf_vk_c.h"
@@ -37,7 +38,7 @@ class ProgressCall {
   std::fenv_t callers_{};
   double fraction_ = 0;
   const char* stage_ = "";
-  std::stop_source source_;
+  std::stop_source source_{std::nostopstate};  ///< Its state needs memory: made in control().
 };
 
 /// Numbers that no handle has had, of any type.

@@ -18,7 +18,10 @@ void setText(const OptionRow& row, void* target, const std::string& text) {
   if (!isFlag(row)) return setOptionText(row, target, text, kSpelling);
   const std::string word = lowerCase(text);
   const bool isOn = word == "on" || word == "true", isOff = word == "off" || word == "false";
-  setOption(row, target, isOn || isOff ? OptionValue(isOn) : OptionValue(text), "'" + text + "'", kSpelling);
+  if (!isOn && !isOff)
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("{}: '{}' is not on or off", row.name, text),
+                {{"option", row.name}});
+  setOption(row, target, isOn, text, kSpelling);
 }
 
 /// Sets the options in the order of the rows. other, use: the options that are refused, and what they belong to.

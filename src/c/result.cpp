@@ -10,7 +10,9 @@ namespace asdfvk::c {
 namespace {
 
 FieldLocation locationOf(asdf_vk_location location) {
-  return location == ASDF_VK_PER_VERTEX ? FieldLocation::PerVertex : FieldLocation::PerFace;
+  if (location == ASDF_VK_PER_FACE) return FieldLocation::PerFace;
+  if (location == ASDF_VK_PER_VERTEX) return FieldLocation::PerVertex;
+  throw Error(ErrorCode::InvalidArgument, "the location is neither PER_FACE nor PER_VERTEX");
 }
 
 asdf_vk_field describedField(const Field& field) {

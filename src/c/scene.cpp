@@ -73,9 +73,8 @@ void requireIndexType(asdf_vk_type type) {
     throw Error(ErrorCode::ArrayType, "the type of the corners is neither UINT32 nor INT32");
 }
 
-void addScene(asdf_vk_session* session, Mesh mesh, asdf_vk_scene** scene) {
-  auto object = std::make_shared<asdf_vk_scene>(handles<asdf_vk_session>().get(session), std::move(mesh));
-  *scene = handles<asdf_vk_scene>().add(std::move(object));
+void addScene(std::shared_ptr<asdf_vk_session> session, Mesh mesh, asdf_vk_scene** scene) {
+  *scene = handles<asdf_vk_scene>().add(std::make_shared<asdf_vk_scene>(std::move(session), std::move(mesh)));
 }
 
 }  // namespace
@@ -118,10 +117,11 @@ asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertic
                                     const char* unit, asdf_vk_scene** scene) {
   return guarded([&] {
     requireArgument(scene, "the output");
+    auto used = handles<asdf_vk_session>().get(session);
     requireIndexType(cornerType);
     requireAtMost(kMaxTriangleCount, faceCount, "faces");
     const auto indices = spanOf<uint32_t>(corners, 3 * uint64_t{faceCount}, "the corners");
-    addScene(session, meshOf(viewOf(vertices, vertexType, vertexCount, indices, {}), unit), scene);
+    addScene(std::move(used), meshOf(viewOf(vertices, vertexType, vertexCount, indices, {}), unit), scene);
   });
 }
 
@@ -131,19 +131,22 @@ asdf_vk_status asdf_vk_scene_create_polygons(asdf_vk_session* session, const voi
                                              asdf_vk_scene** scene) {
   return guarded([&] {
     requireArgument(scene, "the output");
+    auto used = handles<asdf_vk_session>().get(session);
     requireIndexType(cornerType);
     requireAtMost(kMaxIndexCount, faceCount, "faces");
     const auto first = spanOf<uint64_t>(firstCorner, uint64_t{faceCount} + 1, "first_corner");
+    requireAtMost(kMaxIndexCount, first.back(), "corners");
     const auto indices = spanOf<uint32_t>(corners, first.back(), "the corners");
-    addScene(session, meshOf(viewOf(vertices, vertexType, vertexCount, indices, first), unit), scene);
+    addScene(std::move(used), meshOf(viewOf(vertices, vertexType, vertexCount, indices, first), unit), scene);
   });
 }
 
 asdf_vk_status asdf_vk_scene_read(asdf_vk_session* session, const char* path, asdf_vk_scene** scene) {
   return guarded([&] {
     requireArgument(scene, "the output");
+    auto used = handles<asdf_vk_session>().get(session);
     requireArgument(path, "the path");
-    addScene(session, readMesh(path), scene);
+    addScene(std::move(used), readMesh(path), scene);
   });
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("arrays of a wrong size or type are errors") {
   CHECK_FAILS(create(v, ASDF_VK_FLOAT64, 3, f, ASDF_VK_UINT32, 4), ASDF_VK_INPUT, "indexOutOfRange", "does not exist");
   CHECK_FAILS(create(v, ASDF_VK_FLOAT64, 4, f, ASDF_VK_UINT32, 0), ASDF_VK_INPUT, "emptyMesh", "no faces");
   CHECK_FAILS(create(nullptr, ASDF_VK_FLOAT64, 4, f, ASDF_VK_UINT32, 4), ASDF_VK_USAGE, "invalidArgument",
-              "the vertices is null");
+              "a null pointer was passed for the vertices");
   CHECK_FAILS(create(v, ASDF_VK_FLOAT64, 4, nullptr, ASDF_VK_UINT32, 4), ASDF_VK_USAGE, "invalidArgument", "null");
   CHECK_FAILS(create(v, ASDF_VK_UINT8, 4, f, ASDF_VK_UINT32, 4), ASDF_VK_INPUT, "arrayType", "neither");
   CHECK_FAILS(create(v, ASDF_VK_FLOAT64, 4, f, ASDF_VK_FLOAT64, 4), ASDF_VK_INPUT, "arrayType", "neither");
@@ -78,8 +78,12 @@ TEST_CASE("arrays of a wrong size or type are errors") {
   CHECK_FAILS(asdf_vk_scene_create_polygons(session.get(), v, ASDF_VK_FLOAT64, 4, f, ASDF_VK_UINT32, first.data(), 2,
                                             nullptr, &scene),
               ASDF_VK_INPUT, "arraySize", "ascend");
+  const std::array<uint64_t, 2> huge{0, std::numeric_limits<uint64_t>::max()};
+  CHECK_FAILS(asdf_vk_scene_create_polygons(session.get(), v, ASDF_VK_FLOAT64, 4, f, ASDF_VK_UINT32, huge.data(), 1,
+                                            nullptr, &scene),
+              ASDF_VK_INPUT, "meshTooLarge", "corners");
   CHECK_FAILS(asdf_vk_scene_create(session.get(), v, ASDF_VK_FLOAT64, 4, f, ASDF_VK_UINT32, 4, nullptr, nullptr),
-              ASDF_VK_USAGE, "invalidArgument", "the output is null");
+              ASDF_VK_USAGE, "invalidArgument", "for the output");
   CHECK_FAILS(asdf_vk_scene_read(session.get(), "/nowhere/a.ply", &scene), ASDF_VK_INPUT, "unreadableInput",
               "/nowhere/a.ply: cannot be opened");
   CHECK(scene == nullptr);
@@ -104,7 +108,7 @@ TEST_CASE("handles that are null, destroyed or of another type are errors, in an
               "the scene is null");
   CHECK_FAILS(asdf_vk_compute(goneScene, nullptr, nullptr, nullptr, &none), ASDF_VK_USAGE, "invalidArgument",
               "was destroyed");
-  CHECK_FAILS(asdf_vk_scene_read(gone, "a.ply", &other), ASDF_VK_INPUT, "unreadableInput", "a.ply");
+  CHECK_FAILS(asdf_vk_scene_read(gone, "a.ply", &other), ASDF_VK_USAGE, "invalidArgument", "no session");
   CHECK_FAILS(asdf_vk_compute(reinterpret_cast<asdf_vk_scene*>(result.get()), nullptr, nullptr, nullptr, &none),
               ASDF_VK_USAGE, "invalidArgument", "that of no scene");
   asdf_vk_field field{};
@@ -112,6 +116,8 @@ TEST_CASE("handles that are null, destroyed or of another type are errors, in an
               "no field width");
   CHECK_FAILS(asdf_vk_result_find(result.get(), "sdf", ASDF_VK_PER_VERTEX, &field), ASDF_VK_USAGE, "unknownField",
               "sdf");
+  CHECK_FAILS(asdf_vk_result_find(result.get(), "sdf", static_cast<asdf_vk_location>(2), &field), ASDF_VK_USAGE,
+              "invalidArgument", "neither PER_FACE nor PER_VERTEX");
   CHECK_FAILS(asdf_vk_result_find(result.get(), nullptr, ASDF_VK_PER_FACE, &field), ASDF_VK_USAGE, "invalidArgument",
               "null");
   CHECK_FAILS(asdf_vk_result_field(result.get(), 99, &field), ASDF_VK_USAGE, "unknownField", "99");
@@ -136,7 +142,7 @@ TEST_CASE("options have names, values and the objects that they belong to") {
   CHECK_FAILS(set("seed", "1"), ASDF_VK_USAGE, "unknownName", "did you mean seeds or rng-seed?");
   CHECK_FAILS(set("fail-if-thinner", "1"), ASDF_VK_USAGE, "unknownName", "no option 'fail-if-thinner'");
   CHECK_FAILS(set("rays", "0"), ASDF_VK_USAGE, "optionOutOfRange", "rays: '0' is not a whole number from 1 to 1024");
-  CHECK_FAILS(set("estimate", "maybe"), ASDF_VK_USAGE, "optionOutOfRange", "estimate: 'maybe'");
+  CHECK_FAILS(set("estimate", "maybe"), ASDF_VK_USAGE, "optionOutOfRange", "estimate: 'maybe' is not on or off");
   asdf_vk_session* session = nullptr;
   CHECK_FAILS(asdf_vk_session_create(options.get(), &session), ASDF_VK_USAGE, "optionConflict",
               "is an option of a computation");
