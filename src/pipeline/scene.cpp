@@ -208,9 +208,11 @@ std::vector<double> Scene::radii(std::span<const double> points, const RunContro
   requirePoints(points);
   std::vector<double> radii(points.size() / 3, kNoValue);
   state_->takeNearest(points, control, [&](size_t i, const SurfacePoint& found) {
+    const PreparedScene& scene = *state_->scene;
     const Vec3d p = vectorAt(points, i);
-    if ((found.side < 0 || found.distance == 0) && containsBy(0, state_->scene->prepared.geometry.bounds, {p, p}))
-      radii[i] = distanceOf(found, state_->scene->bvh.normalization, p);
+    if (!containsBy(0, scene.prepared.geometry.bounds, {p, p})) return;
+    if (found.distance == 0 || isBehindSurface(scene, p, found))
+      radii[i] = distanceOf(found, scene.bvh.normalization, p);
   });
   return radii;
 }

@@ -19,6 +19,8 @@ namespace {
 constexpr size_t kFirstChunkSize = 4096, kBlockSize = 256;
 // Normalised: farther points are on no surface.
 constexpr double kMaxCoordinate = 2;
+// Normalised: the nearest point is a vertex, up to rounding.
+constexpr double kVertexReach = 1e-12;
 // Progress after the nearest triangles, and after the greatest sections.
 constexpr double kNearestDone = 0.3, kSectionsDone = 0.5;
 
@@ -34,6 +36,18 @@ void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points
                    take(begin + i, nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }));
                  });
                });
+}
+
+bool isBehindSurface(const PreparedScene& scene, const Vec3d& point, const SurfacePoint& nearest) {
+  const TraceScene view = scene.view();
+  const PlaneTriangle triangle = triangleOf(view, nearest.face);
+  const auto& [a, b, c] = triangle.corners;
+  if (std::min({length(nearest.point - a), length(nearest.point - b), length(nearest.point - c)}) <= kVertexReach) {
+    const Vec3d p = scene.bvh.normalization.toNormalized(point), way = (a + b + c) / 3.0 - p;
+    const RayHit hit = nearestHitFromAnywhere(view, p, way / length(way), kNoFace, 0);
+    if (hit.face != kNoFace) return dot(way, view.geometry.normals[hit.face]) > 0;
+  }
+  return nearest.side < 0;
 }
 
 std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Vec3d> origins,

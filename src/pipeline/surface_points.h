@@ -19,6 +19,11 @@ namespace asdfvk {
 void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, const RunControl& control,
                        FunctionRef<void(size_t, const SurfacePoint&)> take);
 
+/// Whether the surface is oriented away from a point: whether it is behind its nearest face. At a vertex, where several
+/// faces are equally near and the surface may be a saddle, the first face on the way to the nearest one decides. point:
+/// in the unit of the mesh, in its bounding box.
+[[nodiscard]] bool isBehindSurface(const PreparedScene& scene, const Vec3d& point, const SurfacePoint& nearest);
+
 /// See Scene::firstHits(). Directions are unit; kNoFace and faces are those of triangles.
 [[nodiscard]] std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Vec3d> origins,
                                                 std::span<const Vec3d> directions, const RunControl& control);

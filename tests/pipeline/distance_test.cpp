@@ -134,6 +134,28 @@ TEST_CASE("the radius is the distance inside, by the winding number, and NaN out
   CHECK(std::isnan(kept.radii(std::array{0.1, 0.0, 0.0}).front()));
 }
 
+TEST_CASE("a point in front of a saddle vertex has no radius") {
+  // A fan around the vertex 6, closed by the vertex 7. Of the faces at the vertex 6 the one whose plane is farthest
+  // from these points has them behind it.
+  constexpr std::array kHeights{-0.6, 0.7, -0.4, 1.0, -0.4, -0.5}, kReaches{0.5, 0.3, 0.6, 0.5, 0.5, 0.5};
+  Mesh mesh;
+  for (uint32_t i = 0; i < 6; ++i) {
+    const double angle = std::numbers::pi * i / 3;
+    mesh.vertices.push_back({kReaches[i] * std::cos(angle), kReaches[i] * std::sin(angle), kHeights[i]});
+    mesh.faces.push_back({i, (i + 1) % 6, 6});
+    mesh.faces.push_back({(i + 1) % 6, i, 7});
+  }
+  mesh.vertices.push_back({0, 0, 0});
+  mesh.vertices.push_back({0, 0, -3});
+  Scene scene(referenceSession(), mesh);
+  std::vector<double> points{0.008, -0.032, 0.87, 0.072, 0.092, 0.851, 0.448, 0.311, 0.817, 0.107, 0.071, 0.813};
+  for (const double radius : scene.radii(points)) CHECK(std::isnan(radius));
+  points = pointsAround(mesh, 3000, 7);
+  const std::vector<double> radii = scene.radii(points), distances = scene.distance(points);
+  for (size_t i = 0; i < radii.size(); ++i)
+    if (distances[i] > 1e-9) CHECK(std::isnan(radii[i]) == (windingNumber(mesh, at(points, i)) < 0.5));
+}
+
 TEST_CASE("radii of a tube, a Y-branch and a torus at three resolutions") {
   // Points of the centre lines, away from ends and forks, where the radius of the smooth shape is that of the tube.
   struct Shape {
