@@ -70,9 +70,11 @@ def write(
     target = _path(path)
     kind = (format or os.path.splitext(target)[1]).lower().removeprefix(".")
     results = [{} if fields is None else fields, *further]
+    if picture_of and kind != "png":
+        raise error_of("optionConflict", "picture_of names the field of a picture (.png); drop it")
+    if vertex_fields and kind in ("html", "png"):
+        raise error_of("optionConflict", "pages and pictures show fields per face; drop vertex_fields")
     if kind == "html":
-        if vertex_fields:
-            raise error_of("optionConflict", "a page shows fields per face; drop vertex_fields")
         _core.write_page(target, argument, _layers_of(results, labels, target, argument))
         return
     if labels is not None:
@@ -95,10 +97,16 @@ def _layers_of(
     results: list[Mapping[str, ArrayLike] | Info], labels: Sequence[str] | None, path: str, mesh: Any
 ) -> list[tuple[dict[str, NDArray[Any]], dict[str, object]]]:
     name = "mesh" if path == "-" else os.path.splitext(os.path.basename(path))[0]
+    name = os.fsencode(name).decode(errors="replace")  # Names of files may be no UTF-8.
     if labels is None:
         labels = [f"{name}, result {i + 1}" for i in range(len(results))] if len(results) > 1 else [name]
-    if isinstance(labels, str) or len(labels) != len(results) or not all(isinstance(label, str) for label in labels):
-        raise error_of("optionConflict", f"labels={labels!r} are not {len(results)} strings, one for each result")
+    if (
+        not isinstance(labels, Sequence)
+        or isinstance(labels, str)
+        or len(labels) != len(results)
+        or not all(isinstance(label, str) and label.isprintable() for label in labels)
+    ):
+        raise error_of("optionConflict", f"labels={labels!r} are not {len(results)} printable strings, one per result")
     face_count = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
     return [
         (_arrays_of(result), texts_of(result if isinstance(result, Info) else None, name, label, face_count))
@@ -111,7 +119,8 @@ def write_points(
 ) -> None:
     """Writes skeleton points with their radii: trees in .swc, else a point cloud in binary PLY. Replaces atomically.
 
-    points, radii: (k, 3) and (k,), as of skeleton_points(); points with a NaN are left out.
+    points, radii: (k, 3) and (k,), as of skeleton_points(). Left out are points with a number that is not finite,
+        and in .swc those whose radius is not above 0.
     components: (k,) integers: each component is a tree of .swc, as by info.fields["component"] of
         compute(centres=True); None: one tree.
 

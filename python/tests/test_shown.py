@@ -54,6 +54,9 @@ def test_a_page_shows_several_results(tmp_path: Path, reference: asdf_vk.Session
     assert page.read_text().count("data:image/png;base64,") == 2  # For browsers without WebGL.
     asdf_vk.write(page, mesh, info)
     assert meshes_of(page)[0]["label"] == "bell"
+    odd = tmp_path / "b\udc80.html"  # A name that is no UTF-8.
+    asdf_vk.write(odd, mesh, info)
+    assert meshes_of(odd)[0]["label"] == "b\ufffd"
 
 
 def test_a_picture_shows_a_field(tmp_path: Path, reference: asdf_vk.Session) -> None:
@@ -103,9 +106,14 @@ def test_what_cannot_be_shown(tmp_path: Path, reference: asdf_vk.Session) -> Non
         ("x.html", ({"axis": np.zeros((12, 3))},), {}, "nothing to show"),
         ("x.html", ({"sdf": np.ones(3)},), {}, "3 entries"),
         ("x.html", ({"sdf": np.full(12, 1e300)},), {}, "sdf"),
-        ("x.html", (values, values), {"labels": ["one"]}, "not 2 strings"),
-        ("x.html", (values,), {"labels": "x"}, "not 1 strings"),
+        ("x.html", (values, values), {"labels": ["one"]}, "not 2 printable strings"),
+        ("x.html", (values,), {"labels": "x"}, "not 1 printable strings"),
+        ("x.html", (values,), {"labels": 5}, "not 1 printable strings"),
+        ("x.html", (values,), {"labels": ["\udc80"]}, "not 1 printable strings"),
         ("x.html", (values,), {"vertex_fields": {"a": np.ones(8)}}, "per face"),
+        ("x.png", (values,), {"vertex_fields": {"a": np.ones(8)}}, "per face"),
+        ("x.html", (values,), {"picture_of": "sdf"}, "drop it"),
+        ("x.ply", (values,), {"picture_of": "sdf"}, "drop it"),
         ("x.png", (values, values), {}, r"a page \(.html\) shows several"),
         ("x.ply", (values, values), {}, r"a page \(.html\) shows several"),
         ("x.ply", (values,), {"labels": ["x"]}, "drop them"),
