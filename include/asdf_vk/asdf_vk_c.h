@@ -4,7 +4,7 @@
  * is an error, not a crash. Handles may be used from any thread; calls on one session, and on its scenes, wait for each
  * other. Options are not set while another call uses them. No C++ exception leaves a function. Functions compute in the
  * default floating-point environment (rounding, traps, flushing of denormals), on all their threads, and restore that
- * of the caller, status flags included.
+ * of the caller, status flags included. In a process that was forked after the first call, all calls are errors.
  *
  * Arrays and texts that are passed are copied or read during the call only. Texts are UTF-8 and end with 0. Pointers
  * that a function returns belong to the object in its first argument and are valid until that object is destroyed.

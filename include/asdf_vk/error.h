@@ -53,7 +53,7 @@ enum class ErrorCode {
   DeviceLost,
   ValidationFailed,  ///< The Vulkan validation layers reported a problem.
   VulkanFailed,      ///< Any other failure of a Vulkan call.
-  ForkedProcess,     ///< Use in a process forked after the first use. Python module only.
+  ForkedProcess,     ///< Use in a process forked after the first use. Python module and C interface only.
   // Output
   OutputNotWritable,
   // Cancelled

@@ -45,7 +45,7 @@ def polygon_arrays(
     points = _native(points_array(vertices, "vertices"), np.float64, "vertices")
     arrays = []
     for value, name, allowed in ((corners, "corners", len(points) - 1), (first_corner, "first_corner", np.size(corners))):
-        array = _as_array(value, name, "iu", "integers")
+        array = as_array(value, name, "iu", "integers")
         if array.ndim != 1:
             raise error_of("arraySize", f"{name} has the shape {array.shape}, not (k,)")
         if array.size and not (0 <= int(array.min()) and int(array.max()) <= allowed):
@@ -61,7 +61,7 @@ def polygon_arrays(
 
 def points_array(value: Any, name: str) -> NDArray[Any]:
     """(n, 3) float32 or float64, C-contiguous; other real numbers become float64. Not checked for NaN."""
-    array = _rows(_as_array(value, name, "fiu", "real numbers"), name)
+    array = _rows(as_array(value, name, "fiu", "real numbers"), name)
     return _native(array, np.float32 if array.dtype in (np.float32, np.float16) else np.float64, name)
 
 
@@ -80,7 +80,7 @@ def pairs_array(points: Any, normals: Any) -> tuple[NDArray[np.float64], NDArray
 
 def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
     """(count,) float64."""
-    array = _as_array(value, name, "fiu", "real numbers")
+    array = as_array(value, name, "fiu", "real numbers")
     if array.shape != (count,):
         raise error_of("arraySize", f"{name} has the shape {array.shape}, not ({count},)")
     return _native(array, np.float64, name)
@@ -88,7 +88,7 @@ def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
 
 def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
     """A mask of faces: (count,) bool, or indices of faces."""
-    array = _as_array(value, "faces", "bfiu", "bool (a mask) or indices of faces")
+    array = as_array(value, "faces", "bfiu", "bool (a mask) or indices of faces")
     if array.size == 0:
         array = np.zeros(0, np.int64)
     if array.dtype.kind == "f":
@@ -113,7 +113,7 @@ def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
 
 def field_array(value: Any, name: str) -> NDArray[Any]:
     """An array to write: bool and uint8 as uint8, other integers as uint32 (-1 as 0xffffffff), reals as float64."""
-    array = _as_array(value, f"field {name}", "bfiu", "numbers")
+    array = as_array(value, f"field {name}", "bfiu", "numbers")
     if array.ndim not in (1, 2):
         raise error_of("arraySize", f"field {name} has the shape {array.shape}, not (items,) or (items, components)")
     if array.dtype.kind == "f":
@@ -129,7 +129,8 @@ def field_array(value: Any, name: str) -> NDArray[Any]:
     return _native(array, np.uint32, name)
 
 
-def _as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
+def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
+    """An array of a kind of NumPy: "iu" for integers. wanted: what it has to be, for the message."""
     try:
         array = np.asarray(value)
     except (MemoryError, KeyboardInterrupt):
@@ -168,7 +169,7 @@ def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
 
 
 def _indices(value: Any, vertex_count: int) -> NDArray[np.uint32]:
-    array = _rows(_as_array(value, "faces", "iu", "integers"), "faces")
+    array = _rows(as_array(value, "faces", "iu", "integers"), "faces")
     if array.size:
         least, greatest = int(array.min()), int(array.max())
         if least < 0 or greatest >= vertex_count:

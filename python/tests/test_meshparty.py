@@ -94,7 +94,7 @@ def test_no_value(reference: asdf_vk.Session) -> None:
 def test_wrong_arguments(reference: asdf_vk.Session) -> None:
     mesh = TrimeshLike(cube())
     wrong: list[dict[str, Any]] = [
-        {"mesh_inds": [8]}, {"mesh_inds": [-9]}, {"mesh_inds": [[0]]}, {"mesh_inds": [0.5]}, {"num_points": 0},
+        {"mesh_inds": [8]}, {"mesh_inds": [-9]}, {"mesh_inds": [[0]]}, {"mesh_inds": [0.5]}, {"mesh_inds": [[0], [0, 1]]}, {"num_points": 0},
         {"num_points": 2.5}, {"cone_angle": 0}, {"cone_angle": math.pi}, {"cone_angle": "wide"}, {"mesh": object()},
         {"unknown": 1}, {"mesh": type("Short", (), {**vars(mesh), "vertex_normals": mesh.vertex_normals[1:]})},
     ]  # fmt: skip

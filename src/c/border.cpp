@@ -1,6 +1,7 @@
 #include "c/border.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <exception>
@@ -79,11 +80,21 @@ asdf_vk_status keepCurrentError() noexcept {
   }
 }
 
+/// Throws Error{ForkedProcess} in a process that was forked after the first call, where a call would wait forever for
+/// threads of its parent.
+void requireSameProcess() {
+  static const pid_t first = getpid();
+  if (getpid() != first)
+    throw Error(ErrorCode::ForkedProcess,
+                "this process was forked after the first use of asdf-vk; fork before it, or start a new program");
+}
+
 }  // namespace
 
 asdf_vk_status guarded(FunctionRef<void()> body) noexcept {
   const FloatingPointScope scope(FE_DFL_ENV);
   try {
+    requireSameProcess();
     // An arena sets the environment in which it was made on each thread that works in it. The arena of a thread of the
     // caller may be older, and have another environment.
     callWithThreads(static_cast<uint32_t>(defaultThreadCount()), body);

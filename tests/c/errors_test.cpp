@@ -1,5 +1,7 @@
 // Errors, handles and the progress function of the interface in C.
 #include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <limits>
@@ -134,6 +136,24 @@ TEST_CASE("handles that are null, destroyed or of another type are errors, in an
   CHECK_FAILS(asdf_vk_result_write(result.get(), "a.xyz"), ASDF_VK_USAGE, "unknownFormat", "a.xyz");
   CHECK(none == nullptr);
   std::thread([] { CHECK(std::string(asdf_vk_last_error()).empty()); }).join();
+}
+
+TEST_CASE("a forked process gets errors, and does not wait for threads of its parent") {
+  const Owned<asdf_vk_session> session = sessionOfC("reference");
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    alarm(20);
+    asdf_vk_session* own = nullptr;
+    const bool isError = asdf_vk_session_create(nullptr, &own) == ASDF_VK_DEVICE && own == nullptr &&
+                         std::string(asdf_vk_last_error_name()) == "forkedProcess";
+    asdf_vk_session_destroy(session.get());
+    _exit(isError ? 7 : 1);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 7);
 }
 
 TEST_CASE("options have names, values and the objects that they belong to") {

@@ -15,8 +15,6 @@
 using namespace asdfvk;
 using namespace asdfvk::test;
 
-namespace {}  // namespace
-
 TEST_CASE("values, labels and the report are those of the library, with the backends cpu and vulkan") {
   const Mesh mesh = makeAnimal(4000).mesh;
   (void)vulkanSession();  // Turns the validation layers on.

@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._arrays import float_points
+from .._arrays import as_array, float_points
 from .._errors import error_of
 from .._options import BackendOptions
 from .._scene import Scene
@@ -66,9 +66,9 @@ def shape_diameter_function(
         raise error_of("optionOutOfRange", f"cone_angle={cone_angle!r} is not an angle above 0 and below pi")
     with Scene(getattr(mesh, "vertices", mesh), getattr(mesh, "faces", None), **options) as scene:
         vertices = float_points(mesh.vertices, "vertices")
-        inds = np.asarray(mesh_inds)
-        if inds.ndim != 1 or (inds.size and inds.dtype.kind not in "iu"):
-            raise error_of("arrayType", "mesh_inds is not a list of indices of vertices")
+        inds = as_array(mesh_inds, "mesh_inds", "iu", "indices of vertices")
+        if inds.ndim != 1:
+            raise error_of("arraySize", f"mesh_inds has the shape {inds.shape}, not (k,)")
         if inds.size and not (-len(vertices) <= inds.min() and inds.max() < len(vertices)):
             raise error_of("indexOutOfRange", f"mesh_inds reach from {inds.min()} to {inds.max()}; there are "
                            f"{len(vertices)} vertices")
