@@ -77,7 +77,7 @@ ASDF_VK_C_API void asdf_vk_options_destroy(asdf_vk_options* options);
 
 /* Opens the device. options: those of a session ("backend", "device", "require-gpu", "threads"); null: the defaults. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_session_create(const asdf_vk_options* options, asdf_vk_session** session);
-/* The chosen device and the reason; then a line per other device. The text is that of the time of its creation. */
+/* The chosen device and the reason; then a line per other device. The text is made when the session is created. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_session_device(const asdf_vk_session* session, const char** text);
 ASDF_VK_C_API void asdf_vk_session_destroy(asdf_vk_session* session);
 
@@ -112,7 +112,7 @@ ASDF_VK_C_API void asdf_vk_scene_destroy(asdf_vk_scene* scene);
 
 /* Called in the thread and in the floating-point environment of the caller, about every 50 to 100 ms. fraction: 0 to 1.
  * stage: "trace", "solve", ..., or "" before the first one. A return value other than 0 requests a stop. Must not
- * throw, nor leave by longjmp(). A call on the same session is an error. */
+ * throw, nor leave by longjmp(). A computation on the same session is an error. */
 typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 
 /* options: those of a computation; null: the defaults. progress: may be null. user: passed to it. */
@@ -120,8 +120,8 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk
                                              asdf_vk_progress progress, void* user, asdf_vk_result** result);
 
 /* The shape diameter at points, or with ("measure", "thickness") the wall thickness. points, normals: 3 point_count
- * numbers. values: point_count numbers, in the unit of the mesh; NaN: no value. See Scene::valuesAt(), thicknessAt().
- */
+ * numbers. values: point_count numbers, in the unit of the mesh; NaN: no value. Of the options only those of rays,
+ * thickness and orientation have an effect. See Scene::valuesAt() and thicknessAt() in asdf_vk/scene.h. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options,
                                                const double* points, const double* normals, size_t point_count,
                                                double* values, asdf_vk_progress progress, void* user);

@@ -117,7 +117,7 @@ def _layers_of(
 def write_points(
     path: str | os.PathLike[str], points: ArrayLike, radii: ArrayLike, *, components: ArrayLike | None = None
 ) -> None:
-    """Writes skeleton points with their radii: trees in .swc, else a point cloud in binary PLY. Replaces atomically.
+    """Writes skeleton points with their radii: trees in .swc, a point cloud in .ply (binary). Replaces atomically.
 
     points, radii: (k, 3) and (k,), as of skeleton_points(). Left out are points with a number that is not finite,
         and in .swc those whose radius is not above 0.
@@ -127,12 +127,15 @@ def write_points(
     A tree is the minimum spanning tree of its points, and its root the one with the greatest radius.
     Raises OutputError, InputError, UsageError.
     """
+    target = _path(path)
+    if target != "-" and os.path.splitext(target)[1].lower() not in (".swc", ".ply"):
+        raise error_of("unknownFormat", f"{target!r} is not a file that ends in .ply or .swc")
     places = float_points(points)
     diameters = 2 * values_array(radii, "radii", len(places))
     fields = {"centre": places, "sdf": diameters}
     if components is not None:
         fields["component"] = field_array(components, "components")
-    _core.write_points(_path(path), fields)
+    _core.write_points(target, fields)
 
 
 def _arrays_of(fields: Mapping[str, ArrayLike] | Info | None) -> dict[str, NDArray[Any]]:

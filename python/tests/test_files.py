@@ -138,7 +138,9 @@ def test_skeleton_points_are_trees_of_components(tmp_path: Path) -> None:
         given: dict[str, Any] = {"points": points, "radii": radii, **arguments}
         with pytest.raises(asdf_vk.Error):
             asdf_vk.write_points(tmp_path / "no.swc", **given)
-    assert not (tmp_path / "no.swc").exists()
+    with pytest.raises(asdf_vk.UsageError, match="ends in .ply or .swc"):
+        asdf_vk.write_points(tmp_path / "no.csv", points, radii)
+    assert not list(tmp_path.glob("no.*"))
 
 
 def test_failures_leave_nothing_behind(tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ nothing of it is imported, and the function follows its definition only:
 - num_points directions: a Vogel disk of radius 1 at the height 1 / tan(cone_angle) above the start,
   around minus the vertex normal. cone_angle is half of the opening angle, in radians.
 - Each ray counts up to its first hit, with the weight 1 / angle, the angle between the ray and the
-  normal of the face that it hits. Rays with an angle below the median of the cone by more than one
-  standard deviation are dropped; so are those above both the median by as much and a right angle.
+  normal of the face that it hits. Dropped are rays with an angle below median - s or above
+  max(median + s, pi / 2): the median and the standard deviation s are those of the cone.
 - The value is the weighted mean of the lengths from the starts; NaN where nothing is hit.
 
 What differs: hits are found in double precision, Embree's in float32; where no ray of any cone hits,
