@@ -9,7 +9,8 @@
  * Arrays and texts that are passed are copied or read during the call only. Texts are UTF-8 and end with 0. Pointers
  * that a function returns belong to the object in its first argument and are valid until that object is destroyed.
  * Objects are destroyed in any order: a scene keeps its session, a result the mesh of its scene. The functions
- * asdf_vk_..._destroy() ignore null and destroyed handles. Where a function fails, it leaves its outputs unchanged. */
+ * asdf_vk_..._destroy() ignore null and destroyed handles, and do not wait for a computation. Where a function fails,
+ * it leaves its outputs unchanged. */
 #ifndef ASDF_VK_C_H
 #define ASDF_VK_C_H
 

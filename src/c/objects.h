@@ -1,5 +1,6 @@
 #pragma once
 
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -24,6 +25,8 @@ struct asdf_vk_session {
   std::string device;
   std::recursive_mutex mutex;  ///< Recursive, so that a progress function can destroy other scenes.
   bool isBusy = false;         ///< Within SessionUse.
+  std::mutex releasedMutex;
+  std::list<asdfvk::Scene> released;  ///< Of scenes that were destroyed while another thread computed.
 };
 
 struct asdf_vk_scene {
@@ -31,15 +34,22 @@ struct asdf_vk_scene {
   std::shared_ptr<asdf_vk_session> session;
   std::shared_ptr<const asdfvk::Mesh> mesh;
   asdfvk::Orientation orientation = asdfvk::Orientation::Keep;
-  std::unique_ptr<asdfvk::Scene> prepared;  ///< Null before the first computation.
+  /// Empty before the first computation. A list, because it moves to asdf_vk_session::released without an allocation.
+  std::list<asdfvk::Scene> prepared;
 
   asdf_vk_scene(std::shared_ptr<asdf_vk_session> s, asdfvk::Mesh m)
       : session(std::move(s)), mesh(std::make_shared<const asdfvk::Mesh>(std::move(m))) {}
   asdf_vk_scene(const asdf_vk_scene&) = delete;
   asdf_vk_scene& operator=(const asdf_vk_scene&) = delete;
+  /// Does not wait for a computation: the thread may be that of a garbage collector.
   ~asdf_vk_scene() {
-    const std::scoped_lock lock(session->mutex);
-    prepared.reset();
+    const std::unique_lock lock(session->mutex, std::try_to_lock);
+    if (lock.owns_lock()) {
+      prepared.clear();
+    } else {
+      const std::scoped_lock listLock(session->releasedMutex);
+      session->released.splice(session->released.end(), prepared);
+    }
   }
 };
 

@@ -18,7 +18,12 @@ class SessionUse {
       throw Error(ErrorCode::InvalidArgument, "the progress function of a computation uses its session");
     session.isBusy = true;
   }
-  ~SessionUse() { session_.isBusy = false; }
+  ~SessionUse() {
+    session_.isBusy = false;
+    std::list<Scene> released;
+    const std::scoped_lock lock(session_.releasedMutex);
+    released.swap(session_.released);
+  }
   SessionUse(const SessionUse&) = delete;
   SessionUse& operator=(const SessionUse&) = delete;
 
@@ -30,13 +35,13 @@ class SessionUse {
 
 /// The prepared scene. Precondition: its session is in use by this thread.
 Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control, bool* isNew = nullptr) {
-  if (scene.prepared == nullptr || scene.orientation != orientation) {
+  if (scene.prepared.empty() || scene.orientation != orientation) {
     if (isNew != nullptr) *isNew = true;
-    scene.prepared.reset();
-    scene.prepared = std::make_unique<Scene>(*scene.session->session, *scene.mesh, orientation, control);
+    scene.prepared.clear();
+    scene.prepared.emplace_back(*scene.session->session, *scene.mesh, orientation, control);
     scene.orientation = orientation;
   }
-  return *scene.prepared;
+  return scene.prepared.front();
 }
 
 template <typename T>

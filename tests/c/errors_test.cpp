@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -197,6 +199,37 @@ TEST_CASE("threads compute on one session, whose scenes other threads destroy") 
     });
   for (std::thread& thread : threads) thread.join();
   for (const std::vector<double>& own : values) CHECK(own == expected);
+}
+
+TEST_CASE("a scene is destroyed without waiting for a computation on its session") {
+  struct Other {
+    asdf_vk_scene* scene;
+    std::atomic<bool> isComputing{false}, isDestroyed{false};
+  };
+  const Owned<asdf_vk_session> session = sessionOfC("cpu");
+  const Mesh mesh = makeSphere(2000).mesh;
+  const Owned<asdf_vk_scene> scene = sceneOfC(session.get(), mesh);
+  for (const bool isPrepared : {true, false}) {
+    Owned<asdf_vk_scene> owned = sceneOfC(session.get(), mesh);
+    if (isPrepared) (void)resultOfC(owned.get());
+    Other other{owned.release()};
+    std::thread thread([&] {
+      while (!other.isComputing) std::this_thread::yield();
+      asdf_vk_scene_destroy(other.scene);
+      other.isDestroyed = true;
+    });
+    const asdf_vk_progress waitForThread = [](double, const char*, void* user) {
+      auto& waited = *static_cast<Other*>(user);
+      waited.isComputing = true;
+      for (int i = 0; i < 500 && !waited.isDestroyed; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      return waited.isDestroyed ? 0 : 1;
+    };
+    asdf_vk_result* result = nullptr;
+    const asdf_vk_status status = asdf_vk_compute(scene.get(), nullptr, waitForThread, &other, &result);
+    thread.join();
+    CHECK(status == ASDF_VK_OK);
+    asdf_vk_result_destroy(result);
+  }
 }
 
 TEST_CASE("the progress function stops a computation, and may neither compute on its session nor throw") {
