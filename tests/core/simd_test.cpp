@@ -11,7 +11,8 @@ TEST_CASE("broadcast gives every lane the number, on every instruction set") {
       const Floats floats = broadcast<Floats>(2.5f);
       const IntsOf<Floats> ints = broadcast<IntsOf<Floats>>(-7);
       int count = 0;
-      for (size_t lane = 0; lane < kLaneCount<Floats>; ++lane) count += floats[lane] == 2.5f && ints[lane] == -7 ? 1 : 0;
+      for (size_t lane = 0; lane < kLaneCount<Floats>; ++lane)
+        count += floats[lane] == 2.5f && ints[lane] == -7 ? 1 : 0;
       return static_cast<int>(kLaneCount<Floats>) - count;
     });
     CHECK(missingCount == 0);
