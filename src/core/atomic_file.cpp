@@ -59,13 +59,13 @@ void removeTemporaries(const std::filesystem::path& folder, const Select& select
   }
 }
 
-/// False for a zombie too, which is a process that has ended and that its parent has not waited for.
+/// Returns false also for a zombie, a process that has ended and that its parent has not waited for.
 bool isRunning(int process) {
   if (::kill(process, 0) != 0 && errno == ESRCH) return false;
   std::ifstream stream(fmt::format("/proc/{}/stat", process));
   std::string text;
   std::getline(stream, text);
-  const size_t end = text.rfind(") ");  // The end of the name, which may contain any character.
+  const size_t end = text.rfind(") ");  // The end of the process name, which may contain any character.
   return end == std::string::npos || (text[end + 2] != 'Z' && text[end + 2] != 'X');
 }
 
@@ -142,9 +142,9 @@ void AtomicFile::openTemporary() {
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ >= 0) {
-    // For removeAbandonedFiles(). Some file systems have no locks.
+    // removeAbandonedFiles() keeps locked files. A failure is ignored, because some file systems have no locks.
     static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
-    // Only now: an earlier file of that name belongs to another process.
+    // Announced only after the open: an older file of this name belongs to another process.
     announceTemporary();
     return;
   }
@@ -174,7 +174,8 @@ void AtomicFile::withdrawTemporary() noexcept {
     announced_.reset();
     return;
   }
-  (void)announced_.release();  // The signal handler has taken it and still reads it; the process is about to end.
+  (void)announced_
+      .release();  // The signal handler has taken the name and may still read it; the process is about to end.
 }
 
 void AtomicFile::write(const void* bytes, size_t size) {
@@ -193,7 +194,7 @@ void AtomicFile::flush() {
   used_ = 0;
 }
 
-/// A full network disk may report its error only at the close.
+/// Checks the result of ::close(), because a full network disk may report its error only there.
 void AtomicFile::close() {
   if (descriptor_ < 0) return;
   flush();

@@ -12,8 +12,8 @@ namespace asdfvk {
 /// Atomic replacement of a file: bytes go to a temporary file beside the target, and commit() renames it to the target.
 /// Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
 /// file keeps its mode; a symbolic link is followed, also if its target does not exist. Targets that are not regular
-/// files (/dev/null, a FIFO) and "-", standard output, are written directly. Every failure throws
-/// Error{OutputNotWritable} with the reason of the system.
+/// files (/dev/null, a FIFO) and "-" (standard output) are written directly. Every failure throws
+/// Error{OutputNotWritable} with the error text of the operating system.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -21,7 +21,8 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Returns memory for up to `size` bytes, at most kMaxReserve; advance() appends the bytes that the caller wrote.
+  /// Returns memory for `size` bytes. advance() then appends the bytes that the caller wrote there. Precondition: size
+  /// <= kMaxReserve.
   [[nodiscard]] char* reserve(size_t size) {
     if (size > kBufferSize - used_) flush();
     return buffer_.get() + used_;
@@ -30,7 +31,7 @@ class AtomicFile {
 
   void write(const void* bytes, size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// The bytes of a number as in memory: little-endian on every supported machine.
+  /// Appends the bytes of a number in little-endian order, the order of every supported machine.
   template <typename T>
   void put(const T& value) {
     std::memcpy(reserve(sizeof(T)), &value, sizeof(T));
@@ -40,8 +41,8 @@ class AtomicFile {
   /// Writes the remaining bytes and renames the file to its target.
   void commit();
 
-  /// Commits two files. Both are complete on the disk before the first is renamed; where the second then cannot be
-  /// renamed, the first is removed.
+  /// Commits two files. Both temporary files are complete before the first is renamed. If the second cannot be renamed,
+  /// the target of the first is removed.
   static void commitBoth(AtomicFile& first, AtomicFile& second);
 
   static constexpr size_t kMaxReserve = size_t{1} << 16;
@@ -59,14 +60,14 @@ class AtomicFile {
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
   std::filesystem::path target_, temporary_;  ///< temporary_ is empty if the target is written directly.
-  std::unique_ptr<char[]> announced_;         ///< The path that removeUnfinishedFiles() reads.
+  std::unique_ptr<char[]> announced_;         ///< The path of the temporary file, which removeUnfinishedFiles() reads.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
 };
 
-/// The path without symbolic links at its end; the file itself need not exist.
+/// The file or missing file that the symbolic links at the end of the path lead to.
 [[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
 
 /// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain.
@@ -74,11 +75,11 @@ class AtomicFile {
 /// supports flock().
 void removeAbandonedFiles(const std::filesystem::path& folder);
 
-/// Removes the temporary files that a process of this host, which has ended, left in a folder.
+/// Removes the temporary files that an ended process of this host left in a folder.
 void removeFilesOfProcess(const std::filesystem::path& folder, int process);
 
-/// Removes the temporary files that this process is writing, at most 64. For a signal handler that then ends the
-/// process: async-signal-safe.
+/// Removes the temporary files that this process is writing; beyond 64 files, the others remain. Async-signal-safe, for
+/// a signal handler that then ends the process.
 void removeUnfinishedFiles() noexcept;
 
 }  // namespace asdfvk

@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// A task for idle threads of the parallel loops. The thread that made it runs it in wait() if no other one has begun
-/// it; callIsolated() keeps it from that before.
+/// A task for an idle thread of the parallel loops. wait() and the destructor run it on the calling thread if no thread
+/// has begun it. Before that, a parallel loop of the creating thread may run it too, except within callIsolated().
 class BackgroundTask {
  public:
   explicit BackgroundTask(std::function<void()> body);
@@ -14,7 +14,7 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Throws what the task throws.
+  /// Waits for the end of the task. Throws what the task throws.
   void wait();
 
  private:

@@ -12,7 +12,7 @@
 
 namespace asdfvk {
 
-/// Encodes bytes as one run of base64 (RFC 4648); finish() pads it.
+/// Writes bytes to a file as one base64 text (RFC 4648). finish() writes the last bytes and the padding.
 class Base64Stream {
  public:
   explicit Base64Stream(AtomicFile& file) : file_(file) {}

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An axis-aligned box; empty (min > max) until something is added. Corners may be anywhere in the range of T: sums
-/// that would overflow become the largest number of T.
+/// An axis-aligned box; empty (min > max) until something is added. Coordinates may be any finite numbers of T: a size
+/// or a diagonal that would overflow is the largest number of T.
 template <typename T>
 struct Box3 {
   Vec3<T> min{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
@@ -54,8 +54,8 @@ struct Box3 {
 using Box3d = Box3<double>;
 using Box3f = Box3<float>;
 
-/// Whether the inner box is more than a margin away from each side of the outer one; where that is negative, it may be
-/// outside by as much.
+/// Whether each side of `inner` lies inside the same side of `outer` by more than `margin`. With a negative margin,
+/// `inner` may extend beyond `outer` by less than -margin.
 [[nodiscard]] inline bool containsBy(double margin, const Box3d& outer, const Box3d& inner) {
   for (size_t axis = 0; axis < 3; ++axis)
     if (!(inner.min[axis] - outer.min[axis] > margin && outer.max[axis] - inner.max[axis] > margin)) return false;

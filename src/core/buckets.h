@@ -12,11 +12,11 @@
 
 namespace asdfvk {
 
-/// Entries sorted into numbered buckets, one after another: compressed rows.
+/// Entries grouped into numbered buckets, in the layout of compressed sparse rows.
 template <typename Entry>
 struct Buckets {
   std::vector<uint32_t> offsets;  ///< #buckets+1
-  std::vector<Entry> entries;     ///< Ascending within each bucket.
+  std::vector<Entry> entries;     ///< In the order of the buckets, ascending within each bucket.
 
   [[nodiscard]] uint32_t bucketCount() const { return static_cast<uint32_t>(offsets.size() - 1); }
   [[nodiscard]] std::span<const Entry> operator[](uint32_t bucket) const {
@@ -27,12 +27,12 @@ struct Buckets {
 /// Entries grouped by bucket number, for callers that read each bucket once and do not keep it. A radix sort in two
 /// steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of which
 /// would wait for memory. Time: linear for small buckets, n log n in the worst case. The result does not depend on the
-/// number of threads. Entry: ordered; its default constructor should leave it uninitialised.
+/// number of threads. Entry has operator<; its default constructor should leave it uninitialised.
 template <typename Entry>
 class StagedEntries {
  public:
-  /// emit(item, put) is called twice for every item in [0, itemCount) and calls put(bucket, entry) for each of its
-  /// entries. Throws Error{Input} beyond 2^32 - 1 entries.
+  /// emit(item, put) is called twice for every item in [0, itemCount) and calls put(bucket, entry) for each entry of
+  /// the item. Throws Error{Input} beyond 2^32 - 1 entries.
   template <typename Emit>
   StagedEntries(size_t bucketCount, size_t itemCount, const Emit& emit) : bucketCount_(bucketCount) {
     const size_t wantedRunCount = std::clamp<size_t>(itemCount / kItemsPerRun, 1, kMaxRunCount);
@@ -93,7 +93,7 @@ class StagedEntries {
     Entry entry;
   };
 
-  /// Replaces counts[block][run], numbers of entries, by the positions of the first entry of each block and run.
+  /// Replaces each counts[block][run], a number of entries, by the position of the first of these entries.
   void turnIntoCursors(std::vector<std::vector<uint32_t>>& counts, size_t runCount) {
     uint64_t total = 0;
     for (size_t run = 0; run < runCount; ++run) {
@@ -117,8 +117,8 @@ class StagedEntries {
     }
   }
 
-  /// room(begin, size) returns the memory for the entries of a run; visit(bucket, begin, entries) receives each bucket.
-  /// begin: position among all entries, in the order of the buckets.
+  /// room(begin, size) returns the memory for the entries of a run; visit(bucket, begin, entries) is called for each
+  /// bucket. begin: position of the first entry of the run or bucket among all entries, in the order of the buckets.
   template <typename Room, typename Visit>
   void forEachRun(const Room& room, const Visit& visit) const {
     PerThread<std::vector<uint32_t>> ends;
@@ -145,7 +145,7 @@ class StagedEntries {
   size_t bucketCount_ = 0;
   uint32_t shift_ = 0;                ///< Buckets whose numbers differ only in this many low bits form a run.
   std::vector<uint32_t> runBegins_;   ///< #runs+1
-  std::unique_ptr<Staged[]> staged_;  ///< The staged items of each run.
+  std::unique_ptr<Staged[]> staged_;  ///< Entries with their bucket numbers, grouped by run.
 };
 
 /// Sorts entries into buckets by StagedEntries and stores them.

@@ -36,7 +36,7 @@ template <typename T>
 
 }  // namespace asdfvk
 
-/// Throws CheckFailure unless `condition` holds. Always on.
+/// Throws CheckFailure unless `condition` holds, also in release builds.
 #define ASDFVK_CHECK(condition)                                            \
   do {                                                                     \
     if (!(condition)) ::asdfvk::failCheck(__FILE__, __LINE__, #condition); \

@@ -5,11 +5,11 @@
 
 namespace asdfvk {
 
-/// The text for an element or for an attribute in quotes: markup becomes character references, control characters other
-/// than line ends become spaces, and bytes that are no UTF-8 become U+FFFD.
+/// Escapes text for an element or a quoted attribute of HTML: markup becomes character references, control characters
+/// other than line ends become spaces, and each byte of invalid UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string escapedForHtml(std::string_view text);
 
-/// JSON for a script element: <, > and & become \uXXXX. The JSON must be in ASCII.
+/// Escapes JSON for a script element: <, > and & become \uXXXX. Precondition: the JSON is in ASCII.
 [[nodiscard]] std::string escapedForScript(std::string_view json);
 
 }  // namespace asdfvk

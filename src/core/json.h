@@ -11,14 +11,14 @@ namespace asdfvk {
 /// Only layers that link nlohmann_json (src/layers.txt) may include this header.
 using Json = nlohmann::ordered_json;
 
-/// Null where the value is not finite.
+/// The value, or null if it is not finite.
 [[nodiscard]] inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-/// The three coordinates.
+/// An array of the three coordinates.
 [[nodiscard]] inline Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 
 }  // namespace asdfvk
 
-/// Conversions of a struct from and to a JSON object with these members, all of which it needs.
+/// Defines the conversions between Struct and a JSON object with the listed members. Reading requires all members.
 #define ASDFVK_JSON(Struct, ...)                                                        \
   inline void to_json(asdfvk::Json& nlohmann_json_j, const Struct& nlohmann_json_t) {   \
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))            \
@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))          \
   }
 
-/// Null without a value.
+/// In JSON, an empty optional is null.
 template <typename T>
 struct nlohmann::adl_serializer<std::optional<T>> {
   static void to_json(asdfvk::Json& json, const std::optional<T>& value) {

@@ -7,18 +7,18 @@
 
 #include "core/simd.h"
 
-/// exp() in lanes, with the bits of the exp() of glibc 2.28 and later on processors with fused multiply-add. Algorithm
-/// and constants: S. Nagy, ARM Optimized Routines (MIT license), math/exp.c, 128 table entries and degree 5.
+/// exp() of vectors, with the same bits as exp() of glibc 2.28 and later on processors with fused multiply-add.
+/// Algorithm and constants: S. Nagy, ARM Optimized Routines (MIT license), math/exp.c, 128 table entries and degree 5.
 namespace asdfvk {
 
-/// 2^(i/128) is approximately the number with the bits `bits` + i 2^45, times 1 + `tail`.
+/// Row i of the table: 2^(i/128) is approximately (1 + tail) times the double with the bits `bits` + i 2^45.
 struct PowerOfTwo {
   double tail;
   uint64_t bits;
 };
 using PowersOfTwo = std::array<PowerOfTwo, 128>;
 
-/// Computed with twice the digits of a double, from square roots of 2.
+/// Computes the table with twice the digits of a double, as products of repeated square roots of 2.
 [[nodiscard]] inline PowersOfTwo computePowersOfTwo() {
   PowersOfTwo powers;
   for (uint32_t i = 0; i < powers.size(); ++i) {
@@ -42,7 +42,7 @@ using PowersOfTwo = std::array<PowerOfTwo, 128>;
 
 inline const PowersOfTwo kPowersOfTwo = computePowersOfTwo();
 
-/// Whether __builtin_fma() is an instruction in code that dispatch() calls with Floats.
+/// Whether __builtin_fma() compiles to one instruction in code that dispatch() calls with Floats.
 template <typename Floats>
 [[nodiscard]] constexpr bool hasFusedMultiplyAdd() {
 #ifdef __FP_FAST_FMA

@@ -10,8 +10,8 @@ namespace asdfvk {
 /// A unit of length.
 struct LengthUnitRow {
   LengthUnit unit;
-  std::string_view name;  ///< A value of Mesh::unit: "mm".
-  double micrometres;     ///< A whole number, so that a conversion rounds once.
+  std::string_view name;  ///< A value of Mesh::unit, for example "mm".
+  double micrometres;     ///< Length of the unit. A whole number, so that a conversion rounds once.
 };
 inline constexpr std::array<LengthUnitRow, 6> kLengthUnits{{{LengthUnit::Micrometre, "um", 1},
                                                             {LengthUnit::Millimetre, "mm", 1e3},
@@ -20,13 +20,13 @@ inline constexpr std::array<LengthUnitRow, 6> kLengthUnits{{{LengthUnit::Microme
                                                             {LengthUnit::Inch, "in", 25400},
                                                             {LengthUnit::Foot, "ft", 304800}}};
 
-/// Null for an unknown name.
+/// Returns null for an unknown name.
 [[nodiscard]] constexpr const LengthUnitRow* findLengthUnit(std::string_view name) {
   for (const LengthUnitRow& row : kLengthUnits)
     if (row.name == name) return &row;
   return nullptr;
 }
-/// Null for LengthUnit::OfMesh.
+/// Returns null for LengthUnit::OfMesh.
 [[nodiscard]] constexpr const LengthUnitRow* findLengthUnit(LengthUnit unit) {
   for (const LengthUnitRow& row : kLengthUnits)
     if (row.unit == unit) return &row;

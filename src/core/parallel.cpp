@@ -72,7 +72,7 @@ BackgroundTask::BackgroundTask(std::function<void()> body) : state_(std::make_un
 BackgroundTask::~BackgroundTask() {
   try {
     wait();
-  } catch (...) {  // wait() has been called, or another exception has prevented it.
+  } catch (...) {  // The caller has this exception from wait() already, or is handling another exception.
   }
 }
 

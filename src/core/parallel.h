@@ -15,7 +15,7 @@ namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
-/// Number of threads that the ThreadLimits allow.
+/// Number of threads that the existing ThreadLimit objects allow.
 [[nodiscard]] size_t threadLimit();
 /// Number of threads without any limit.
 [[nodiscard]] size_t defaultThreadCount();
@@ -39,11 +39,11 @@ class RepeatedLoop {
   std::unique_ptr<State> state_;
 };
 
-/// Calls both, in parallel.
+/// Calls both functions, in parallel.
 void callBoth(FunctionRef<void()> first, FunctionRef<void()> second);
 
-/// Calls `body` on this thread. While a parallel loop of `body` waits for other threads, this thread runs only tasks of
-/// that loop, and none that was created before the call.
+/// Calls `body` on this thread. While a parallel loop of `body` waits for other threads, this thread runs only tasks
+/// that were created within the call.
 void callIsolated(FunctionRef<void()> body);
 
 /// Calls `body` on this thread. Its parallel loops use at most `threadCount` threads, this one included.
@@ -66,9 +66,9 @@ void forEachTask(size_t count, const Body& body) {
   });
 }
 
-/// Reduction of [0, count): fold(begin, end) computes the value of each block of kBlockSize items, in parallel, and
-/// joined(a, b) joins Value{} and the values of the blocks in ascending order. The result has the same bits on any
-/// number of threads.
+/// Reduction of [0, count). fold(begin, end) computes the value of each block of kBlockSize items, in parallel.
+/// joined(a, b) then combines Value{} with the values of the blocks, in ascending order. The result has the same bits
+/// on any number of threads.
 template <typename Value, size_t kBlockSize = kItemsPerTask, typename Fold, typename Joined>
 [[nodiscard]] Value foldInParallel(size_t count, const Fold& fold, const Joined& joined) {
   std::vector<Value> values((count + kBlockSize - 1) / kBlockSize);
@@ -80,7 +80,7 @@ template <typename Value, size_t kBlockSize = kItemsPerTask, typename Fold, type
   return result;
 }
 
-/// Number of i in [0, count) for which holds(i) is true, in parallel.
+/// Counts, in parallel, the i in [0, count) for which holds(i) is true.
 template <typename Holds>
 [[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
   const auto countOf = [&](size_t begin, size_t end) {
@@ -91,7 +91,7 @@ template <typename Holds>
   return foldInParallel<uint64_t>(count, countOf, std::plus<>());
 }
 
-/// The greatest valueOf(i), i in [0, count), and of Value{}, in parallel.
+/// The maximum of Value{} and of valueOf(i) for all i in [0, count), computed in parallel.
 template <typename Value, typename ValueOf>
 [[nodiscard]] Value maxInParallel(size_t count, const ValueOf& valueOf) {
   const auto greater = [](const Value& a, const Value& b) { return std::max(a, b); };
@@ -103,8 +103,8 @@ template <typename Value, typename ValueOf>
   return foldInParallel<Value>(count, greatestOf, greater);
 }
 
-/// Sorts [begin, end) by `less`, in parallel where it is long. Not stable; the same order on any number of threads. The
-/// last merge runs on one thread.
+/// Sorts [begin, end) by `less`, in parallel where it is long. Not stable, but the order is the same on any number of
+/// threads. The last merge runs on one thread.
 template <typename Iterator, typename Less = std::less<>>
 void sortInParallel(Iterator begin, Iterator end, const Less& less = {}) {
   constexpr auto kWorthDividing = 1 << 15;

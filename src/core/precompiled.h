@@ -1,5 +1,5 @@
-// Compiled once, before the files of every layer that includes core: the headers that most of them include. It replaces
-// no #include; CMAKE_DISABLE_PRECOMPILE_HEADERS builds without it.
+// The precompiled header of every layer that includes core: the headers that most files include. Files still include
+// the headers that they use, so that the build also works with CMAKE_DISABLE_PRECOMPILE_HEADERS.
 #pragma once
 
 #include <fmt/core.h>

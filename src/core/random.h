@@ -19,7 +19,7 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// Uniform in [0, bound), without bias; bound > 0 and below 2^32.
+  /// Uniform in [0, bound), without bias. Precondition: bound > 0.
   [[nodiscard]] uint32_t index(uint32_t bound) {
     const uint32_t threshold = (0u - bound) % bound;
     for (;;) {
@@ -31,7 +31,7 @@ class Random {
   /// Uniform in [0, 1).
   [[nodiscard]] double real() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
-  /// Fisher-Yates.
+  /// Shuffles by the algorithm of Fisher and Yates.
   template <typename T>
   void shuffle(std::span<T> items) {
     for (size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[index(static_cast<uint32_t>(i))]);

@@ -24,7 +24,8 @@ using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
 using Double4 = double __attribute__((vector_size(32)));
 
-/// The vector with the same number of signed integers of the same size. As a mask: -1 for true, 0 for false.
+/// The vector type of signed integers with as many lanes as V and of the same size. As a mask: -1 for true, 0 for
+/// false.
 template <typename V>
 using IntsOf = decltype(V{} == V{});
 
@@ -52,7 +53,7 @@ ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   std::memcpy(numbers, &vector, sizeof vector);
 }
 
-/// One number in every lane. A shuffle, because GCC 12 compiles `number - V{}` for 64 bytes element by element.
+/// The number in every lane. A shuffle, because GCC 12 compiles `number - V{}` for 64-byte vectors element by element.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V broadcast(NumberOf<V> number) {
   V first{};
@@ -63,20 +64,20 @@ template <typename V>
   (std::make_index_sequence<kLaneCount<V>>());
 }
 
-/// The smaller numbers; those of b where the two are equal or one of them is NaN.
+/// The minimum per lane; the lane of b where both are equal or one is NaN.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V min(const V& a, const V& b) {
   return a < b ? a : b;
 }
 
-/// The greater numbers; those of b where the two are equal or one of them is NaN.
+/// The maximum per lane; the lane of b where both are equal or one is NaN.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V max(const V& a, const V& b) {
   return a > b ? a : b;
 }
 
-/// The mask where a <= b. Replaces the operator, like notEqual() and select(): GCC 12 compiles the operators for
-/// 64-byte masks element by element.
+/// The mask of the lanes where a <= b. lessEqual(), notEqual() and select() replace operators that GCC 12 compiles
+/// element by element for 64-byte masks.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline IntsOf<V> lessEqual(const V& a, const V& b) {
   if constexpr (sizeof(V) < 64)
@@ -93,13 +94,13 @@ template <typename V>
     return reinterpret_cast<IntsOf<V>>(a != b ? reinterpret_cast<V>(IntsOf<V>{} - 1) : V{});
 }
 
-/// The numbers of a where the mask is true, 0 elsewhere.
+/// The lanes of a where the mask is true, 0 in the other lanes.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V select(const IntsOf<V>& mask, const V& a) {
   return reinterpret_cast<V>(mask & reinterpret_cast<IntsOf<V>>(a));
 }
 
-/// The bitwise or of all lanes; that of the odd ones is in the upper half.
+/// The bitwise or of all 64-bit words of a vector. With 32-bit lanes, its upper half is the or of the odd lanes.
 template <typename Ints>
 ASDFVK_ALWAYS_INLINE inline uint64_t orLanes(const Ints& lanes) {
   if constexpr (sizeof(Ints) > 16) {
@@ -119,7 +120,7 @@ ASDFVK_ALWAYS_INLINE inline bool anyLane(const Mask& mask) {
   return orLanes(mask) != 0;
 }
 
-/// A bit for each lane.
+/// Bit i of the result is set where lane i of the mask is true.
 template <typename Mask>
 ASDFVK_ALWAYS_INLINE inline uint32_t bitsOf(const Mask& mask) {
   Mask bits;
@@ -147,7 +148,7 @@ template <typename Floats>
 /// exp(-x) to a relative error of 1e-4, for x from 0 to 80.
 template <typename Floats>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats expNegative(const Floats& x) {
-  const Floats exponent = 127.0f - x * 1.44269504f;  // Biased, so positive: truncation rounds down.
+  const Floats exponent = 127.0f - x * 1.44269504f;  // The bias makes it positive, so that truncation rounds down.
   const auto whole = __builtin_convertvector(exponent, IntsOf<Floats>);
   const Floats rest = exponent - __builtin_convertvector(whole, Floats);
   const Floats powerOfRest = 0.99992522f + rest * (0.695833507f + rest * (0.226067254f + rest * 0.0780244537f));

@@ -53,7 +53,7 @@ template <typename Names>
   return fmt::format("{} {}s", groupDigits(count), singular);
 }
 
-/// The number that is all of the text.
+/// The number that the whole text spells, or nothing where the text is not a number.
 template <typename T>
 [[nodiscard]] std::optional<T> numberIn(std::string_view text) {
   T value{};
@@ -62,8 +62,8 @@ template <typename T>
   return value;
 }
 
-/// A diameter, thickness or area in a report, a picture or a legend: four significant digits, and as many more as it
-/// takes to differ from the text of a limit that it is not equal to.
+/// A diameter, thickness or area in a report, a picture or a legend. It has four significant digits, or more where a
+/// length that differs from `limit` would otherwise have the text of `limit`.
 [[nodiscard]] inline std::string lengthText(double length, std::optional<double> limit = {}) {
   for (int digits = 4;; ++digits) {
     std::string text = fmt::format("{:.{}g}", length, digits);
@@ -71,10 +71,11 @@ template <typename T>
   }
 }
 
-/// Capacity for any text of appendNumber().
+/// The greatest number of bytes that appendNumber() writes.
 inline constexpr size_t kNumberTextSize = 32;
 
-/// Writes the shortest text that reads back as the same number, "nan" for NaN of either sign; returns its end.
+/// Writes the shortest text that reads back as the same number, or "nan" for NaN of either sign. Returns the end of the
+/// text.
 template <typename T>
 [[nodiscard]] char* appendNumber(char* to, T value) {
   if constexpr (std::is_floating_point_v<T>) {

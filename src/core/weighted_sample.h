@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// Numbers with weights, for quantiles. Precondition of min(), max() and quantile(): sort() was called, and there is a
-/// number. No number is NaN.
+/// Numbers with weights, for quantiles. No number is NaN. Precondition of min(), max() and quantile(): sort() was
+/// called, and there is at least one number.
 class WeightedSample {
  public:
   void add(double number, double weight) { entries_.push_back({number, weight}); }
@@ -18,7 +18,7 @@ class WeightedSample {
     for (const Entry& entry : entries_) sum_ += entry.weight;
   }
 
-  /// The smallest number such that at least this share of the weights is at numbers up to it.
+  /// The smallest number x such that the numbers up to x have at least this share of all weights.
   [[nodiscard]] double quantile(double share) const {
     double below = 0;
     for (const Entry& entry : entries_) {
