@@ -9,8 +9,7 @@
 
 namespace asdfvk {
 
-/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g, in parallel: computed in one direction, f <= g, and
-/// stored for both.
+/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g and each arc from g to f, where f <= g. Runs in parallel.
 template <typename Value, typename ValueOf>
 void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const ValueOf& valueOf) {
   forEachInParallel(graph.faceCount(), [&](uint32_t face) {

@@ -16,8 +16,8 @@
 namespace asdfvk {
 namespace {
 
-// Rays run along the third axis of a frame that is not parallel to the axes, planes and diagonals along which meshes
-// are often built.
+// Rays run along the third axis of this frame. The frame is parallel to no axis, coordinate plane or diagonal, because
+// faces and edges often are.
 Vec3d toRayFrame(const Vec3d& p) {
   static constexpr Vec3d kX{0.80134262, -0.56937194, -0.18349152}, kY{0.50881031, 0.48112718, 0.71386211};
   static constexpr Vec3d kZ = cross(kX, kY);  // Nearly orthonormal, which is sufficient for parity.
@@ -29,7 +29,7 @@ struct Surrounding {
   auto operator<=>(const Surrounding&) const = default;
 };
 
-// The side of p relative to an edge, computed from the lower vertex to the upper one, so that both faces of an edge
+// The side of p relative to an edge, computed from the lower vertex to the upper one. Both faces of an edge therefore
 // have the same value: a ray that hits an edge crosses exactly one of them, independent of rounding.
 double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
   const size_t j = (i + 1) % 3;
@@ -98,10 +98,10 @@ std::vector<Surrounding> surroundingsOf(const ClosedComponents& closed, std::spa
   return surroundings;
 }
 
-/// What of the surroundings of a component's samples is around all of them.
+/// The components around all samples of one component.
 struct Containers {
   std::vector<uint32_t> components;
-  bool isCrossed = false;  // Others are around some of the samples.
+  bool isCrossed = false;  // Other components are around some of the samples, but not all.
 };
 
 Containers containersOf(std::span<const Surrounding> surroundings, size_t sampleCount) {
@@ -154,12 +154,12 @@ Nesting findCavities(const TriangleMesh& mesh, const Components& components) {
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return nesting;
   const ClosedComponents closed(mesh, components);
   const std::vector<Containers> containers = allContainers(closed);
-  // Outer components before those in them.
+  // Outer components before the components in them.
   std::vector<uint32_t> order(count), depths(count, 0);
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](uint32_t a, uint32_t b) { return closed.boxes[a].diagonal() > closed.boxes[b].diagonal(); });
-  // A body that touches or crosses the cavity that it is in has the same depth.
+  // A body that touches or crosses the cavity around it has the same depth as the cavity.
   const auto rankOf = [&](uint32_t c) {
     return std::tuple(depths[c], nesting.isCavity[c] == 0, -closed.boxes[c].diagonal());
   };

@@ -8,17 +8,19 @@
 
 namespace asdfvk {
 
-/// How closed components lie in each other.
+/// Which closed components are cavities, and of which bodies.
 struct Nesting {
   std::vector<uint8_t> isCavity;  ///< #components
-  std::vector<uint32_t> bodyOf;   ///< #components: of a cavity the innermost body around it, of others themselves.
+  std::vector<uint32_t>
+      bodyOf;  ///< #components: of a cavity the innermost body around it; of any other component its own index.
 };
 
-/// A closed component is a cavity if the innermost other one that it is in is a body. It is in another one if all of
-/// its samples are (component_samples.h): a component that touches or crosses another one is not in it. Where a
-/// component touches or crosses others and is in a further one, its winding decides: inwards is a cavity. The parity of
-/// the faces that a ray crosses, in double, decides what a sample is in. Time: about n log c for n faces and c
-/// components; more where many components are nested, or many long faces cross many components.
+/// Finds the cavities among the closed components. A component is in another one if all of its samples
+/// (component_samples.h) are; so a component that touches or crosses another one is not in it. A component is a cavity
+/// if the innermost component around it is a body. If the component also touches or crosses others, its winding decides
+/// instead: it is a cavity if it is wound inwards. A sample is in a component if a ray from the sample crosses an odd
+/// number of the component's faces; computed in double. Time: about n log c for n faces and c components; more where
+/// many components are nested, or many long faces cross many components.
 [[nodiscard]] Nesting findCavities(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

@@ -32,7 +32,7 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
     size_t first = 0;  // First of the entries with the same hash.
     for (size_t i = 1; i < bucket.size(); ++i) {
       if (bucket[i].hash != bucket[first].hash) first = i;
-      // Nearly always the first; different points may have the same hash.
+      // `same` is nearly always `first`; different points may have the same hash.
       size_t same = first;
       while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
       lowest[bucket[i].vertex] = bucket[same].vertex;
@@ -41,15 +41,15 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
   return lowest;
 }
 
-/// A face without its lowest vertex, which is its bucket. The others are in the order of the winding.
+/// A face in the bucket of its lowest vertex. otherVertices: the other two, in the order of the winding.
 struct FaceKey {
   uint64_t otherVertices = 0;
   uint32_t face = 0;
   auto operator<=>(const FaceKey&) const = default;
 };
 
-/// The face between the lowest vertices at its corners, in the least of its three rotations. A face that this collapses
-/// has no area and keeps its own vertices: no ray depends on its identity.
+/// The face with the lowest vertices at its points, in the least of its three rotations. A face with two corners at one
+/// point has no area and keeps its own vertices: no ray depends on its identity.
 Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
   if (!hasDistinctVertices(place)) place = face;
@@ -74,7 +74,7 @@ std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<ui
   return representatives;
 }
 
-/// In a closed mesh a face and its copy are the only faces at each of their three edges.
+/// Whether two faces have the same vertices. In a closed mesh they are the only faces at each of their three edges.
 bool hasCopyByVertices(const DualGraph& closedGraph) {
   return countInParallel(closedGraph.faceCount(), [&](uint32_t f) {
            const std::span<const uint32_t> around = closedGraph.neighboursOf(f);

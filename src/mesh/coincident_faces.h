@@ -12,7 +12,7 @@
 
 namespace asdfvk {
 
-/// A hash of the point's bits: the finalizer of SplitMix64 over each number in turn. -0 and 0 differ.
+/// A hash of the bits of the coordinates, by the finalizer of SplitMix64. -0 and 0 have different hashes.
 [[nodiscard]] inline uint64_t hashOf(const Vec3d& point) {
   uint64_t h = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -24,19 +24,20 @@ namespace asdfvk {
   return h;
 }
 
-/// #F: the representative of each face, the face of lowest index with its corners at the same three points in the same
-/// winding. Vertex indices may differ. Points are the same where their coordinates are equal and finite; -0 equals 0.
-/// Faces with two corners at one point are compared by vertex indices. Copies are treated as one face, so that every
-/// backend reports the same one. Faces at the same points in the other winding, as where parts touch, are other faces.
-/// edges: of the mesh; they often prove quickly that there are no copies.
+/// #F: the representative of each face, which is the face of lowest index with its corners at the same three points in
+/// the same winding. Vertex indices may differ. Points are the same where their coordinates are equal and finite; -0
+/// equals 0. Faces with two corners at one point are compared by vertex indices. A copy is treated as its
+/// representative, so that every backend reports the same face. Faces at the same points in opposite winding, for
+/// example where parts touch, are not copies. edges: the survey of the mesh, which often proves quickly that there are
+/// no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
-/// The faces by their representatives.
+/// The copies of each face.
 class FaceCopies {
  public:
   explicit FaceCopies(std::span<const uint32_t> representatives);
 
-  /// A representative and its copies, ascending.
+  /// The indices of a representative and its copies, ascending.
   [[nodiscard]] std::span<const uint32_t> of(uint32_t representative) const {
     return std::span(faces_).subspan(first_[representative], first_[representative + 1] - first_[representative]);
   }

@@ -9,20 +9,20 @@ namespace {
 
 using Triangle = std::array<Vec3d, 3>;
 
-/// Distance of the samples from their face, in contact distances. A sample on each side, because a face that touches
-/// another component lies on either side of it.
+/// Distance of a sample from its face, in units of kContactDistance. Each point has a sample on both sides of the face:
+/// where the face touches another component, one of the two is outside of that component.
 constexpr double kSampleDepth = 2;
-/// Points of a component at equal shares of its area; beside them, one at each of its ends along the axes. Fewer where
-/// all components together would have more than kMaxPointCount.
+/// Number of points of a component that are spread by area; further points are at its ends along the axes. The number
+/// is lower where the points of all components would be more than kMaxPointCount.
 constexpr size_t kLeastPointCount = 4, kGreatestPointCount = 64, kMaxPointCount = size_t{1} << 18;
-/// Place of the points at the ends between a corner, which is sharp, and the barycentre.
+/// Position of a point at an end: this share of the way from the corner, which may be sharp, to the barycentre.
 constexpr double kEndShare = 0.25;
 
 double areaOf(const Triangle& triangle) {
   return 0.5 * length(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
 }
 
-/// Adds a sample on each side of a face.
+/// Adds a sample on each side of a face at p.
 void addSamples(const Triangle& triangle, const Vec3d& p, uint32_t component, std::vector<Sample>& samples) {
   const Vec3d normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   const double norm = length(normal);
@@ -57,7 +57,7 @@ class Sampler {
   struct State {
     double area = 0, areaBefore = 0;
     size_t pointCount = 0;
-    std::array<size_t, 6> ends{};  // Corners: lowest, highest along x, y, z.
+    std::array<size_t, 6> ends{};  // The corners lowest and highest along x, y and z.
   };
 
   template <typename Visit>
@@ -100,7 +100,8 @@ class Sampler {
     state.areaBefore += areaOf(t);
     const auto shareOf = [&](size_t i) { return (static_cast<double>(i) + 0.5) / static_cast<double>(pointCount_); };
     while (state.pointCount < pointCount_ && shareOf(state.pointCount) * state.area < state.areaBefore) {
-      // M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018: evenly in a square, here folded.
+      // M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018: points spread evenly over a square,
+      // here folded onto the triangle.
       const double i = static_cast<double>(++state.pointCount);
       double u = std::fmod(0.5 + i * 0.7548776662466927, 1), v = std::fmod(0.5 + i * 0.5698402909980532, 1);
       if (u + v > 1) u = 1 - u, v = 1 - v;

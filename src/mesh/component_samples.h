@@ -17,9 +17,9 @@ struct ClosedComponents {
   TriangleMesh mesh;
   const Components& components;
   Normalization normalization;
-  std::vector<Box3d> boxes;  ///< #components; empty for those that are not closed.
+  std::vector<Box3d> boxes;  ///< #components; empty for an open component.
 
-  /// The arrays of the mesh and the components must outlive it.
+  /// The arrays of the mesh and the components must outlive the object.
   ClosedComponents(const TriangleMesh& mesh, const Components& components);
 
   [[nodiscard]] std::array<Vec3d, 3> triangle(uint32_t face) const;
@@ -30,9 +30,9 @@ struct Sample {
   Vec3d point;
 };
 
-/// Samples of the closed components with isWanted[component] != 0, grouped by component, ascending. A component has at
-/// most 70 points, at equal shares of its area and at the ends along the axes, and a sample closely in front of and
-/// behind each. It has at most 10 points where there are tens of thousands of components.
+/// Samples of the closed components with isWanted[component] != 0, grouped by component, ascending. Samples are at up
+/// to 70 points of a component, spread by area and at its ends along the axes. The limit falls to 10 points where there
+/// are tens of thousands of components. A point has one sample closely in front of its face and one closely behind.
 [[nodiscard]] std::vector<Sample> samplesOf(const ClosedComponents& closed, std::span<const uint8_t> isWanted);
 
 }  // namespace asdfvk

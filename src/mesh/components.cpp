@@ -12,8 +12,8 @@
 namespace asdfvk {
 namespace {
 
-// Bound on the rounding error of a volume, relative to the sum of the products of the three lengths in each of its
-// terms: a few units in the last place.
+// Bound on the rounding error of each term of a volume, relative to the product of the three lengths in the term: a few
+// units in the last place.
 constexpr double kVolumeNoise = 1e-15;
 
 /// Disjoint sets of faces, merged by any number of threads at once; each set is identified by its lowest face (Anderson
@@ -50,7 +50,7 @@ class FaceSets {
   [[nodiscard]] std::atomic_ref<uint32_t> parentOf(uint32_t face) { return std::atomic_ref<uint32_t>(parents_[face]); }
   [[nodiscard]] uint32_t load(uint32_t face) { return parentOf(face).load(std::memory_order_relaxed); }
 
-  std::vector<uint32_t> parents_;  ///< #F, never above the face itself.
+  std::vector<uint32_t> parents_;  ///< #F; the parent of a face is never above the face.
 };
 
 void label(const DualGraph& graph, Components& result) {
@@ -108,7 +108,7 @@ struct VolumeSum {
   double sum = 0, noise = 0;
 };
 
-/// Over a fixed range of faces, so that the sums do not depend on the number of threads.
+/// Sums over the faces [begin, end). The ranges are fixed, so that the sums do not depend on the number of threads.
 std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& components, double scale, uint32_t begin,
                                   uint32_t end) {
   std::vector<VolumeSum> sums;
@@ -118,7 +118,7 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
     if (sums.empty() || sums.back().component != component) sums.push_back({component});
     const Vec3d& origin = mesh.vertices[mesh.faces[components.components[component].firstFace][0]];
     const auto [i, j, k] = mesh.faces[f];
-    // Scaled first, which is exact: differences of huge coordinates may overflow.
+    // Scaled before the subtraction, because differences of huge coordinates may overflow.
     const Vec3d corner = mesh.vertices[i] * scale;
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
@@ -128,8 +128,8 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
   return sums;
 }
 
-/// Volumes are summed in normalised units around a corner of the component: the unit and a translation of the mesh cost
-/// no digits.
+/// Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a translation
+/// of the mesh costs precision.
 void measureVolumes(const TriangleMesh& mesh, Components& result) {
   const double scale = normalizationOf(boundsOfFiniteVertices(mesh)).scale;
   const size_t blockCount = (mesh.faces.size() + kItemsPerTask - 1) / kItemsPerTask;

@@ -13,7 +13,7 @@ struct Component {
   uint32_t firstFace = 0;  ///< The lowest face index.
   uint32_t faceCount = 0;
   bool isClosed = false;             ///< Each edge has exactly two faces; triangles with a repeated vertex are ignored.
-  bool isConsistentlyWound = false;  ///< The two faces of each such edge traverse it in opposite directions.
+  bool isConsistentlyWound = false;  ///< No edge has two faces that traverse it in the same direction.
   double signedVolume = 0;  ///< Volume in mesh units cubed; negative where faces point inwards, 0 where the sign is
                             ///< uncertain because of rounding. Valid for closed, consistently wound components only.
 };
@@ -23,8 +23,8 @@ struct Components {
   std::vector<Component> components;  ///< Sorted by their lowest face.
 };
 
-/// `edges`: of the mesh. Precondition: every index of a face is below the vertex count. A face with a non-finite corner
-/// is a component of its own; the hole that it leaves makes the component around it open.
+/// edges: the survey of the mesh. Precondition: every index of a face is below the vertex count. A face with a
+/// non-finite corner is a component of its own; the hole that it leaves makes the component around it open.
 [[nodiscard]] Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Scales by the largest coordinate, so that products neither underflow nor overflow; zero stays zero.
+// Divides by the greatest absolute coordinate, so that products neither underflow nor overflow; zero stays zero.
 Vec3d scaledToOne(const Vec3d& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest > 0 ? v / largest : v;
@@ -33,9 +33,9 @@ double angleAt(const Vec3d& apex, const Vec3d& b, const Vec3d& c) {
 double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
   if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
   const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
-  // Unlike the arc cosine, accurate for small angles.
+  // The arc tangent is accurate for small angles, unlike the arc cosine.
   const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
-  // Halves, so that their difference does not overflow.
+  // The barycentres are halved, so that their difference does not overflow.
   const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;
   const bool isConcave = dot(ofF, between) > 0 && dot(ofG, between) < 0;
   return isConcave ? angle : -angle;

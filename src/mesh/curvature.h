@@ -11,8 +11,8 @@ namespace asdfvk {
 
 /// The angle in radians between the normals of two neighbouring faces: 0 for coplanar faces, up to pi for faces folded
 /// onto each other, positive on a concave edge, negative on a convex edge. An edge is concave where the barycentre of
-/// each face is in front of the plane of the other; edges of opposite winding are never concave. 0 where a face is
-/// degenerate. The result has the same bits if the faces are swapped.
+/// each face is in front of the plane of the other; an edge between faces of opposite winding is never concave. 0 where
+/// a face is degenerate. The result has the same bits if the faces are swapped.
 [[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
 
 /// Discrete Gaussian curvature of each vertex: its angle defect in radians, 2 pi minus the sum of the angles of its
@@ -24,7 +24,7 @@ namespace asdfvk {
 /// non-finite corner contributes none. Precondition: every index of a face is below the vertex count.
 [[nodiscard]] std::vector<double> vertexAngleDefects(const TriangleMesh& mesh);
 
-/// Per face the mean of the angle defects of its three vertices. #F
+/// #F: the mean of the angle defects of the three vertices of a face.
 [[nodiscard]] std::vector<double> faceCurvature(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

@@ -12,9 +12,9 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kNoNeighbour = UINT32_MAX;
-constexpr uint32_t kMany = UINT32_MAX - 1;  ///< The edge's arcs are among the further ones.
+constexpr uint32_t kMany = UINT32_MAX - 1;  ///< The edge has more than two faces; its arcs are in furtherArcs.
 
-/// From a face to a neighbour.
+/// A face and its neighbour.
 using Arc = std::pair<uint32_t, uint32_t>;
 
 /// Results of one thread.
@@ -102,7 +102,7 @@ class Survey {
     }
   }
 
-  /// Where each face has three arcs, `across_` already holds the rows.
+  /// Each face has three arcs, so `across_` already holds the rows; only their order is missing.
   DualGraph closedGraph() {
     DualGraph graph;
     graph.offsets.resize(mesh_.faces.size() + 1);

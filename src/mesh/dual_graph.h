@@ -12,9 +12,9 @@ namespace asdfvk {
 /// The size of the graph is therefore never quadratic.
 inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 
-/// The dual graph: a node per face, and for each shared mesh edge an arc in each direction: faces that share two edges
-/// have two arcs each way. Compressed rows: the neighbours of face f are neighbours[offsets[f]] .. neighbours[offsets[f
-/// + 1] - 1], in ascending order.
+/// The dual graph: a node per face, and for each shared mesh edge an arc in each direction. Faces that share two edges
+/// have two arcs in each direction. Compressed rows: the neighbours of face f are neighbours[offsets[f]] ..
+/// neighbours[offsets[f + 1] - 1], in ascending order.
 struct DualGraph {
   std::vector<uint32_t> offsets;     ///< #F+1
   std::vector<uint32_t> neighbours;  ///< Face indices.
@@ -25,7 +25,7 @@ struct DualGraph {
   }
 };
 
-/// Class of an edge by its proper faces: those with finite corners and three distinct vertices.
+/// Class of an edge by its proper faces. A face is proper if it has finite corners and three distinct vertices.
 enum class EdgeKind : uint8_t {
   Regular,       ///< Two faces that traverse it in opposite directions.
   Inconsistent,  ///< Two faces that traverse it in the same direction.

@@ -13,17 +13,17 @@ namespace asdfvk {
 /// A face at an edge. Entries of an edge are ordered by face.
 struct EdgeEntry {
   uint32_t upperVertex;
-  uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to the next one.
+  uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to its next corner.
 
   [[nodiscard]] uint32_t face() const { return corner / 3; }
   auto operator<=>(const EdgeEntry&) const = default;
 };
 
-/// The faces around every edge, in buckets by the lower vertex of the edge. 36 bytes per face.
+/// The faces around every edge, in buckets by the lower vertex of the edge. Memory: 36 bytes per face.
 class EdgeTable {
  public:
-  /// Faces for which takesPart(face) is false have no edges; an edge between a vertex and itself is ignored; a face
-  /// that traverses an edge twice, a-b-a, is entered once. Precondition: every index of a face is below the vertex
+  /// Faces for which takesPart(face) is false have no edges. An edge between a vertex and itself is ignored. A face
+  /// that traverses an edge twice (a-b-a) is entered once. Precondition: every index of a face is below the vertex
   /// count.
   template <typename TakesPart>
   EdgeTable(const TriangleMesh& mesh, const TakesPart& takesPart)

@@ -14,7 +14,7 @@ struct NormalAndArea {
   double area = 0;
 };
 
-// Sums of two differences of any two numbers, times this factor, do not overflow.
+// Differences of any two coordinates, multiplied by this factor, can be added in pairs without overflow.
 constexpr double kQuarter = 0.25;
 
 Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - from * kQuarter; }

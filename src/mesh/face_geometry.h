@@ -13,14 +13,16 @@ namespace asdfvk {
 /// A face whose height over its longest edge is below this share of that edge is degenerate: it has no reliable normal.
 inline constexpr double kDegenerateHeightRatio = 1e-10;
 
-/// Per face quantities, #F each, in the mesh's unit.
+/// Geometry of the faces, #F entries each, in the unit of the mesh.
 struct FaceGeometry {
-  std::vector<Vec3d> barycentres;  ///< Non-finite where a corner is.
-  std::vector<Vec3d> normals;      ///< Unit, right-hand rule over the file's vertex order; zero for a degenerate face.
-  std::vector<double> areas;       ///< 0 for a degenerate face.
-  Box3d bounds;                    ///< Box of the finite vertices that faces use.
+  std::vector<Vec3d> barycentres;  ///< Not finite where a corner is not finite.
+  std::vector<Vec3d>
+      normals;  ///< Unit vectors by the right-hand rule over the order of the corners; zero for a degenerate face.
+  std::vector<double> areas;  ///< 0 for a degenerate face.
+  Box3d bounds;               ///< Bounding box of the finite vertices that faces use.
 
-  /// Zero area (up to kDegenerateHeightRatio) or a non-finite corner: neither casts rays nor is hit by them.
+  /// Whether the face has zero area (see kDegenerateHeightRatio) or a non-finite corner. Such a face neither casts rays
+  /// nor is hit by rays.
   [[nodiscard]] bool isDegenerate(uint32_t face) const { return areas[face] == 0; }
 };
 
@@ -30,18 +32,20 @@ struct FaceGeometry {
 /// The box of the vertices with finite coordinates, whether faces use them or not.
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
-/// Faces that are nearer to each other are in contact; in units of half of the longest side of the mesh. Coordinates in
-/// float32 cannot resolve such a distance. It also covers the rounding of parts that touch and are rotated.
+/// Faces closer to each other than this distance are in contact. Unit: half of the longest side of the mesh.
+/// Coordinates in float32 cannot resolve such a distance. It also covers the rounding of parts that touch and are
+/// rotated.
 inline constexpr double kContactDistance = 0x1p-20;
 
-/// Maps the box of the mesh to [-1, 1] along its longest side, around its centre. Coordinates in float32 are the same
-/// in every unit of the mesh, up to rounding in double, and so is what is computed from them.
+/// Maps the centre of the bounding box of the mesh to the origin and its longest side to a length of 2. Normalised
+/// coordinates in float32, and results computed from them, are the same in every unit of the mesh, up to rounding in
+/// double.
 struct Normalization {
   Vec3d centre;
   double scale = 1;  ///< Normalised units per mesh unit.
 
   [[nodiscard]] Vec3d toNormalized(const Vec3d& p) const { return (p - centre) * scale; }
-  /// Clamped to the largest double; only meshes as wide as the range of double need that.
+  /// Clamped to the largest double, which only the lengths of a mesh as wide as the range of double exceed.
   [[nodiscard]] double toMeshLength(double normalizedLength) const {
     return std::min(normalizedLength / scale, std::numeric_limits<double>::max());
   }

@@ -129,7 +129,8 @@ void PolygonTriangulator::triangulate(std::span<const Vec3d> vertices, std::span
 }
 
 bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners) {
-  // Relative to a corner and to the size of the polygon: independent of the unit and of the distance to the origin.
+  // Relative to a corner and to the size of the polygon, so that the unit and the distance to the origin have no
+  // effect.
   const Vec3d origin = vertices[corners[0]];
   double size = 0;
   for (const uint32_t corner : corners) {
@@ -183,7 +184,7 @@ bool PolygonTriangulator::isEar(uint32_t corner) const {
   });
 }
 
-/// The first ear from `start` on. A polygon without ears crosses itself or is flat: then the sharpest left turn.
+/// The first ear from `start` on. A polygon without ears crosses itself or is flat; then the sharpest left turn.
 uint32_t PolygonTriangulator::findEar(uint32_t start, size_t leftCount) const {
   uint32_t corner = start, sharpest = start;
   for (size_t i = 0; i < leftCount; ++i, corner = next_[corner]) {

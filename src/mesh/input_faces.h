@@ -30,12 +30,12 @@ class InputFaces {
  private:
   void beginPolygons();
 
-  std::vector<Face> triangles_;  ///< Until the first face that is not a triangle.
-  Polygons polygons_;            ///< All faces, from the first one that is not a triangle on.
+  std::vector<Face> triangles_;  ///< All faces, as long as all of them are triangles.
+  Polygons polygons_;            ///< All faces, after the first one that is not a triangle.
 };
 
-/// Concave polygons with more corners are cut into a fan, which may overlap itself, because the time of ear clipping is
-/// quadratic in the corner count.
+/// Concave polygons with more corners than this are cut into a fan, which may overlap itself, because the time of ear
+/// clipping is quadratic in the corner count.
 inline constexpr size_t kMaxEarClippedCorners = 1000;
 
 /// Cuts polygons into triangles of the same winding. Reuses its working memory.
@@ -49,7 +49,7 @@ class PolygonTriangulator {
   void triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners, std::span<Face> triangles);
 
  private:
-  /// False where the polygon spans no plane.
+  /// Projects the corners into points_. Returns false where the polygon spans no plane.
   [[nodiscard]] bool project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners);
   [[nodiscard]] double turnAt(uint32_t corner) const;
   [[nodiscard]] bool isEar(uint32_t corner) const;
@@ -61,7 +61,8 @@ class PolygonTriangulator {
   std::vector<uint32_t> previous_, next_;
   std::vector<double> turn_;
   std::vector<uint8_t> isEar_, isClipped_;
-  std::vector<uint32_t> reflex_;  ///< Corners without a left turn in the whole polygon; only these can lie in an ear.
+  std::vector<uint32_t>
+      reflex_;  ///< Corners that are not left turns of the whole polygon; only these can lie in an ear.
 };
 
 }  // namespace asdfvk

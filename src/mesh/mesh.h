@@ -9,12 +9,12 @@
 
 namespace asdfvk {
 
-/// Greatest number of vertices and of input faces: an index has 32 bits, and one of them stands for none.
+/// Greatest number of vertices and of input faces. Indices have 32 bits, and the greatest index stands for none.
 inline constexpr uint64_t kMaxIndexCount = std::numeric_limits<uint32_t>::max();
 /// Greatest number of triangles: the three corners of each are numbered in 32 bits.
 inline constexpr uint64_t kMaxTriangleCount = kMaxIndexCount / 3;
 
-/// Throws Error{MeshTooLarge} where count > limit. plural: the counted elements, as "triangles".
+/// Throws Error{MeshTooLarge} where count > limit. plural: the counted elements, for example "triangles".
 void requireAtMost(uint64_t limit, uint64_t count, const char* plural);
 
 /// Whether the three vertices of the face differ; independent of the coordinates.
@@ -32,7 +32,7 @@ struct PolygonsView {
 };
 
 /// The mesh type of all algorithms: a view of triangles and of the input faces that they were cut from. The arrays must
-/// outlive it.
+/// outlive the view.
 struct TriangleMesh {
   std::span<const Vec3d> vertices;  ///< #V; may hold non-finite numbers.
   std::span<const Face> faces;      ///< #F
@@ -54,7 +54,7 @@ struct TriangleMesh {
   [[nodiscard]] uint32_t inputFaceOf(uint32_t face) const {
     return polygons.isEmpty() ? face : polygons.inputFaceOf[face];
   }
-  /// #I
+  /// The number of input faces, #I.
   [[nodiscard]] uint64_t inputFaceCount() const {
     return polygons.isEmpty() ? faces.size() : polygons.firstCorner.size() - 1;
   }

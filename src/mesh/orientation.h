@@ -21,17 +21,17 @@ struct OrientationReport {
   [[nodiscard]] std::string sentence(const TriangleMesh& mesh, const Components& components) const;
 };
 
-/// The rule of CGAL's orient_to_bound_a_volume: a closed component inside an even number of others bounds a solid and
-/// has a positive volume; one inside an odd number is a cavity and has a negative volume. Components that are open,
-/// inconsistently wound or without volume are never inverted.
+/// Finds inverted components by the rule of CGAL's orient_to_bound_a_volume. A closed component inside an even number
+/// of others bounds a solid and has a positive volume; one inside an odd number is a cavity and has a negative volume.
+/// Components that are open, inconsistently wound or without volume are never inverted.
 [[nodiscard]] OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components& components);
 
-/// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the corners of each input face that has one
-/// of them. The first corner stays the first.
+/// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the winding of each input face that
+/// contains such a triangle. The first corner of each face stays the first.
 void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped);
-/// Reverses the normals of these triangles, too.
+/// Also reverses the normals of the flipped triangles.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
-/// Reverses all triangles of these input faces, which ascend.
+/// Reverses all triangles of the given input faces. Precondition: the indices ascend.
 void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);
 
 /// Reverses every face.

@@ -23,8 +23,8 @@ class PlanePoints {
  private:
   struct Node {
     Point2 min, max;
-    uint32_t begin = 0, end = 0;  // In order_.
-    uint32_t upperChild = 0;      // 0: a leaf; the lower child is the next node.
+    uint32_t begin = 0, end = 0;  // Range in order_.
+    uint32_t upperChild = 0;      // 0 for a leaf. The lower child is the next node.
   };
 
   uint32_t build(std::span<const Point2> points, uint32_t begin, uint32_t end);

@@ -8,15 +8,15 @@
 
 namespace asdfvk {
 
-/// The corners of the faces by points: vertices at the same position are one point, so that a mesh whose faces have
-/// vertices of their own is connected as well.
+/// The corners of faces at each point. Vertices at the same position are one point, so that faces that share no
+/// vertices are connected too.
 class PointFans {
  public:
   explicit PointFans(const TriangleMesh& mesh);
 
-  /// The lowest vertex at the position of a vertex; stands for the point.
+  /// The lowest vertex at the position of the given vertex. Its index stands for the point.
   [[nodiscard]] uint32_t pointOf(uint32_t vertex) const { return pointOf_[vertex]; }
-  /// Corners 3 face + k at a point, ascending; empty for a vertex that stands for no point.
+  /// Corners 3 face + k at a point, ascending; empty for a vertex that does not stand for a point.
   [[nodiscard]] std::span<const uint32_t> cornersAt(uint32_t point) const {
     return std::span(corners_).subspan(first_[point], first_[point + 1] - first_[point]);
   }

@@ -15,9 +15,9 @@ constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
 struct PointNode {
   Box3d box;
-  uint32_t begin = 0, end = 0;  ///< Points.
-  uint32_t left = kNone;        ///< The right child follows; kNone for a leaf.
-  uint32_t group = kNone;       ///< Of all points below; kNone where they are of several.
+  uint32_t begin = 0, end = 0;  ///< Range of points.
+  uint32_t left = kNone;        ///< Left child; the right child is the next node. kNone for a leaf.
+  uint32_t group = kNone;       ///< The group of all points below the node; kNone where they are of several groups.
 };
 
 /// An edge from a point, and its squared length.
@@ -33,7 +33,7 @@ class SpanningTree {
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.push_back({.end = static_cast<uint32_t>(points.size())});
     for (uint32_t node = 0; node < nodes_.size(); ++node) split(points, node);
-    // In a unit in which squares neither overflow nor underflow.
+    // The points are scaled so that squares neither overflow nor underflow.
     double greatest = 0;
     for (const Vec3d& p : points) greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     const auto scaled = [&](const Vec3d& p) { return greatest > 0 ? p / greatest : p; };
@@ -71,7 +71,7 @@ class SpanningTree {
     return point;
   }
 
-  /// One round: the shortest edge of each group to another one.
+  /// One round of Borůvka's algorithm: adds the shortest edge of each group to another group.
   void joinGroups() {
     for (uint32_t i = 0; i < groups_.size(); ++i) groups_[i] = groupOf(i);
     for (size_t index = nodes_.size(); index-- > 0;) {  // Children follow their parents.
@@ -89,7 +89,7 @@ class SpanningTree {
     for (const Edge& edge : nearest_)
       if (isValid(edge)) offer(edge);
     for (uint32_t i = 0; i < groups_.size(); ++i) {
-      // The nearest point of another group can only become farther from round to round.
+      // The distance to the nearest point of another group never decreases from round to round.
       Edge& edge = nearest_[i];
       const double limit = best[groups_[i]].square, least = edge.from == kNone ? -1 : edge.square;
       if (isValid(edge) || least >= limit) continue;
@@ -117,11 +117,12 @@ class SpanningTree {
     return square;
   }
 
-  /// Of a squared length below `limit`; else that limit, without an end.
+  /// The shortest edge from point i to another group, if its squared length is below `limit`. Otherwise an edge with
+  /// the square `limit` and without `to`.
   [[nodiscard]] Edge nearestOfOthers(uint32_t i, double limit) const {
     const Vec3d& p = points_[i];
     Edge found{limit, i, kNone};
-    std::array<uint32_t, 64> stack;  // The depth is below 32: nodes are halved.
+    std::array<uint32_t, 64> stack;  // The depth is below 32, because each split halves a node.
     size_t stackSize = 0;
     stack[stackSize++] = 0;
     while (stackSize > 0) {
@@ -141,11 +142,13 @@ class SpanningTree {
     return found;
   }
 
-  std::vector<uint32_t> order_;  ///< Point of the caller by the position in the tree; all other indices are positions.
+  std::vector<uint32_t> order_;  ///< The caller's point at each position in the tree. All other indices are positions.
   std::vector<Vec3d> points_;
   std::vector<PointNode> nodes_;
-  std::vector<uint32_t> groups_;  ///< Links of a disjoint-set forest; the groups themselves while edges are searched.
-  std::vector<Edge> nearest_;     ///< Where `to` is of the same group or kNone, `square` is a lower bound.
+  std::vector<uint32_t>
+      groups_;  ///< Links of a disjoint-set forest; during the search for edges, the group of each point.
+  std::vector<Edge>
+      nearest_;  ///< Where `to` is of the same group or kNone, `square` is a lower bound for other groups.
   std::vector<std::array<uint32_t, 2>> edges_;
 };
 

@@ -19,7 +19,7 @@ void requireValidArrays(const MeshView& view);
 /// Faces with an index at or above the vertex count. All functions that take a TriangleMesh require it to be 0.
 [[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh);
 
-/// All arguments are of the same mesh.
+/// Precondition: all arguments describe the same mesh.
 [[nodiscard]] MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                       std::span<const uint32_t> representatives, const EdgeSurvey& edges);
 
