@@ -23,13 +23,13 @@ Placement Placement::after(const Placement& inner) const {
 }
 
 AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize) {
-  // The numbers are divided, because counts of a hostile file overflow when they are multiplied.
+  // Limits are divided instead of counts multiplied, because the product of a count of a hostile file may overflow.
   constexpr uint64_t kMaxBytesPerByte = 64;
   const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * fileSize);
   if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||
       vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit)
     throw Error(ErrorCode::InputTooLarge,
-                fmt::format("its instances have {} in all, more than {} MiB of memory hold; export fewer of them",
+                fmt::format("its instances have {} in all, more than {} MiB of memory hold; export fewer instances",
                             counted(faceCount, "face"), limit >> 20));
   requireAtMost(kMaxTriangleCount, faceCount, "faces");
   requireAtMost(kMaxIndexCount, vertexCount, "vertices");

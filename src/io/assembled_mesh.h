@@ -17,32 +17,33 @@ struct Placement {
 
   [[nodiscard]] Vec3d direction(const Vec3d& p) const { return columns[0] * p.x + columns[1] * p.y + columns[2] * p.z; }
   [[nodiscard]] Vec3d point(const Vec3d& p) const { return direction(p) + translation; }
-  /// Whether it turns the outside of a surface inside.
+  /// Whether the map turns the outside of a surface inside.
   [[nodiscard]] bool mirrors() const { return dot(cross(columns[0], columns[1]), columns[2]) < 0; }
   [[nodiscard]] bool isFinite() const;
-  /// `inner` first.
+  /// The map that applies `inner` first and then this map.
   [[nodiscard]] Placement after(const Placement& inner) const;
 };
 
-/// The triangles of a part of a file, in its own coordinates.
+/// The triangles of a part of a file, in the coordinates of the part.
 struct PartMesh {
   std::vector<Vec3d> vertices;
   std::vector<Face> faces;
 };
 
-/// Bytes that instances may take where they are more than 64 times the size of the file.
+/// Greatest memory of all instances in bytes, or 64 times the size of the file where that is more.
 inline constexpr uint64_t kMaxInstanceBytes = uint64_t{1} << 30;
 
-/// One mesh of the placed parts of a file. Parts share no vertices, so that each is a component of its own.
+/// Joins the placed parts of a file into one mesh. Parts share no vertices, so that each is a component of its own.
 class AssembledMesh {
  public:
-  /// vertexCount: at least the number that add() will receive. Throws Error{MeshTooLarge} where 32 bits do not number
-  /// them, Error{InputTooLarge} where instances take more than kMaxInstanceBytes and more than 64 times the file.
+  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} where 32 bits do
+  /// not number them, Error{InputTooLarge} where instances take more than kMaxInstanceBytes and more than 64 times the
+  /// file.
   AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize);
 
-  /// Faces of a mirrored part are reversed: they stay outside.
+  /// Reverses the faces of a mirrored part, so that its outside stays outside.
   void add(const PartMesh& part, const Placement& placement);
-  /// Throws Error{UnreadableInput} without a face.
+  /// Throws Error{UnreadableInput} if the mesh has no face.
   [[nodiscard]] Mesh finish();
 
  private:

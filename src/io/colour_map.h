@@ -16,12 +16,12 @@ struct ColourRange {
   double low = 0, high = 0;
 };
 
-/// The 1st to the 99th percentile (nearest rank) of the finite values; {0, 0} where there is none.
+/// The 1st to the 99th percentile (nearest rank) of the finite values; {0, 0} without a finite value.
 [[nodiscard]] ColourRange percentileRange(std::span<const double> values);
 
-/// The perceptual map viridis (Smith and van der Walt 2015, CC0), interpolated linearly between nine of its colours.
-/// Values beyond the range have the colour of its end. If the range is a point, all values have the middle colour. NaN
-/// is grey.
+/// The perceptual colour map viridis (Smith and van der Walt 2015, CC0), interpolated linearly between nine of its
+/// colours. Values beyond the range have the colour of the nearer end. If both ends of the range are equal, all values
+/// have the middle colour. NaN is grey.
 [[nodiscard]] Rgba colourOf(double value, const ColourRange& range);
 
 }  // namespace asdfvk

@@ -1,5 +1,5 @@
-// Comma-separated values: a header line, then a row per face or per vertex, numbered from 0 in the first column `face`
-// or `vertex`. Numbers have the shortest text that reads back the same.
+// Comma-separated values: a header line, then a row per face or per vertex. The first column, `face` or `vertex`,
+// numbers the rows from 0. Numbers have the shortest text that reads back the same.
 #include <fmt/core.h>
 
 #include <string>

@@ -40,8 +40,9 @@ class Descriptor {
   int value_;
 };
 
-/// A whole file. Not mapped: a file that shrinks while it is mapped ends the process. "-" is standard input. Pipes are
-/// read to their end. Throws Error{UnreadableInput} with the reason of the system.
+/// Reads a whole file. The file is not mapped into memory, because a mapped file that shrinks ends the process. "-" is
+/// standard input. Pipes are read to their end. Throws Error{UnreadableInput} with the error text of the operating
+/// system.
 UnsetVector<char> bytesOf(const std::filesystem::path& path) {
   const Descriptor descriptor(path);
   struct stat status {};
@@ -51,7 +52,7 @@ UnsetVector<char> bytesOf(const std::filesystem::path& path) {
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
     failInput("is a device, not a file");
   constexpr size_t kMaxRead = size_t{1} << 30, kFirstOfPipe = size_t{1} << 16;  // Linux reads at most 2 GiB at once.
-  // One byte more than the size of the file: the read that finds its end needs no larger buffer.
+  // One byte more than the size of the file, so that the read that finds the end of the file needs no larger buffer.
   UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
   for (size_t size = 0;;) {
     if (size == bytes.size()) bytes.resize(2 * size);
@@ -75,7 +76,7 @@ std::vector<std::string> namesOf(HasOperation hasOperation) {
   return names;
 }
 
-/// "stl, ply or off"
+/// For example "stl, ply or off".
 std::string listOf(HasOperation hasOperation) {
   const std::vector<std::string> names = namesOf(hasOperation);
   std::string text;
@@ -157,7 +158,7 @@ void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::s
   AtomicFile file(path);
   format.write(file, result);
   if (!beside) return file.commit();
-  AtomicFile::commitBoth(*beside, file);  // The second refers to the first.
+  AtomicFile::commitBoth(*beside, file);  // The second file refers to the first.
 }
 
 }  // namespace asdfvk

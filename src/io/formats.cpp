@@ -5,7 +5,7 @@
 #include "core/text.h"
 
 namespace asdfvk {
-// A format is defined in the file of its name.
+// Each format is defined in src/io/NAME_*.cpp.
 extern const FileFormat kStlFormat, kPlyFormat, kOffFormat, kObjFormat, kGlbFormat, k3mfFormat, kVtuFormat, kNpyFormat,
     kNpzFormat, kCsvFormat;
 

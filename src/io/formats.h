@@ -14,12 +14,11 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// Result of the detection of a format from the content of a file. Certain overrides the extension of the file; the
-/// extension overrides Possible.
+/// How certainly the content of a file has a format. Certain overrides the extension of the file; the extension
+/// overrides Possible.
 enum class Match { None, Possible, Certain };
 
-/// A format of files, defined as kNAMEFormat in src/io/NAME_*.cpp. A function is null where the format lacks the
-/// operation.
+/// A file format, defined as kNAMEFormat in src/io/NAME_*.cpp. A function is null where the format lacks the operation.
 struct FileFormat {
   std::string_view name;                       ///< Lower case.
   std::array<std::string_view, 4> extensions;  ///< Lower case, without the dot; unused entries are empty.
@@ -34,24 +33,24 @@ struct FileFormat {
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
-  /// Writes a second file, besidePathOf(), to which the first refers by ResultView::besideName(); null for a format
-  /// without one. It is written where needsBeside(result) is true and the first is a file with a name.
+  /// Writes a second file, besidePathOf(), to which the first refers by ResultView::besideName(); null for a format of
+  /// one file. The second file is written where needsBeside(result) is true and the first is a file with a name.
   void (*writeBeside)(AtomicFile& file, const ResultView& result) = nullptr;
   bool (*needsBeside)(const ResultView& result) = nullptr;
   bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
 };
 
-/// "horse.obj.mtl": the second file of the result "horse.obj".
+/// The path of the second file, for example "horse.obj.mtl" for the result "horse.obj".
 [[nodiscard]] std::filesystem::path besidePathOf(const std::filesystem::path& path);
 
 /// The table of formats, in the order of detection.
 [[nodiscard]] std::span<const FileFormat* const> fileFormats();
 
-/// extension: in any case, with or without the dot. Null for an unknown one.
+/// extension: in upper or lower case, with or without the dot. Returns null for an unknown extension.
 [[nodiscard]] const FileFormat* formatOfExtension(std::string_view extension);
 
-/// The first format with Match::Certain, else the format of the extension, else the first with Match::Possible, else
-/// null.
+/// Returns the first format with Match::Certain, otherwise the format of the extension, otherwise the first format with
+/// Match::Possible, otherwise null.
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 
 }  // namespace asdfvk

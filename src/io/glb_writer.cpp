@@ -1,8 +1,9 @@
-// Binary glTF 2.0: a vertex for each corner of each triangle, because the fields belong to faces and viewers show them
-// flat. Without parts one primitive, whose COLOR_0 shows the field. With the field "segment" a primitive and a material
-// per part, in the order of their numbers, and no COLOR_0: viewers multiply it with the material, and Blender ignores
-// the colours of materials beside it. The fields are attributes _NAME in float32, 0 for no value. _FACE is the input
-// face where triangles are not in its order; it is exact up to 16,777,216.
+// Binary glTF 2.0. Each corner of each triangle has its own vertex, because the fields belong to faces and viewers show
+// faces flat. Without parts there is one primitive, whose COLOR_0 shows the field. With the field "segment" there is a
+// primitive and a material per part, in the order of the part numbers. There is then no COLOR_0, because viewers
+// multiply it with the colour of the material, and because Blender ignores the colours of materials if it exists. The
+// fields are attributes _NAME in float32, 0 for no value. The attribute _FACE is the input face, where triangles are
+// not in the order of input faces; it is exact up to 16,777,216.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -57,13 +58,13 @@ class ResultTriangles {
   Mesh mesh_;
 };
 
-/// Triangles of one part.
+/// The triangles of one part.
 struct GlbGroup {
   uint32_t part = 0;
-  uint64_t begin = 0, end = 0;  ///< In GlbWriter::order_.
+  uint64_t begin = 0, end = 0;  ///< Range in GlbWriter::order_.
 };
 
-/// An attribute of the vertices: `components` of a type, and a function that writes them for a corner.
+/// A vertex attribute: `components` numbers of a type, and a function that writes them for a corner.
 struct GlbAttribute {
   std::string name;
   uint32_t componentType = kFloatComponent;
@@ -86,7 +87,7 @@ class GlbWriter {
  public:
   GlbWriter(AtomicFile& file, const ResultView& result)
       : file_(file), result_(result), triangles_(result), mesh_(triangles_.view()) {
-    if (mesh_.faces.empty()) return;  // glTF has no empty mesh: a scene of nothing.
+    if (mesh_.faces.empty()) return;  // glTF has no empty mesh, so the file has an empty scene.
     groupByPart();
     placeAtOrigin();
     addAttributes();
@@ -134,7 +135,7 @@ class GlbWriter {
     }
   }
 
-  /// Coordinates that float32 does not hold exactly are relative to the middle of the mesh.
+  /// Makes coordinates relative to the middle of the mesh where float32 does not hold them exactly.
   void placeAtOrigin() {
     Vec3d low{1, 1, 1}, high{-1, -1, -1};
     bool isFirst = true;
@@ -150,7 +151,7 @@ class GlbWriter {
     if (!result_.hasFloatVertices()) origin_ = middle_;
   }
 
-  /// A triangle with a corner that is not finite, which glTF does not allow, collapses to a point.
+  /// The position of a corner. A triangle with a non-finite corner, which glTF does not allow, collapses to a point.
   [[nodiscard]] Vec3f pointOf(uint32_t triangle, uint32_t corner) const {
     const bool isWhole = mesh_.hasFiniteCorners(triangle);
     return static_cast<Vec3f>((isWhole ? mesh_.vertices[mesh_.faces[triangle][corner]] : middle_) - origin_);
@@ -200,7 +201,7 @@ class GlbWriter {
                              }});
   }
 
-  /// Least and greatest coordinates of a group, as they are written.
+  /// The least and greatest coordinates of a group, as they are written.
   [[nodiscard]] std::pair<Vec3f, Vec3f> boundsOf(const GlbGroup& group) const {
     Vec3f low = pointOf(order_[group.begin], 0), high = low;
     for (uint64_t i = group.begin; i < group.end; ++i)

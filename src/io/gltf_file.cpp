@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is read by copyi
 
 constexpr uint64_t kGlbHeaderSize = 12, kChunkGlbHeaderSize = 8;
 constexpr uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-constexpr int kMaxJsonDepth = 64;  // Of JSON values; the format itself needs about ten.
+constexpr int kMaxJsonDepth = 64;  // Depth of JSON values; glTF itself needs about ten.
 
 enum GltfType : uint32_t { kGltfByte = 5120, kGltfUByte, kGltfShort, kGltfUShort, kGltfUInt = 5125, kGltfFloat };
 
@@ -47,7 +47,7 @@ uint32_t gltfSizeOf(uint32_t componentType) {
   }
 }
 
-/// Extensions that change neither positions nor triangles.
+/// Whether the extension changes neither positions nor triangles.
 bool isHarmless(std::string_view extension) {
   constexpr std::array<std::string_view, 9> kPrefixes{"KHR_materials_", "KHR_texture_",     "EXT_texture_",
                                                       "MSFT_texture_",  "KHR_lights_",      "EXT_lights_",
@@ -59,7 +59,7 @@ bool isHarmless(std::string_view extension) {
 }  // namespace
 
 const GltfJson* gltfMember(const GltfJson& object, const char* key, std::string_view where) {
-  if (!object.is_object()) failGltf(where, "is not an object of JSON");
+  if (!object.is_object()) failGltf(where, "is not a JSON object");
   const auto found = object.find(key);
   return found == object.end() ? nullptr : &*found;
 }
@@ -75,7 +75,7 @@ uint64_t gltfWhole(const GltfJson& object, const char* key, std::optional<uint64
     const double number = value->get<double>();
     if (number >= 0 && number < 0x1p53 && number == std::floor(number)) return static_cast<uint64_t>(number);
   }
-  failGltf(where, fmt::format("{} is not a whole number from 0 on", key));
+  failGltf(where, fmt::format("{} is not a non-negative integer", key));
 }
 
 const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_view where) {
@@ -87,7 +87,7 @@ const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_v
 std::string gltfText(const GltfJson& object, const char* key, std::string_view where) {
   const GltfJson* const value = gltfMember(object, key, where);
   if (value == nullptr) return {};
-  if (!value->is_string()) failGltf(where, fmt::format("{} is not a text", key));
+  if (!value->is_string()) failGltf(where, fmt::format("{} is not a string", key));
   return value->get<std::string>();
 }
 
@@ -118,7 +118,7 @@ uint32_t GltfAccessor::wholeAt(const Elements& elements, uint64_t i) {
 }
 
 const char* GltfAccessor::elementAt(uint64_t i) const {
-  uint64_t low = 0, high = sparseCount_;  // The first sparse index that is not below i.
+  uint64_t low = 0, high = sparseCount_;  // Bounds of the first sparse index that is not below i.
   while (low < high) {
     const uint64_t middle = (low + high) / 2;
     wholeAt(sparseIndices_, middle) < i ? low = middle + 1 : high = middle;
@@ -182,7 +182,7 @@ void GltfFile::readBinary(std::span<const char> bytes) {
   if (version != 2) failInput(fmt::format("binary glTF version {}; version 2 is read: convert the file", version));
   const uint64_t length = gltfNumber<uint32_t>(bytes.data() + 8);
   if (length != bytes.size())
-    failInput(fmt::format("binary glTF of {} bytes; this file has {} and {}", length, bytes.size(),
+    failInput(fmt::format("binary glTF has {} bytes by its header; this file has {} and {}", length, bytes.size(),
                           length > bytes.size() ? "is truncated" : "continues after its end"));
   uint64_t at = kGlbHeaderSize;
   for (uint32_t chunk = 0; at < length; ++chunk) {
@@ -208,12 +208,12 @@ void GltfFile::parseDocument(std::span<const char> text) {
     if (depth > kMaxJsonDepth) failInput(fmt::format("JSON nested more than {} levels deep", kMaxJsonDepth));
     return true;
   };
-  // Chunks are padded by blanks, and by some writers by zero bytes.
+  // Chunks are padded with blanks; some writers pad with zero bytes.
   while (!text.empty() && text.back() == '\0') text = text.first(text.size() - 1);
   try {
     document_ = GltfJson::parse(text.begin(), text.end(), limitDepth);
   } catch (const GltfJson::parse_error& error) {
-    failInput(fmt::format("byte {} of the JSON: not the JSON of glTF", error.byte));
+    failInput(fmt::format("byte {} of the JSON: syntax error", error.byte));
   } catch (const GltfJson::exception&) {
     failInput("the JSON has a number out of range");
   }
@@ -223,7 +223,7 @@ void GltfFile::requireKnownExtensions() const {
   const GltfJson* const required = gltfArray(document_, "extensionsRequired", "glTF");
   if (required == nullptr) return;
   for (const GltfJson& entry : *required) {
-    if (!entry.is_string()) failInput("extensionsRequired has an entry that is not a text");
+    if (!entry.is_string()) failInput("extensionsRequired has an entry that is not a string");
     const std::string name = entry.get<std::string>();
     if (isHarmless(name)) continue;
     const bool isCompression = name == "KHR_draco_mesh_compression" || name.ends_with("_meshopt_compression");
@@ -244,7 +244,7 @@ void GltfFile::readBuffers() {
     const GltfJson* const uri = gltfMember(buffer, "uri", where);
     std::span<const char> contents;
     if (uri != nullptr) {
-      if (!uri->is_string()) failGltf(where, "uri is not a text");
+      if (!uri->is_string()) failGltf(where, "uri is not a string");
       const auto& text = uri->get_ref<const std::string&>();
       const size_t comma = text.find(',');
       if (!text.starts_with("data:"))
@@ -260,7 +260,8 @@ void GltfFile::readBuffers() {
     } else if (i == 0 && hasBinary_) {
       contents = binary_;
     } else {
-      buffers_.emplace_back();  // Of a compressed view without its extension; an error where it is used.
+      buffers_.emplace_back();  // A compressed view may refer to a buffer without data. Its use without the extension
+                                // is an error.
       continue;
     }
     if (length > contents.size())
@@ -333,7 +334,7 @@ GltfAccessor GltfFile::open(uint64_t index, const char* type, uint32_t component
     accessor.base_ =
         elementsOf(json, accessor.count_, static_cast<uint32_t>(component), componentCount, !isIndex, where);
   } else {
-    // Elements outside of the sparse part are 0. The limit keeps small files from being large meshes.
+    // Elements that are not sparse are 0. The limit prevents large meshes from small files.
     if (accessor.count_ > size_) failGltf(where, "has more elements without a buffer view than the file has bytes");
     accessor.base_.componentType = static_cast<uint32_t>(component);
   }
@@ -346,7 +347,7 @@ GltfAccessor GltfFile::open(uint64_t index, const char* type, uint32_t component
     failGltf(where, "its sparse part is incomplete");
   const uint64_t placeType = gltfWhole(*places, "componentType", std::nullopt, where);
   if (placeType != kGltfUByte && placeType != kGltfUShort && placeType != kGltfUInt)
-    failGltf(where, "its sparse indices have no type");
+    failGltf(where, "the componentType of its sparse indices is not allowed");
   accessor.sparseIndices_ =
       elementsOf(*places, accessor.sparseCount_, static_cast<uint32_t>(placeType), 1, false, where);
   accessor.sparseValues_ =

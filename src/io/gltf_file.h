@@ -10,22 +10,23 @@
 
 #include "core/vec3.h"
 
-/// Access to a glTF 2.0 document, as .glb or as .gltf with its data in it. Everything is held against the sizes of the
-/// file. All functions throw Error{UnreadableInput}; `where` begins the message: "node 3".
+/// Access to a glTF 2.0 document, in a .glb file or in a .gltf file with embedded data. All offsets and counts are
+/// checked against the size of the file. All functions throw Error{UnreadableInput}; the message begins with `where`,
+/// for example "node 3".
 namespace asdfvk {
 
 using GltfJson = nlohmann::json;
 
-/// The member; null where there is none. Throws where `object` is no object.
+/// Returns a member, or null if the object has none of that name. Throws where `object` is not a JSON object.
 [[nodiscard]] const GltfJson* gltfMember(const GltfJson& object, const char* key, std::string_view where);
-/// A whole number from 0 on; `fallback` where there is none. Throws without both.
+/// Returns a non-negative integer, or `fallback` if there is no such member. Throws if there is neither.
 [[nodiscard]] uint64_t gltfWhole(const GltfJson& object, const char* key, std::optional<uint64_t> fallback,
                                  std::string_view where);
-/// An array; null where there is none.
+/// Returns an array, or null if there is no such member.
 [[nodiscard]] const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_view where);
-/// The name of a value; empty where there is none.
+/// Returns a string, which is empty if there is no such member.
 [[nodiscard]] std::string gltfText(const GltfJson& object, const char* key, std::string_view where);
-/// `count` finite numbers into `numbers`; false where there is no such member.
+/// Reads numbers.size() finite numbers into `numbers`. Returns false if there is no such member.
 [[nodiscard]] bool gltfNumbers(const GltfJson& object, const char* key, std::span<double> numbers,
                                std::string_view where);
 
@@ -33,20 +34,20 @@ using GltfJson = nlohmann::json;
 class GltfAccessor {
  public:
   [[nodiscard]] uint64_t count() const { return count_; }
-  /// Preconditions: i < count(), and the type that the accessor was opened with.
+  /// Preconditions: i < count(); vectorAt() only after GltfFile::vectors(), indexAt() only after GltfFile::indices().
   [[nodiscard]] Vec3d vectorAt(uint64_t i) const;
   [[nodiscard]] uint32_t indexAt(uint64_t i) const;
 
  private:
   friend class GltfFile;
-  /// Elements at a distance in a buffer.
+  /// Elements of a buffer, `stride` bytes apart.
   struct Elements {
-    const char* data = nullptr;  ///< Null: all are 0.
+    const char* data = nullptr;  ///< Null: all elements are 0.
     uint64_t stride = 0;
     uint32_t componentType = 0;
   };
   [[nodiscard]] static uint32_t wholeAt(const Elements& elements, uint64_t i);
-  /// In the sparse part, where that replaces it.
+  /// The sparse element i if there is one, otherwise the element of the buffer.
   [[nodiscard]] const char* elementAt(uint64_t i) const;
 
   uint64_t count_ = 0;
@@ -63,10 +64,10 @@ class GltfFile {
   [[nodiscard]] const GltfJson& document() const { return document_; }
   [[nodiscard]] uint64_t size() const { return size_; }
   [[nodiscard]] uint64_t countOf(const char* array) const;
-  /// Item `index` of an array of the document: nodes, meshes, ...
+  /// Item `index` of an array of the document, for example of "nodes".
   [[nodiscard]] const GltfJson& item(const char* array, uint64_t index, std::string_view where) const;
 
-  /// The accessor of vectors of three numbers, or of indices.
+  /// The accessor of that index, opened for vectors of three numbers or for indices.
   [[nodiscard]] GltfAccessor vectors(uint64_t accessor) const;
   [[nodiscard]] GltfAccessor indices(uint64_t accessor) const;
 
@@ -83,7 +84,7 @@ class GltfFile {
 
   uint64_t size_;
   GltfJson document_;
-  std::span<const char> binary_;  ///< The chunk BIN; empty without.
+  std::span<const char> binary_;  ///< The BIN chunk; empty if there is none.
   bool hasBinary_ = false;
   std::vector<std::vector<char>> decoded_;  ///< The bytes of data URIs.
   std::vector<std::span<const char>> buffers_;

@@ -1,7 +1,7 @@
-// glTF 2.0 (Khronos), as .glb or as .gltf with its data in it: the meshes of the default scene, placed by its nodes.
-// The mesh of a node is a part; its vertices at the same point become one, because glTF splits them where normals or
-// texture coordinates differ. Positions in any of the types of KHR_mesh_quantization. The reader ignores materials,
-// textures, cameras and animations; what else it leaves out is in Mesh::skipped. No other file is opened.
+// glTF 2.0 (Khronos), as .glb or as .gltf with embedded data: the meshes of the default scene, placed by its nodes. The
+// mesh of a node is a part. Vertices of a part at the same point become one, because glTF splits vertices where normals
+// or texture coordinates differ. Positions may have any type of KHR_mesh_quantization. The reader ignores materials,
+// textures, cameras and animations; Mesh::skipped lists other content that it leaves out. No other file is opened.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 enum GltfMode : uint64_t { kPoints = 0, kLines, kLineStrip = 3, kTriangles, kTriangleStrip, kTriangleFan };
 
-/// A primitive: its vertices, and the order in which they are used.
+/// A primitive: its vertices, and the indices of its corners.
 struct GltfPrimitive {
   uint64_t mode = kTriangles;
   GltfAccessor positions;
@@ -37,7 +37,7 @@ struct GltfPrimitive {
   }
 };
 
-/// A node on the way from the root of the scene.
+/// A node on the path from the root of the scene to the current node.
 struct GltfVisit {
   uint64_t node = 0;
   uint64_t nextChild = 0;
@@ -66,7 +66,7 @@ class GltfReader {
     }
     if (faceCount == 0) failWithoutFaces(meshCount);
     AssembledMesh assembled(vertexCount, faceCount, file_.size());
-    std::vector<std::optional<PartMesh>> parts(meshCount);  // Those that are used again.
+    std::vector<std::optional<PartMesh>> parts(meshCount);  // Parts that later nodes use again.
     forEachInstance([&](uint64_t mesh, const Placement& placement) {
       if (!parts[mesh]) parts[mesh] = partOf(mesh);
       assembled.add(*parts[mesh], placement);
@@ -79,7 +79,7 @@ class GltfReader {
   }
 
  private:
-  /// Far above any limit: counts stay there.
+  /// Counts saturate at this number, which is far above any limit.
   static constexpr uint64_t kTooMany = uint64_t{1} << 50;
   static uint64_t product(uint64_t a, uint64_t b) { return b != 0 && a > kTooMany / b ? kTooMany : a * b; }
 
@@ -89,7 +89,7 @@ class GltfReader {
     failInput(fmt::format("has {} and no triangle: nothing to compute on", found));
   }
 
-  /// Calls work(mesh, placement) for each node with a mesh, depth first, children in the order of the file.
+  /// Calls work(mesh, placement) for each node with a mesh, depth first, with children in file order.
   template <typename Work>
   void forEachInstance(const Work& work) {
     std::vector<uint8_t> isVisited(file_.countOf("nodes"), 0);
@@ -118,7 +118,7 @@ class GltfReader {
     const GltfJson& node = file_.item("nodes", index, "scene");
     if (isVisited[index]++ != 0) failInput(fmt::format("{} has two parents; nodes are trees", where));
     Placement placement = outer.after(placementOf(node, where));
-    if (!placement.isFinite()) failInput(fmt::format("{}: its place is beyond all numbers", where));
+    if (!placement.isFinite()) failInput(fmt::format("{}: its transform overflows", where));
     if (const GltfJson* const extensions = gltfMember(node, "extensions", where))
       if (gltfMember(*extensions, "EXT_mesh_gpu_instancing", where) != nullptr)
         failInput(fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it",
@@ -126,7 +126,7 @@ class GltfReader {
     if (gltfMember(node, "mesh", where) != nullptr) {
       const uint64_t mesh = gltfWhole(node, "mesh", std::nullopt, where);
       (void)file_.item("meshes", mesh, where);
-      // The joints place a mesh with a skin, not its node.
+      // The joints place a mesh with a skin; its node does not.
       const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
       skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
       morphCount_ += isFirstPass_ && (hasWeights(node) || hasWeights(file_.item("meshes", mesh, where))) ? 1 : 0;
@@ -135,7 +135,7 @@ class GltfReader {
     path.push_back({index, 0, placement});
   }
 
-  /// Whether morph targets change the shape: by default they do not.
+  /// Whether morph targets change the shape. By default they do not.
   static bool hasWeights(const GltfJson& json) {
     const GltfJson* const weights = gltfArray(json, "weights", "weights");
     return weights != nullptr &&
@@ -147,7 +147,7 @@ class GltfReader {
     return array[i].get<uint64_t>();
   }
 
-  /// The roots of the default scene; without scenes, the nodes that are no child.
+  /// The roots of the default scene; without scenes, the nodes that are not children.
   std::vector<uint64_t> rootsOf() const {
     std::vector<uint64_t> roots;
     if (file_.countOf("scenes") > 0) {
@@ -186,7 +186,8 @@ class GltfReader {
     (void)gltfNumbers(node, "scale", scale, where);
     (void)gltfNumbers(node, "rotation", q, where);
     const double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-    if (!(norm > 0) || !std::isfinite(norm)) failInput(fmt::format("{}: its rotation is no rotation", where));
+    if (!(norm > 0) || !std::isfinite(norm))
+      failInput(fmt::format("{}: its rotation is not a valid quaternion", where));
     const auto [x, y, z, w] = q;
     const double s = 2 / norm;
     placement.columns = {Vec3d{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)} * scale[0],
@@ -248,7 +249,7 @@ class GltfReader {
         const uint64_t b = primitive.mode == kTriangles ? a + 1 : i + 1;
         const bool isOdd = primitive.mode == kTriangleStrip && i % 2 == 1;
         const std::array vertices{vertexAt(a), vertexAt(isOdd ? b + 1 : b), vertexAt(isOdd ? b : b + 1)};
-        // Triangles with two equal indices connect strips and are no faces.
+        // Triangles with two equal indices connect strips and are not faces.
         if (primitive.mode == kTriangleStrip &&
             (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]))
           continue;

@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// readMesh(path) that calls `inspect` with the bytes of the file before they are parsed.
+/// Like readMesh(path), but calls `inspect` with the bytes of the file before they are parsed.
 [[nodiscard]] Mesh readMesh(const std::filesystem::path& path,
                             const std::function<void(std::span<const char>)>& inspect);
 

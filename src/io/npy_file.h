@@ -9,9 +9,9 @@
 
 namespace asdfvk {
 
-// .npy, version 1.0, of NumPy: a header, then the entries of one field, little-endian; real numbers as float32.
+// NumPy's .npy, version 1.0: a header, then the entries of one field, little-endian; real numbers as float32.
 
-/// Ends at a multiple of 64 bytes.
+/// The header; its size is a multiple of 64 bytes.
 [[nodiscard]] std::string npyHeader(const Field& field);
 [[nodiscard]] uint64_t npyEntriesSize(const Field& field);
 /// Calls put with successive parts of the entries.

@@ -1,6 +1,6 @@
-// .npz of NumPy: a zip archive (APPNOTE.TXT of PKWARE, 4.3), not compressed: a member FIELD.npy per field, with "face"
-// or "vertex" as its comment. A vertex field with the name of a face field is the member vertex_FIELD.npy with the
-// comment "vertex FIELD". The members, each after its local header, then the central directory.
+// NumPy's .npz: an uncompressed zip archive (APPNOTE.TXT of PKWARE, 4.3) with a member FIELD.npy per field. The comment
+// of a member is "face" or "vertex". A vertex field with the name of a face field is the member vertex_FIELD.npy with
+// the comment "vertex FIELD". The file has the members, each after its local header, and then the central directory.
 #include <fmt/core.h>
 #include <zlib.h>
 
@@ -20,13 +20,15 @@ namespace {
 
 constexpr uint32_t kLocalSignature = 0x04034b50, kCentralSignature = 0x02014b50, kEndSignature = 0x06054b50;
 constexpr uint64_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22;
-constexpr std::string_view kRenamed = "vertex ";  // Start of the comment of a member with another name than its field.
+constexpr std::string_view kRenamed =
+    "vertex ";  // Start of the comment of a member that does not have the name of its field.
 constexpr uint16_t kZipVersion = 20;
-constexpr uint16_t kFirstDate = 0x21;  // 1980-01-01, the first one; the current date would change the bytes.
+constexpr uint16_t kFirstDate =
+    0x21;  // 1980-01-01, the first date of the format; with the current date the bytes of a result would vary.
 
-/// CRC-32; of several parts one after another, each with the checksum of the earlier ones.
+/// CRC-32 of a part. For several parts, `earlier` is the checksum of the previous parts.
 uint32_t checksumOf(std::span<const char> part, uint32_t earlier = 0) {
-  if (part.empty()) return earlier;  // zlib starts again at a null pointer.
+  if (part.empty()) return earlier;  // At a null pointer zlib would start again.
   return static_cast<uint32_t>(::crc32_z(earlier, reinterpret_cast<const Bytef*>(part.data()), part.size()));
 }
 
@@ -38,7 +40,7 @@ struct ZipMember {
   uint32_t offset = 0;  ///< Position of the local header.
 };
 
-/// The part that the local header and the central directory share.
+/// Writes the words that the local header and the central directory share.
 void putCommonHeader(AtomicFile& file, const ZipMember& member) {
   for (const uint16_t word : {kZipVersion, uint16_t{0}, uint16_t{0}, uint16_t{0}, kFirstDate}) file.put(word);
   for (const uint32_t number : {member.checksum, member.size, member.size}) file.put(number);
@@ -57,7 +59,7 @@ void putCentralHeader(AtomicFile& file, const ZipMember& member) {
   file.write(member.kind);
 }
 
-/// Named; the other members are not set.
+/// Members with their names and kinds; the other numbers are not yet set.
 std::vector<ZipMember> namedMembers(FieldReferences fields) {
   std::set<std::string_view> faceNames;
   for (const Field& field : fields)

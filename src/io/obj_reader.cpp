@@ -1,5 +1,5 @@
-// Wavefront OBJ: the statements `v` and `f`. The reader ignores all other statements of the format, and opens no file
-// that one of them (mtllib, ...) names; `call` is an error, as is an unknown statement.
+// Wavefront OBJ: the statements `v` and `f`. The reader ignores the other statements of the format and opens no file
+// that a statement names, for example mtllib. The statement `call` and unknown statements are errors.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-// Version 3.0, and 2.11. In ASCII order for the binary search.
+// The keywords of versions 3.0 and 2.11, in ASCII order for the binary search.
 constexpr std::array kKeywords = std::to_array<std::string_view>({
     "bevel",  "bmat",   "bsp",   "bzp",        "c_interp", "call",     "cdc",    "cdp",  "con",       "csh",
     "cstech", "cstype", "ctech", "curv",       "curv2",    "d_interp", "deg",    "end",  "f",         "fo",
@@ -64,7 +64,7 @@ class ObjReader {
       if (count == numbers.size()) failAtLine(text_.line(), "a vertex has more than seven numbers");
       numbers[count] = text_.number("a vertex coordinate");
     }
-    // x y z, then optionally a weight, then optionally three colour components.
+    // x y z, then an optional weight, then three optional colour components.
     if (count < 3 || count == 5)
       failAtLine(text_.line(), fmt::format("a vertex has {} numbers; 3, 4, 6 or 7 are allowed", count));
     mesh_.vertices.push_back({numbers[0], numbers[1], numbers[2]});
@@ -78,7 +78,7 @@ class ObjReader {
     faces_.add(corners_);
   }
 
-  /// v, v/vt, v//vn or v/vt/vn; vt and vn must be integers, of any value.
+  /// Reads v, v/vt, v//vn or v/vt/vn; vt and vn may be any integers.
   uint32_t readCorner(std::string_view word) {
     const char* at = word.data();
     const char* end = at + word.size();

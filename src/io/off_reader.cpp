@@ -1,6 +1,6 @@
-// The Object File Format of Geomview in ASCII: [ST][C][N]OFF, which may be missing, counts, one vertex per line, faces.
-// The numbers after the coordinates of a vertex (texture coordinates, a colour, a normal) must agree with the prefixes
-// and are ignored, as is the colour of a face, up to four numbers.
+// The Object File Format of Geomview in ASCII: the keyword [ST][C][N]OFF, which may be missing, the counts, one vertex
+// per line, and the faces. The numbers after the coordinates of a vertex (texture coordinates, a colour, a normal) must
+// agree with the prefixes of the keyword and are ignored. The colour of a face, up to four numbers, is ignored too.
 #include <fmt/core.h>
 
 #include <optional>
@@ -14,7 +14,7 @@
 namespace asdfvk {
 namespace {
 
-/// The keyword of an OFF file: it lists the numbers after the coordinates of each vertex.
+/// The keyword of an OFF file and the numbers that it announces after the coordinates of each vertex.
 struct OffHeader {
   std::string_view keyword = "OFF";
   bool hasColours = false;          ///< 3 or 4 numbers.
@@ -28,8 +28,8 @@ struct OffHeader {
   }
 };
 
-/// Accepts a digit directly after the keyword ("OFF3 1 0" occurs in files), and the prefixes in any order, because
-/// programs differ in it and it has no effect here.
+/// Accepts a digit directly after the keyword ("OFF3 1 0" occurs in files). Accepts the prefixes in any order, because
+/// programs write different orders and the order has no effect here.
 std::optional<OffHeader> parseKeyword(std::string_view word) {
   const size_t at = word.find("OFF");
   if (at == std::string_view::npos) return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<OffHeader> parseKeyword(std::string_view word) {
   return header;
 }
 
-/// Reads up to the counts. A file without the keyword begins with its counts.
+/// Reads the header up to the counts. A file without the keyword begins with its counts.
 OffHeader readHeader(TextScanner& text) {
   TextScanner ahead = text;
   const std::string_view word = ahead.word("OFF");
@@ -138,7 +138,8 @@ Mesh parseOff(std::span<const char> bytes) {
   const uint64_t faceCount = readCount(text, "the face count");
   if (!text.atLineEnd()) static_cast<void>(readCount(text, "the edge count"));
   text.requireLineEnd("the counts");
-  // Shortest vertex: the six bytes of "0 0 0\n"; shortest face: the two of "0\n". The last line may lack its end.
+  // The shortest vertex has six bytes, "0 0 0\n"; the shortest face has two, "0\n". The last line may lack its line
+  // break.
   const uint64_t remaining = text.remaining() + 1;
   if (vertexCount > remaining / 6 || faceCount > (remaining - 6 * vertexCount) / 2)
     failAtLine(text.line(), fmt::format("{} and {} do not fit into the remaining {}; "

@@ -112,7 +112,7 @@ class HeaderParser {
   }
 
  private:
-  /// False at end_header.
+  /// Returns false at end_header.
   bool parseLine() {
     const std::string_view keyword = text_.word("end_header");
     if (keyword == "end_header") return false;

@@ -15,7 +15,7 @@ class ResultView;
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
-/// Bytes of a number of the type in a binary file.
+/// Bytes of a number of this type in a binary file.
 [[nodiscard]] constexpr uint64_t sizeOf(PlyType type) {
   constexpr std::array<uint8_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
   return kSizes[static_cast<size_t>(type)];
@@ -24,8 +24,8 @@ enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float3
 
 struct PlyProperty {
   std::string_view name;
-  PlyType type{};               ///< Type of the number, or of the items of the list.
-  std::optional<PlyType> list;  ///< Type of the length of the list; unset for a number.
+  PlyType type{};               ///< Type of the number, or of the items of a list.
+  std::optional<PlyType> list;  ///< Type of the list length; unset for a number.
 };
 
 enum class PlyRole { Other, Vertices, Faces, Strips };
@@ -37,19 +37,21 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
   PlyRole role = PlyRole::Other;
-  std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};  ///< x, y, z; of Vertices.
-  size_t indices = kNoProperty;  ///< vertex_indices or vertex_index; of Faces and Strips.
+  std::array<size_t, 3> coordinates{kNoProperty, kNoProperty,
+                                    kNoProperty};  ///< Properties x, y, z of an element with the role Vertices.
+  size_t indices = kNoProperty;                    ///< Property vertex_indices or vertex_index of Faces and Strips.
 
-  /// Lower bound of the bytes of a row.
+  /// Lower bound of the bytes of one row.
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const;
 };
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
-  std::vector<PlyElement> elements;  ///< In file order: one with the role Vertices, at least one of Faces or Strips.
-  uint64_t bodyOffset = 0;           ///< Byte of the first row.
-  uint64_t bodyLine = 1;             ///< Line of the first row, in an ASCII file.
-  uint64_t vertexCount = 0;          ///< Fits 32-bit indices.
+  std::vector<PlyElement>
+      elements;              ///< In file order: one element with the role Vertices, at least one with Faces or Strips.
+  uint64_t bodyOffset = 0;   ///< Byte of the first row.
+  uint64_t bodyLine = 1;     ///< Line of the first row, in an ASCII file.
+  uint64_t vertexCount = 0;  ///< Below 2^32.
 };
 
 /// Reads and checks the header. Throws Error{UnreadableInput} with the line. Names are views into `bytes`.

@@ -1,7 +1,7 @@
-// PLY 1.0 (Turk 1994): a header (ply_header.h), then the rows of its elements, ASCII or binary of either byte order
-// (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and the element `face` with the
-// list vertex_indices or vertex_index, or `tristrips`, or both; in any order. The reader ignores all other
-// elements and properties. In ASCII each row begins on a new line.
+// PLY 1.0 (Turk 1994): a header (ply_header.h), then the rows of its elements, in ASCII or in binary of either byte
+// order (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and one or both of the
+// elements `face`, with the list vertex_indices or vertex_index, and `tristrips`. Elements may be in any order. The
+// reader ignores all other elements and properties. In ASCII each row begins on a new line.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@
 namespace asdfvk {
 namespace {
 
-/// Converts vertex indices of a strip to triangles: each index after the second forms one with its two predecessors,
-/// every other one reversed, so that all have the winding of the first. Triangles with a repeated vertex only connect
-/// strips and are no faces.
+/// Converts the vertex indices of a strip to triangles: each index after the second forms a triangle with its two
+/// predecessors. Every other triangle is reversed, so that all have the winding of the first. Triangles with a repeated
+/// vertex only connect strips and are not faces.
 class TriangleStrip {
  public:
   explicit TriangleStrip(InputFaces& faces) : faces_(faces) {}
 
-  /// The next index begins a new strip.
+  /// Makes the next index begin a new strip.
   void restart() { length_ = 0; }
 
   void add(uint32_t vertex) {
@@ -45,8 +45,8 @@ class TriangleStrip {
   uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
 };
 
-/// Reads the rows of all elements. Allocates memory for an element only after a check of its count against the rest of
-/// the file.
+/// Reads the rows of all elements. Allocates memory for an element only after its count has been checked against the
+/// rest of the file.
 template <typename Source>
 class PlyBody {
  public:
@@ -111,7 +111,7 @@ class PlyBody {
     }
   }
 
-  /// A vertex index, or -1 as kRestart where that is allowed.
+  /// Reads a vertex index, or kRestart for -1 where a restart is allowed.
   uint32_t readIndex(PlyType type, bool allowsRestart) {
     const int64_t index = source_.integer(type, "a vertex index");
     if (allowsRestart && index == -1) return kRestart;
@@ -121,7 +121,7 @@ class PlyBody {
     return static_cast<uint32_t>(index);
   }
 
-  static constexpr uint32_t kRestart = 0xffffffff;  ///< Above every index: a mesh has fewer vertices.
+  static constexpr uint32_t kRestart = 0xffffffff;  ///< Above every index, because a mesh has fewer vertices.
 
   const PlyHeader& header_;
   Source source_;

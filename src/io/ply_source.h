@@ -24,7 +24,7 @@ template <typename T, bool kIsSwapped>
   return std::bit_cast<T>(bytes);
 }
 
-/// The number of the given type as double or int64_t; either holds every integer type.
+/// The number at `at`, of the given type, as double or int64_t; both hold every value of the integer types.
 template <typename Out, bool kIsSwapped>
 [[nodiscard]] Out loadPly(const char* at, PlyType type) {
   switch (type) {
@@ -45,15 +45,16 @@ template <typename Out, bool kIsSwapped>
     case PlyType::Float64:
       break;
   }
-  // After the switch: a further path, for values that are no PlyType, would lead GCC 14 beyond the array of sizeOf().
+  // After the switch: with a default case for values that are no PlyType, GCC 14 would warn of reads beyond the array
+  // of sizeOf().
   return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
 }
 
-// Two readers of the numbers after a PLY header, with the same interface. expected: the name of the number, for the
-// error message of a truncated file. fail() reports the position of the last number.
+// PlyAsciiSource and PlyBinarySource read the numbers after a PLY header and have the same interface. expected: the
+// name of the number, for the error message of a truncated file. fail() reports the position of the last number.
 
-/// Rows of text. A row may continue on further lines, but every row begins on a new line. The line of a row with a
-/// wrong number of values is therefore known.
+/// Rows of text. A row may continue on further lines, but every row begins on a new line, so that an error message
+/// names the line of a row with a wrong number of values.
 class PlyAsciiSource {
  public:
   PlyAsciiSource(std::span<const char> bytes, const PlyHeader& header)
@@ -84,7 +85,7 @@ class PlyAsciiSource {
   TextScanner text_;
 };
 
-/// Rows of bytes; kIsSwapped: in the other byte order than the host.
+/// Rows of bytes. kIsSwapped: the byte order of the file is not the byte order of the host.
 template <bool kIsSwapped>
 class PlyBinarySource {
  public:

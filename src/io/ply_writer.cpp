@@ -1,6 +1,6 @@
-// Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners) and their
-// fields: the main field as `float quality`, the colour of the shown field as `uchar red green blue alpha`, then the
-// others by name: float, uchar or uint.
+// PLY: vertices with their fields, then faces with the list `uchar int vertex_indices` (`int int` above 255 corners)
+// and their fields. The main field is `float quality`; the colour of the shown field is `uchar red green blue alpha`.
+// The other fields follow by name as float, uchar or uint.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace asdfvk {
 namespace {
 
-/// Numbers as bytes, or as words separated by blanks.
+/// Writes numbers as bytes, or as words separated by blanks.
 class RowWriter {
  public:
   RowWriter(AtomicFile& file, bool isAscii) : file_(file), isAscii_(isAscii) {}
@@ -54,7 +54,7 @@ class RowWriter {
   bool isFirst_ = true;
 };
 
-/// The fields of an element: the main one as `quality` and its colour, the others by name.
+/// The fields of an element: the main field as `quality`, the colours of the shown field, the other fields by name.
 class ElementFields {
  public:
   ElementFields(const ResultView& result, FieldLocation location, std::initializer_list<std::string_view> reservedNames)
@@ -72,7 +72,7 @@ class ElementFields {
       colours_ = vertexColoursOf(result, *shown);
   }
 
-  /// No line without a main field.
+  /// Writes nothing without a main field.
   void writeComment(AtomicFile& file, std::string_view quality) const {
     if (main_ != nullptr)
       file.write(fmt::format("comment asdf-vk: {} is {}{}, 0 (and grey) where there is no value\n", quality,
@@ -80,7 +80,7 @@ class ElementFields {
   }
 
   void writeProperties(AtomicFile& file) const {
-    // One for each alternative of Values.
+    // One entry for each alternative of Values.
     constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};
     if (main_ != nullptr) file.write("property float quality\n");
     if (!colours_.empty())

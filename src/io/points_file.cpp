@@ -1,5 +1,5 @@
-// Skeleton points as a binary PLY of the element `vertex`: double x y z, float radius, and uint part where there are
-// segments; or as trees in SWC, the text format of neurons (Cannon et al. 1998).
+// Skeleton points as a binary PLY with the element `vertex`: double x y z, float radius, and uint part where there are
+// segments. Or skeleton points as trees in SWC, the text format of neurons (Cannon et al. 1998).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void writePly(AtomicFile& file, std::span<const SkeletonPoint> points, const Fie
   }
 }
 
-/// Writes trees with one root each: the point with the greatest radius, where a neuron has its body.
+/// Writes trees with one root each. The root is the point with the greatest radius, where a neuron has its body.
 class SwcWriter {
  public:
   explicit SwcWriter(AtomicFile& file) : file_(file) {
@@ -94,7 +94,7 @@ class SwcWriter {
       *end++ = ' ';
       end = appendNumber(end, number);
     };
-    append(0);  // Of no known type.
+    append(0);  // Type 0: undefined.
     append(point.place.x);
     append(point.place.y);
     append(point.place.z);
@@ -108,7 +108,8 @@ class SwcWriter {
   int64_t id_ = 0;
 };
 
-/// A tree per component, in the order of their first points. A point without a radius, as where walls touch, has none.
+/// A tree per component, in the order of the first points of the components. Points without a radius, which occur where
+/// walls touch, are left out.
 void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* component) {
   std::erase_if(points, [](const SkeletonPoint& point) { return !(point.radius > 0); });
   const auto componentOf = [&](const SkeletonPoint& point) {

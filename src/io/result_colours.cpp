@@ -28,7 +28,7 @@ constexpr std::array<Rgba, 12> kPartColours{{{78, 121, 167, 255},
                                              {121, 112, 110, 255}}};
 constexpr Rgba kUnsetColour{210, 209, 204, 255}, kSetColour{31, 85, 160, 255};
 
-/// The field on the vertices, from one on the faces.
+/// Converts a field on the faces to a field on the vertices.
 Field onVertices(const ResultView& result, const Field& field) {
   Field moved{.name = field.name, .location = FieldLocation::PerVertex};
   std::visit(
@@ -42,7 +42,7 @@ Field onVertices(const ResultView& result, const Field& field) {
               sums[corner] += entries[face];
               counts[corner] += 1;
             }
-          for (size_t v = 0; v < sums.size(); ++v) sums[v] /= counts[v];  // NaN without a value.
+          for (size_t v = 0; v < sums.size(); ++v) sums[v] /= counts[v];  // NaN for a vertex whose faces have no value.
           moved.values = std::move(sums);
         } else {
           constexpr bool kIsFlag = std::is_same_v<T, uint8_t>;

@@ -10,20 +10,21 @@
 
 namespace asdfvk {
 
-/// The colour of a part: one of twelve, for later parts darker ones of them. Grey without a part (4294967295).
+/// The colour of a part: one of twelve colours, or a darker one for the parts after the twelfth. Grey for no part
+/// (4294967295).
 [[nodiscard]] Rgba colourOfPart(uint32_t part);
-/// "part 3", "no part".
+/// For example "part 3"; "no part" for 4294967295.
 [[nodiscard]] std::string nameOfPart(uint32_t part);
 
 /// The colour of each entry of a field of one component: real numbers by the colour map over percentileRange(), labels
-/// by colourOfPart(), flags blue where they are set.
+/// by colourOfPart(), flags in blue where they are set.
 [[nodiscard]] std::vector<Rgba> coloursOf(const Field& field);
 
-/// A colour per vertex, as coloursOf(). Of a field per face, a vertex has the mean value of its faces, or the least
-/// label of them.
+/// The colours of coloursOf(), one per vertex. For a field per face, a vertex has the mean value or the least label of
+/// its faces.
 [[nodiscard]] std::vector<Rgba> vertexColoursOf(const ResultView& result, const Field& field);
 
-/// A colour of a screen (sRGB) as a share of light, 0 to 1 (IEC 61966-2-1).
+/// The linear light of a screen colour (sRGB, IEC 61966-2-1); 0 to 1 for each channel.
 [[nodiscard]] std::array<double, 3> linearColour(const Rgba& colour);
 
 }  // namespace asdfvk

@@ -1,6 +1,6 @@
-// STL, ASCII, or binary, recognised by the exact size that its face count implies. It has no indices, so corners at the
-// same point become one vertex; otherwise no face would have a neighbour. The reader ignores normals and attribute
-// bytes; the vertex order decides which side is outside.
+// STL, in ASCII or binary. A binary file is recognised by the exact size that its face count implies. STL has no
+// indices, so corners at the same point become one vertex; otherwise no face would have a neighbour. The reader ignores
+// normals and attribute bytes; the vertex order decides which side is outside.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "binary STL is read by copying its bytes");
 
 constexpr uint64_t kHeaderSize = 84;  // 80 arbitrary bytes, then the face count.
-constexpr uint64_t kFaceSize = 50;    // Normal and corners in float32, then two attribute bytes.
+constexpr uint64_t kFaceSize = 50;    // The normal and the corners in float32, then two attribute bytes.
 
 /// Precondition: at least kHeaderSize bytes.
 uint64_t binaryFaceCount(std::span<const char> bytes) {
@@ -30,7 +30,8 @@ uint64_t binaryFaceCount(std::span<const char> bytes) {
   return count;
 }
 
-/// Whether the size is exactly that of a binary STL. No text has it: four printable bytes are a huge face count.
+/// Whether the size is exactly that of a binary STL. A text never has this size, because four printable bytes are a
+/// huge face count.
 bool hasBinarySize(std::span<const char> bytes) {
   return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + binaryFaceCount(bytes) * kFaceSize;
 }
@@ -82,7 +83,7 @@ void requireKeyword(TextScanner& text, std::string_view keyword) {
 
 Face readFacet(TextScanner& text, CornerWelder& welder) {
   requireKeyword(text, "normal");
-  // Not numbers: some programs write words such as 1.#IND for the normal of a face without area.
+  // Not read as numbers: some programs write words such as 1.#IND for the normal of a face without area.
   for (int i = 0; i < 3; ++i) static_cast<void>(text.word("a number of the normal"));
   requireKeyword(text, "outer");
   requireKeyword(text, "loop");

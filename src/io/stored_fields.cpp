@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 3> kSuffixes{"_x", "_y", "_z"};
 
 [[noreturn]] void failConflict(const std::string& reason) { throw Error(ErrorCode::OptionConflict, reason); }
 
-/// At least one character; letters of ASCII, digits and '_' only.
+/// Whether the name has at least one character, and only ASCII letters, digits and '_'.
 bool isFieldName(std::string_view name) {
   const auto isAllowed = [](char c) {
     return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_';
@@ -54,8 +54,8 @@ std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation locatio
       std::string name = field.name;
       if (field.componentCount == 3) name += kSuffixes[c];
       if (!names.insert(name).second)
-        failConflict(
-            fmt::format("field {} needs a column {}, a name that the format or another field uses", field.name, name));
+        failConflict(fmt::format("field {} needs a column {}, but the format or another field uses this name",
+                                 field.name, name));
       columns.push_back({std::move(name), &field, c});
     }
   }
@@ -104,7 +104,7 @@ const Field* ResultView::shownField() const {
   }
   if (!wanted.empty())
     throw Error(ErrorCode::UnknownField,
-                fmt::format("colours of the field {}, which is not written", printable(wanted)));
+                fmt::format("the colours cannot show the field {}, because it is not written", printable(wanted)));
   const Field* const ofFaces = mainField(FieldLocation::PerFace);
   return ofFaces != nullptr ? ofFaces : mainField(FieldLocation::PerVertex);
 }

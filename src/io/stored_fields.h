@@ -13,7 +13,7 @@
 #include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
 
-// Representation of fields in files: names, columns of single components, numbers; and the arguments of a writer.
+// Representation of fields in files (names, columns of single components, numbers), and the arguments of a writer.
 namespace asdfvk {
 
 /// Fields selected for a writer.
@@ -32,12 +32,12 @@ struct FieldColumn {
   }
 };
 
-/// The columns of the fields of that location, in order, without those of the field `omitted`. Throws
-/// Error{OptionConflict} for two columns of one name, and for a reserved name.
+/// The columns of the fields at `location`, in order, except the field `omitted`. Throws Error{OptionConflict} for two
+/// columns of the same name and for a reserved name.
 [[nodiscard]] std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                                  std::initializer_list<std::string_view> reservedNames);
 
-/// An entry of a field in a format of float32 numbers without NaN: 0 for no value.
+/// An entry as float32 for formats without NaN: 0 for no value.
 [[nodiscard]] inline float withoutNan(double value) { return value == value ? static_cast<float>(value) : 0.0f; }
 [[nodiscard]] inline uint8_t withoutNan(uint8_t value) { return value; }
 [[nodiscard]] inline uint32_t withoutNan(uint32_t value) { return value; }
@@ -52,22 +52,22 @@ struct ResultStyle {
 /// The arguments of a writer: a mesh of input faces and the fields on it.
 class ResultView {
  public:
-  /// names: the fields to write, in this order, of any location; empty: all. Throws Error{UnknownField} for a name that
-  /// no field has; Error{OptionConflict} for a field with an invalid or repeated name, with other than 1 or 3
-  /// components, or whose size does not fit the mesh; the errors of requireValidArrays() for an invalid mesh. The
-  /// arrays must outlive the view.
+  /// names: the fields to write, in this order and of both locations; if empty, all fields. Throws Error{UnknownField}
+  /// for a name that no field has; Error{OptionConflict} for a field with an invalid or repeated name, with other than
+  /// 1 or 3 components, or with a size that does not fit the mesh; the errors of requireValidArrays() for an invalid
+  /// mesh. The arrays must outlive the view.
   ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names,
              const ResultStyle& style);
 
   [[nodiscard]] FieldReferences fields() const { return fields_; }
   [[nodiscard]] bool isAscii() const { return style_.isAscii; }
   [[nodiscard]] bool coloursVertices() const { return style_.coloursVertices; }
-  /// The field whose colours a viewer shows first; null without a field that has colours. Throws Error{UnknownField},
-  /// Error{OptionConflict}.
+  /// The field whose colours a viewer shows first; null if no field has colours. Throws Error{UnknownField} or
+  /// Error{OptionConflict} for a colourOf that cannot be shown.
   [[nodiscard]] const Field* shownField() const;
-  /// The field "segment" of the faces, where it is written.
+  /// The labels of the face field "segment"; null if it is not written.
   [[nodiscard]] const std::vector<uint32_t>* parts() const;
-  /// Name of the second file; empty where there is none.
+  /// Name of the second file; empty if there is none.
   [[nodiscard]] const std::string& besideName() const { return besideName_; }
   void setBesideName(std::string name) { besideName_ = std::move(name); }
   [[nodiscard]] const MeshView& mesh() const { return mesh_; }
@@ -81,16 +81,16 @@ class ResultView {
     return mesh_.corners().subspan(first, mesh_.firstCorner()[face + 1] - first);
   }
 
-  /// Whether every coordinate is exactly representable as float; non-finite ones count as representable.
+  /// Whether float represents every finite coordinate exactly.
   [[nodiscard]] bool hasFloatVertices() const;
-  /// Calls put(T) for x, y, z of each vertex.
+  /// Calls put(T) for x, y and z of each vertex.
   template <typename T, typename Put>
   void putCoordinates(Put put) const {
     for (const double coordinate : mesh_.doubles()) put(static_cast<T>(coordinate));
     for (const float coordinate : mesh_.floats()) put(static_cast<T>(coordinate));
   }
 
-  /// The field that viewers show by default: the first real-valued one of that location with one component.
+  /// The field that viewers show by default: the first field at `location` with real values and one component.
   [[nodiscard]] const Field* mainField(FieldLocation location) const;
 
  private:

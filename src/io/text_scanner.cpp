@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// Whether a decimal number outside of the range of double is too small rather than too large; from_chars reports both
+/// Whether a decimal number outside of the range of double is too small rather than too large. from_chars reports both
 /// as out of range.
 bool isTiny(std::string_view number) {
   const size_t exponentAt = number.find_first_of("eE");

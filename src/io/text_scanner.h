@@ -12,9 +12,9 @@ struct TextSyntax {
   bool backslashContinues = false;  ///< A backslash directly before a line break joins the two lines.
 };
 
-/// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Reads within `bytes` only, and
-/// returns views into them. A missing word, or a word that is not a number, throws Error{UnreadableInput} with the line
-/// and the name of the expected item. The name may contain words of the file.
+/// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Words are views into `bytes`. A
+/// missing word, or a word that is not a number, throws Error{UnreadableInput} with the line and `expected`, the name
+/// of the expected item, which may contain words of the file.
 class TextScanner {
  public:
   /// Skips a UTF-8 byte order mark at the beginning.
@@ -25,12 +25,12 @@ class TextScanner {
   [[nodiscard]] const char* position() const { return at_; }
   [[nodiscard]] uint64_t remaining() const { return static_cast<uint64_t>(end_ - at_); }
 
-  /// Skips blanks and comments; true where the line, continuation lines included, has no more words.
+  /// Skips blanks and comments. Returns true if the line, continuation lines included, has no more words.
   [[nodiscard]] bool atLineEnd() {
     skipBlanks();
     return at_ == end_ || classOf(*at_) == CharClass::LineBreak;
   }
-  /// Skips blanks, comments and line breaks; true at the end of the text.
+  /// Skips blanks, comments and line breaks. Returns true at the end of the text.
   [[nodiscard]] bool atEnd() {
     while (atLineEnd()) {
       if (at_ == end_) return true;
@@ -43,10 +43,10 @@ class TextScanner {
   [[nodiscard]] std::string_view wordOnLine() { return atLineEnd() ? std::string_view() : scanWord(); }
   /// The next word, on this line or a later one.
   [[nodiscard]] std::string_view word(std::string_view expected);
-  /// The next word as a number: decimal, with or without exponent, or inf or nan. Rounds a number below the range of
-  /// double to 0 and rejects one above it.
+  /// The next word as a number: decimal, with or without exponent, or inf or nan. A number below the range of double
+  /// becomes 0; a number above it is an error.
   [[nodiscard]] double number(std::string_view expected);
-  /// The next word as an integer of 64 bits.
+  /// The next word as a 64-bit integer.
   [[nodiscard]] int64_t integer(std::string_view expected);
 
   /// Throws if the line has another word.

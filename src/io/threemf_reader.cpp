@@ -1,7 +1,7 @@
 // 3MF (core specification 1.3, production extension 1.1): the objects of the build items, with their components and
-// transforms, in the unit of the file. An item, and each component of it, is a part of its own. Colours, materials and
-// metadata are ignored; supports and beam lattices are left out, which Mesh::skipped says. Files within the archive
-// are read; no other file is opened.
+// transforms, in the unit of the file. An item is a part, and so is each component of it. Colours, materials and
+// metadata are ignored. Supports and beam lattices are left out; Mesh::skipped lists them. The reader opens files
+// within the archive only.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -28,17 +28,17 @@ namespace {
 
 constexpr std::string_view kCoreNamespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 constexpr std::string_view kModelRelationship = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-constexpr uint32_t kMaxNesting = 64;  // Of components.
+constexpr uint32_t kMaxNesting = 64;  // Nested components.
 
 struct UnitRow {
   std::string_view name;  // In the file.
-  std::string_view unit;  // Of kLengthUnits.
+  std::string_view unit;  // In kLengthUnits.
 };
 constexpr std::array<UnitRow, 6> kModelUnits{
     {{"millimeter", "mm"}, {"micron", "um"}, {"centimeter", "cm"}, {"meter", "m"}, {"inch", "in"}, {"foot", "ft"}}};
 double micrometresOf(const UnitRow& row) { return findLengthUnit(row.unit)->micrometres; }
 
-/// An object that is placed: by a build item, or as a component of another object.
+/// An object that a build item places, or that is a component of another object.
 struct ObjectUse {
   size_t model = 0;
   uint64_t object = 0;
@@ -59,10 +59,10 @@ struct ModelFile {
   std::vector<ObjectUse> items;
 };
 
-/// What all instances of an object have.
+/// Counts that are the same in all instances of an object.
 struct ObjectCounts {
   uint64_t vertices = 0, faces = 0;
-  uint32_t height = 1;  ///< Levels of components, this one included.
+  uint32_t height = 1;  ///< Levels of components, the object included.
 };
 
 class ModelReader;
@@ -73,10 +73,10 @@ class ThreeMfReader {
 
   Mesh read();
 
-  /// The model of a path within the archive, which is read later.
+  /// The index of the model at a path within the archive. The model is read later.
   size_t modelAt(std::string_view path);
   [[nodiscard]] ModelFile& model(size_t index) { return models_[index]; }
-  /// Charges memory against the limit of instances.
+  /// Counts memory against the limit of instances. Throws Error{InputTooLarge} beyond it.
   void charge(uint64_t bytes);
   void countLattice() { ++latticeCount_; }
 
@@ -92,7 +92,7 @@ class ThreeMfReader {
 
   ZipArchive archive_;
   std::vector<ModelFile> models_;
-  std::map<std::string, size_t, std::less<>> modelOf_;  ///< By path.
+  std::map<std::string, size_t, std::less<>> modelOf_;  ///< Index in models_ by path.
   std::map<std::pair<size_t, uint64_t>, ObjectCounts> counts_;
   uint64_t chargedBytes_ = 0, latticeCount_ = 0, supportCount_ = 0;
 };
@@ -121,7 +121,7 @@ class ModelReader {
 
  private:
   ModelFile& model() { return archive_.model(index_); }
-  /// Whether the current element is that of the core specification; several prefixes may stand for it.
+  /// Whether the current element is `name` of the core specification; several prefixes may stand for its namespace.
   [[nodiscard]] bool isCore(std::string_view name) const {
     const std::string_view found = xml_.name();
     if (!found.ends_with(name)) return false;
@@ -129,7 +129,7 @@ class ModelReader {
     return std::find(corePrefixes_.begin(), corePrefixes_.end(), prefix) != corePrefixes_.end();
   }
 
-  /// Calls work() at the start of each child; it reads the child to its end.
+  /// Calls work() at the start of each child. work() reads the child to its end.
   template <typename Work>
   void forEachChild(const Work& work) {
     while (xml_.next() == XmlScanner::Event::Start) work();
@@ -195,7 +195,7 @@ class ModelReader {
     return number;
   }
 
-  /// Twelve numbers: the images of the axes, then the translation.
+  /// Reads twelve numbers: the images of the axes, then the translation.
   Placement placement() {
     Placement read;
     const auto text = xml_.attribute("transform");
@@ -252,7 +252,7 @@ class ModelReader {
         xml_.skipElement();
     });
     weldIfOpen(object.mesh);
-    if (!model().objects.emplace(id, std::move(object)).second) xml_.fail(fmt::format("object {} is there twice", id));
+    if (!model().objects.emplace(id, std::move(object)).second) xml_.fail(fmt::format("object {} occurs twice", id));
   }
 
   void readMesh(PartMesh& mesh) {
@@ -280,7 +280,7 @@ class ModelReader {
   }
 
   void readTriangle(PartMesh& mesh) {
-    constexpr uint64_t kSurveyBytes = 60;  // Of weldIfOpen(), per face.
+    constexpr uint64_t kSurveyBytes = 60;  // Memory of weldIfOpen() per face.
     archive_.charge(sizeof(Face) + kSurveyBytes);
     Face face;
     constexpr std::array<std::string_view, 3> kNames{"v1", "v2", "v3"};
@@ -295,7 +295,8 @@ class ModelReader {
     xml_.skipElement();
   }
 
-  /// The format wants shared vertices, but some writers split them, as STL does; then faces would have no neighbours.
+  /// The specification requires shared vertices, but some writers split them, as STL does. Faces would then have no
+  /// neighbours.
   static void weldIfOpen(PartMesh& mesh) {
     TriangleMesh view;
     view.vertices = mesh.vertices;
@@ -310,14 +311,14 @@ class ModelReader {
   ThreeMfReader& archive_;
   size_t index_;
   XmlScanner& xml_;
-  std::vector<std::string> corePrefixes_;  ///< With the colon; "" for the default namespace.
+  std::vector<std::string> corePrefixes_;  ///< Each with its colon; "" for the default namespace.
   std::string pathAttribute_;
   std::map<std::string, std::string> namespaces_;
 };
 
 void ThreeMfReader::charge(uint64_t bytes) {
   chargedBytes_ += bytes;
-  constexpr uint64_t kMaxBytesPerByte = 20;  // Arrays grow: for a moment they take three times as much.
+  constexpr uint64_t kMaxBytesPerByte = 20;  // Arrays that grow take three times their size for a moment.
   const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * archive_.bytes().size());
   if (chargedBytes_ > limit)
     throw Error(ErrorCode::InputTooLarge, fmt::format("its mesh needs more than {} MiB of memory", limit >> 20));
@@ -386,7 +387,7 @@ ObjectCounts ThreeMfReader::countsOf(const ObjectUse& use, uint32_t depth) {
       counts.vertices = std::min(counts.vertices + inner.vertices, kTooMany);
       counts.faces = std::min(counts.faces + inner.faces, kTooMany);
       counts.height = std::max(counts.height, inner.height + 1);
-      requireNesting(counts.height);  // The counts of the components may be known from before.
+      requireNesting(counts.height);  // The counts of the components may be known from an earlier use.
     }
   }
   counts_[{use.model, use.object}] = counts;
@@ -397,11 +398,11 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
   if (counts_[{use.model, use.object}].faces == 0) return;
   const ModelObject& object = objectOf(use);
   Placement placement = outer.after(use.placement);
-  if (!placement.isFinite()) failInput(fmt::format("the place of {} is beyond all numbers", nameOf(use)));
+  if (!placement.isFinite()) failInput(fmt::format("the transform of {} overflows", nameOf(use)));
   const double unit = micrometresOf(*models_[use.model].unit);
-  if (unit != scale) {  // Of another file of the archive.
+  if (unit != scale) {  // The object is in another file of the archive.
     for (Vec3d& column : placement.columns) column = column * (unit / scale);
-    if (!placement.isFinite()) failInput(fmt::format("the place of {} is beyond all numbers", nameOf(use)));
+    if (!placement.isFinite()) failInput(fmt::format("the transform of {} overflows", nameOf(use)));
   }
   assembled.add(object.mesh, placement);
   for (const ObjectUse& component : object.components) place(component, placement, unit, assembled);
@@ -409,7 +410,7 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
 
 Mesh ThreeMfReader::read() {
   const size_t root = modelAt(rootPath());
-  for (size_t i = 0; i < models_.size(); ++i) readModel(i);  // Models name further ones.
+  for (size_t i = 0; i < models_.size(); ++i) readModel(i);  // Models name further models.
   ObjectCounts all;
   for (const ObjectUse& item : models_[root].items) {
     const ObjectCounts counts = countsOf(item, 0);

@@ -1,4 +1,4 @@
-// Unstructured grid of VTK in XML with arrays as inline base64: PointData and CellData of Float32, UInt8 and UInt32.
+// VTK's unstructured grid in XML, with arrays as inline base64: PointData and CellData of Float32, UInt8 and UInt32.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr std::string_view vtkTypeName() {
   if constexpr (std::is_same_v<T, uint32_t>) return "UInt32";
 }
 
-/// The VTK cell type of a face: empty cell, vertex, line, triangle, polygon.
+/// The VTK cell type of a face: empty cell, vertex, line, triangle or polygon.
 uint8_t cellTypeOf(size_t cornerCount) {
   constexpr std::array<uint8_t, 4> kCellTypes{0, 1, 3, 5};
   return cornerCount < kCellTypes.size() ? kCellTypes[cornerCount] : uint8_t{7};
@@ -61,7 +61,8 @@ class VtuWriter {
   }
 
  private:
-  /// `emit` is called with a function that takes the `count` entries of the array, one after another.
+  /// Calls `emit` with a function that writes one entry. `emit` passes the `count` entries of the array to it, in
+  /// order.
   template <typename T, typename Emit>
   void writeArray(const std::string& attributes, uint64_t count, Emit emit) {
     file_.write(fmt::format("<DataArray type=\"{}\" {} format=\"binary\">", vtkTypeName<T>(), attributes));
@@ -95,7 +96,7 @@ class VtuWriter {
     });
   }
 
-  /// No element where there is no field of that location.
+  /// Writes no element where no field has that location.
   void writeFields(std::string_view element, FieldLocation location) {
     const auto isHere = [&](const Field& field) { return field.location == location; };
     if (std::none_of(result_.fields().begin(), result_.fields().end(), isHere)) return;
@@ -121,8 +122,8 @@ class VtuWriter {
 
   AtomicFile& file_;
   const ResultView& result_;
-  bool hasWideIndices_ = false;  ///< Int64.
-  bool hasWideSizes_ = false;    ///< UInt64, for the byte counts of arrays.
+  bool hasWideIndices_ = false;  ///< Indices are Int64.
+  bool hasWideSizes_ = false;    ///< Byte counts of arrays are UInt64.
   bool hasFloatVertices_ = false;
 };
 

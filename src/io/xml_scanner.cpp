@@ -44,7 +44,7 @@ void XmlScanner::fail(std::string_view reason) const {
   failInput(fmt::format("{}, byte {}: {}", printable(document_), tagOffset_, reason));
 }
 
-/// Reads more behind what is left; false at the end of the document.
+/// Reads more bytes behind the unread ones. Returns false at the end of the document.
 bool XmlScanner::fill() {
   if (isAtEnd_) return false;
   buffer_.erase(0, at_);
@@ -75,7 +75,7 @@ void XmlScanner::skipPast(std::string_view end) {
   }
 }
 
-/// The text between < and >, copied to tag_.
+/// Returns the text between < and >, copied to tag_.
 std::string_view XmlScanner::takeTag() {
   size_t i = 1;
   char quote = 0;
@@ -115,8 +115,8 @@ XmlScanner::Event XmlScanner::next() {
     tagOffset_ = bufferOffset_ + at_;
     if (left().empty()) {
       if (fill()) continue;
-      if (!open_.empty()) fail(fmt::format("truncated: {} does not end", asdfvk::quoted(open_.back())));
-      if (!hasRoot_) fail("has no element");
+      if (!open_.empty()) fail(fmt::format("truncated: {} has no end tag", asdfvk::quoted(open_.back())));
+      if (!hasRoot_) fail("has no root element");
       return Event::Finished;
     }
     if (hasNext("<!--")) {
@@ -139,7 +139,7 @@ XmlScanner::Event XmlScanner::next() {
 }
 
 void XmlScanner::readStart(std::string_view tag) {
-  if (open_.empty() && hasRoot_) fail("a second element at the top");
+  if (open_.empty() && hasRoot_) fail("a second root element");
   hasRoot_ = true;
   endsElement_ = tag.ends_with('/');
   if (endsElement_) tag.remove_suffix(1);
@@ -164,7 +164,7 @@ void XmlScanner::readAttributes(std::string_view text) {
     const char quote = text.empty() ? char{0} : text.front();
     const size_t end = quote == '"' || quote == '\'' ? text.find(quote, 1) : std::string_view::npos;
     if (end == std::string_view::npos) fail(fmt::format("attribute {} has no value", asdfvk::quoted(name)));
-    if (attribute(name)) fail(fmt::format("attribute {} is there twice", asdfvk::quoted(name)));
+    if (attribute(name)) fail(fmt::format("attribute {} occurs twice", asdfvk::quoted(name)));
     if (attributes_.size() == kMaxAttributes) fail(fmt::format("more than {} attributes", kMaxAttributes));
     attributes_.emplace_back(name, text.substr(1, end - 1));
     text.remove_prefix(end + 1);
@@ -175,7 +175,7 @@ void XmlScanner::readEnd(std::string_view tag) {
   tagName_ = takeName(tag);
   trimStart(tag);
   if (open_.empty() || open_.back() != tagName_ || !tag.empty())
-    fail(fmt::format("the end of {} does not belong here", asdfvk::quoted(tagName_)));
+    fail(fmt::format("unexpected end tag {}", asdfvk::quoted(tagName_)));
   open_.pop_back();
 }
 

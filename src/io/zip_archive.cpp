@@ -40,7 +40,7 @@ std::span<const char> zipPart(std::span<const char> bytes, uint64_t at, uint64_t
   return bytes.subspan(at, size);
 }
 
-/// Offset of the record at the end of the archive, which may have a comment behind it.
+/// The offset of the end-of-directory record. A comment may follow the record.
 uint64_t findDirectoryEnd(std::span<const char> bytes) {
   constexpr size_t kMaxComment = std::numeric_limits<uint16_t>::max();
   for (size_t comment = 0; comment <= kMaxComment && comment + kDirectoryEndSize <= bytes.size(); ++comment) {
@@ -66,7 +66,7 @@ ZipDirectory findDirectory(std::span<const char> bytes) {
           zipNumber<uint32_t>(bytes, end + 16)};
 }
 
-/// Replaces numbers that do not fit into 32 bits by those of the extra field of ZIP64.
+/// Replaces numbers that do not fit into 32 bits by the numbers of the ZIP64 extra field.
 void readWideNumbers(std::span<const char> extra, ZipEntry& entry) {
   while (extra.size() >= 4) {
     const auto id = zipNumber<uint16_t>(extra, 0), size = zipNumber<uint16_t>(extra, 2);
@@ -174,7 +174,8 @@ size_t ZipStream::read(char* to, size_t size) {
   }
   checksum_ = static_cast<uint32_t>(crc32_z(checksum_, reinterpret_cast<const Bytef*>(to), count));
   doneSize_ += count;
-  if (doneSize_ > entry_.size) failInput(fmt::format("ZIP archive: {} is larger than it says", zipName(entry_)));
+  if (doneSize_ > entry_.size)
+    failInput(fmt::format("ZIP archive: {} is larger than its directory entry says", zipName(entry_)));
   if (count < size) finish();
   return count;
 }
@@ -183,7 +184,7 @@ void ZipStream::finish() {
   if (isFinished_) return;
   isFinished_ = true;
   bool isIntact = doneSize_ == entry_.size && stored_.empty();
-#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // A fuzzer does not find checksums.
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // A fuzzer cannot guess checksums.
   isIntact = isIntact && checksum_ == entry_.checksum;
 #endif
   if (!isIntact) failInput(fmt::format("ZIP archive: {} is damaged: its size or checksum differs", zipName(entry_)));

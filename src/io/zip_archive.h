@@ -12,7 +12,7 @@ namespace asdfvk {
 struct ZipEntry {
   std::string_view name;
   uint64_t headerOffset = 0;
-  uint64_t storedSize = 0;  ///< In the archive.
+  uint64_t storedSize = 0;  ///< Bytes in the archive.
   uint64_t size = 0;
   uint32_t checksum = 0;
   uint16_t method = 0;
@@ -26,7 +26,7 @@ class ZipArchive {
   explicit ZipArchive(std::span<const char> bytes);
 
   [[nodiscard]] std::span<const ZipEntry> entries() const { return entries_; }
-  /// By its name, ASCII letters in any case; null where there is none.
+  /// The entry of that name, upper and lower case of ASCII letters being equal; null if there is none.
   [[nodiscard]] const ZipEntry* find(std::string_view name) const;
   [[nodiscard]] std::span<const char> bytes() const { return bytes_; }
 
@@ -38,13 +38,13 @@ class ZipArchive {
 /// Reads a file of an archive piece by piece. Verifies its size and checksum at its end.
 class ZipStream {
  public:
-  /// The entry must outlive the stream. Throws Error{UnreadableInput} for an encrypted or unknown method.
+  /// The entry must outlive the stream. Throws Error{UnreadableInput} for an encrypted entry or an unknown method.
   ZipStream(const ZipArchive& archive, const ZipEntry& entry);
   ~ZipStream();
   ZipStream(const ZipStream&) = delete;
   ZipStream& operator=(const ZipStream&) = delete;
 
-  /// Up to `size` bytes; fewer only at the end of the file. Throws Error{UnreadableInput} for damaged data.
+  /// Reads up to `size` bytes; fewer only at the end of the file. Throws Error{UnreadableInput} for damaged data.
   [[nodiscard]] size_t read(char* to, size_t size);
 
  private:

@@ -158,5 +158,5 @@ TEST_CASE("the colours of a PLY show the parts, or the chosen field, and on requ
   CHECK(holds(contentOf(file), "property float z\nproperty uchar red\n"));
   options.colourOf = "seed";
   CHECK_THROWS_WITH_AS(writeResult(file, boxOfQuads(), partFields(), options),
-                       doctest::Contains("the field seed, which is not written"), Error);
+                       doctest::Contains("the field seed, because it is not written"), Error);
 }
