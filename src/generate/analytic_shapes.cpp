@@ -28,7 +28,7 @@ class CylinderGrid {
   Mesh take() { return std::move(mesh_); }
 
  private:
-  // Ring 0 is the centre alone.
+  // Ring 0 is only the centre.
   void addRing(uint32_t ring, double z) {
     const double radius = radius_ * (double(ring) / ringCount_);
     for (uint32_t q = 0; q < std::max(1u, 6 * ring); ++q) {

@@ -22,7 +22,7 @@ namespace asdfvk {
 [[nodiscard]] GeneratedShape makeSlab(uint64_t faceCount, double width = 2, double thickness = 0.1);
 /// Diameter: the edge.
 [[nodiscard]] GeneratedShape makeCube(uint64_t faceCount, double edge = 1);
-/// Along z, with flat caps. Diameter: 2 * radius.
+/// A cylinder along z with flat caps. Diameter: 2 * radius.
 [[nodiscard]] GeneratedShape makeCylinder(uint64_t faceCount, double radius = 0.25, double length = 5);
 /// ringRadius: from the axis z to the centre of the tube. Diameter: 2 * tubeRadius.
 [[nodiscard]] GeneratedShape makeTorus(uint64_t faceCount, double ringRadius = 1, double tubeRadius = 0.3);

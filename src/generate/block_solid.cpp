@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::array<uint32_t, 4>, 6> kBlockSides{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
-uint32_t axisBetween(uint32_t corner, uint32_t other) { return (corner ^ other) >> 1; }  // 1, 2, 4 to 0, 1, 2.
+uint32_t axisBetween(uint32_t corner, uint32_t other) { return (corner ^ other) >> 1; }  // Maps 1, 2, 4 to 0, 1, 2.
 
 /// Sets of edges of blocks; the edges of one set are divided alike.
 class EdgeSets {
@@ -37,7 +37,7 @@ class EdgeSets {
     parents_[b] = a;
   }
 
-  /// Length of the longest edge in the set of this one.
+  /// Length of the longest edge in the set of edge (a, b).
   [[nodiscard]] double longestLike(uint32_t a, uint32_t b) { return longest_[rootOf(indices_.at(std::minmax(a, b)))]; }
 
  private:
@@ -51,14 +51,14 @@ class EdgeSets {
   std::vector<double> longest_;
 };
 
-/// The triangles of divided quads. A vertex is identified by the integer weights of the corners whose mean it is, so
-/// that neighbouring quads have the same one.
+/// The triangles of divided quads. A vertex is the mean of corners with integer weights. These weights identify the
+/// vertex, so that neighbouring quads share it.
 class QuadDivider {
  public:
   QuadDivider(const std::vector<Vec3d>& corners, const SurfaceDivision& division)
       : corners_(corners), random_(division.diagonalSeed), shift_(division.otherDiagonals ? 1 : 0) {}
 
-  /// nu: parts of the edge from the first to the second corner; nv: of that from the first to the last one.
+  /// nu, nv: numbers of parts of the edges from the first corner to the second and to the last corner.
   void divide(const std::array<uint32_t, 4>& quad, uint64_t nu, uint64_t nv) {
     const auto vertex = [&](uint64_t u, uint64_t v) {
       return vertexOf(quad, {(nu - u) * (nv - v), u * (nv - v), u * v, (nu - u) * v});
@@ -75,7 +75,7 @@ class QuadDivider {
   Mesh take() { return std::move(mesh_); }
 
  private:
-  using Weights = std::vector<std::pair<uint32_t, uint64_t>>;  // Pairs of corner and weight, by corner.
+  using Weights = std::vector<std::pair<uint32_t, uint64_t>>;  // Pairs of corner and weight, sorted by corner.
 
   uint32_t vertexOf(const std::array<uint32_t, 4>& quad, const std::array<uint64_t, 4>& weights) {
     std::map<uint32_t, uint64_t> sums;
@@ -138,7 +138,7 @@ void BlockSolid::addLattice(const std::array<uint32_t, 3>& cellCounts,
       }
 }
 
-/// Parts of the edges of each block, by axis.
+/// Per block, the numbers of parts of its edges along each axis.
 std::vector<std::array<uint32_t, 3>> BlockSolid::divide(double longestEdge) const {
   EdgeSets sets;
   const auto forEachEdge = [](const Block& block, uint32_t axis, const auto& visit) {
@@ -176,7 +176,7 @@ Mesh BlockSolid::surface(const SurfaceDivision& division) const {
     for (const auto& side : kBlockSides) {
       const std::array<uint32_t, 4> quad = cornersOf(blocks_[i], side);
       const std::set<uint32_t> key = keyOf(quad);
-      if (blockCounts[key] == 1 && key.size() > 2)  // Not collapsed.
+      if (blockCounts[key] == 1 && key.size() > 2)  // The side is not collapsed.
         divider.divide(quad, counts[i][axisBetween(side[0], side[1])], counts[i][axisBetween(side[0], side[3])]);
     }
   return divider.take();

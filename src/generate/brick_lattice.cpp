@@ -43,7 +43,8 @@ uint64_t keyOf(int32_t x, int32_t y, int32_t z) {
   return bits(x) | bits(y) << 21 | bits(z) << 42;
 }
 
-// Below this number of points in all no brick is left out, so that repairs of coarse lattices may add points anywhere.
+// If there are fewer lattice points than this, no brick is left out, so that repairs of coarse lattices may add points
+// anywhere.
 constexpr double kSmallLattice = 64.0 * 64.0 * 64.0;
 const double kSqrt3 = std::sqrt(3.0);
 
@@ -63,7 +64,7 @@ uint32_t CellCorners::mask(int32_t x, int32_t y, int32_t z) const {
 
 BrickLattice::BrickLattice(const CapsuleUnion& field, double spacing)
     : field_(field.withRadiiAtLeast(spacing * kSqrt3 / 2)), spacing_(spacing) {
-  // Off the planes of symmetry of the shape, where many points would be ties.
+  // Keeps lattice points off the planes of symmetry of the shape, where many points would be ties.
   origin_ = field_.bounds().min - Vec3d{1.37, 1.61, 1.23} * spacing;
   const Vec3d extent = field_.bounds().max - origin_ + Vec3d{2, 2, 2} * spacing;
   for (size_t axis = 0; axis < 3; ++axis) {

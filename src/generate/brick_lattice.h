@@ -11,10 +11,10 @@
 
 namespace asdfvk {
 
-/// The eight points around a lattice cell, as a mask of those inside (bit i + 2 j + 4 k: corner (i, j, k)).
-/// Well-composed: no two inside and no two outside points touch only across a diagonal of a side or of the cell.
-/// Returns -1 for a well-composed mask. Otherwise returns an outside corner; the addition of this corner to the mask
-/// makes it well-composed, or brings it one step closer.
+/// mask: which of the eight corners of a lattice cell are inside (bit i + 2 j + 4 k: corner (i, j, k)). A mask is
+/// well-composed if no two inside corners and no two outside corners touch only across a diagonal of a side or of the
+/// cell. Returns -1 for a well-composed mask. Otherwise returns an outside corner whose addition makes the mask
+/// well-composed or brings it one step closer.
 [[nodiscard]] int32_t cornerToFill(uint32_t mask);
 
 /// Lattice points per brick and axis.
@@ -31,7 +31,7 @@ void forEachBrick(size_t count, const Body& body) {
 
 /// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
 struct Brick {
-  std::array<int32_t, 3> coordinates{};   ///< Coordinates of its lowest point, divided by kBrickEdge.
+  std::array<int32_t, 3> coordinates{};   ///< Coordinates of the lowest point of the brick, divided by kBrickEdge.
   CapsuleUnion::Selection selection = 0;  ///< The capsules that affect this brick.
   std::array<uint64_t, 8> inside{};
 };
@@ -57,8 +57,8 @@ class CellCorners {
 ///
 /// The set of inside points is made well-composed (Latecki, 1997): no four points around a lattice face and no eight
 /// around a cell touch only across a diagonal. This is necessary and sufficient for the boundary of the voxels of the
-/// points to be a closed 2-manifold at any resolution. Inside points are determined with all radii raised to at least
-/// half the diagonal of a cell, so that parts thinner than a cell stay connected.
+/// points to be a closed 2-manifold at any resolution. All radii are raised to at least half the diagonal of a cell, so
+/// that parts thinner than a cell stay connected.
 class BrickLattice {
  public:
   BrickLattice(const CapsuleUnion& field, double spacing);
@@ -69,7 +69,7 @@ class BrickLattice {
   [[nodiscard]] CellCorners corners(const Brick& brick) const;
   /// The brick at these brick coordinates, or -1.
   [[nodiscard]] int64_t find(int32_t x, int32_t y, int32_t z) const;
-  /// Number of lattice edges that the surface crosses: the quads of its polygonisation.
+  /// Number of lattice edges that the surface crosses, which is the number of quads of the surface.
   [[nodiscard]] uint64_t crossedEdgeCount() const;
 
  private:

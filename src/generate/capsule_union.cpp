@@ -16,8 +16,8 @@ void forEachBit(uint64_t bits, Use use) {
   for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
 }
 
-// Cubic smooth minimum: where |a - b| < blend it is below min(a, b), by at most blend / 6, with two continuous
-// derivatives. `share` is the derivative with respect to b; that with respect to a is 1 - share.
+// Cubic smooth minimum: where |a - b| < blend it is below min(a, b), by at most blend / 6. It has two continuous
+// derivatives. `share` is the derivative with respect to b; the derivative with respect to a is 1 - share.
 struct SmoothMinimum {
   double value, share;
 };
@@ -57,8 +57,8 @@ CapsuleUnion::CapsuleUnion(std::vector<Capsule> capsules) : capsules_(std::move(
   bounds_ = {bounds_.min - margin, bounds_.max + margin};
 }
 
-// |p - c(s)| - r(s) over the axis is convex in s. Its minimum is ahead of the foot of the perpendicular, in the
-// direction of growing radius.
+// The distance to the ball at s along the axis, |p - c(s)| - r(s), is convex in s. Its minimum is ahead of the foot of
+// the perpendicular, in the direction of growing radius.
 CapsuleUnion::Nearest CapsuleUnion::nearest(const Axis& axis, const Vec3d& p) {
   const Vec3d fromOrigin = p - axis.origin;
   const double along = dot(fromOrigin, axis.direction);
@@ -101,7 +101,7 @@ CapsuleUnion::Sample CapsuleUnion::sample(const Vec3d& p, Selection selection) c
   return sample;
 }
 
-// Further away than a few blends a capsule no longer shows: the running minimum is then sharper than its own blend.
+// A capsule farther away than a few blends has no effect on the smooth minimum.
 CapsuleUnion::Selection CapsuleUnion::near(const Vec3d& p, double radius) const {
   std::vector<double> distances;
   for (const Axis& axis : axes_) distances.push_back(nearest(axis, p).distance);

@@ -57,16 +57,16 @@ class CapsuleUnion {
     double length = 0;
     double radius = 0;       ///< Radius at the origin.
     double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
-    /// How far along the axis the centre of the ball nearest to a point is from the projection of the point, divided by
-    /// the distance of the point from the axis.
+    /// Distance along the axis from the projection of a point to the centre of the ball nearest to the point, divided
+    /// by the distance of the point from the axis.
     double lean = 0;
     double blend = 0;
     uint32_t part = 0;
   };
   struct Nearest {
     double distance = 0;  ///< Distance to the surface of the nearest ball; negative inside.
-    double radius = 0;    ///< Radius of that ball.
-    Vec3d fromCentre;     ///< Vector from the centre of this ball to p.
+    double radius = 0;    ///< Radius of the nearest ball.
+    Vec3d fromCentre;     ///< Vector from the centre of the nearest ball to p.
     double fromCentreLength = 0;
   };
   [[nodiscard]] static Nearest nearest(const Axis& axis, const Vec3d& p);

@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// The capsules given for the left side (y > 0) and their mirror images; `part` of the right side is one more.
+/// Adds the capsules of the left side (y > 0) and their mirror images. The part of a mirror image is the next number.
 void addBothSides(std::vector<Capsule>& capsules, const std::vector<Capsule>& left) {
   for (Capsule capsule : left) {
     capsules.push_back(capsule);
@@ -20,8 +20,9 @@ void addBothSides(std::vector<Capsule>& capsules, const std::vector<Capsule>& le
   }
 }
 
-/// A branch and, above it, two of 0.8 of its length and 2^(-1/3) of its radius (Murray's law), `levelCount` levels in
-/// all. `forward` and `side` are orthogonal unit vectors; the two branches lie in their plane, the next ones across it.
+/// Adds a branch of `levelCount` levels. It forks into two branches of 0.8 times its length and 2^(-1/3) times its
+/// radius (Murray's law). `forward` and `side` are orthogonal unit vectors. The two branches lie in their plane, the
+/// branches of the next level in a perpendicular plane.
 void addBranches(const Vec3d& foot, const Vec3d& forward, const Vec3d& side, double length, double radius,
                  uint32_t levelCount, std::vector<Capsule>& capsules) {
   if (levelCount == 0) return;

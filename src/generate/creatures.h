@@ -15,11 +15,11 @@ namespace asdfvk {
 [[nodiscard]] CapsuleUnion animalField();
 /// Parts: 0 palm, 1 thumb, 2 to 5 fingers from the index on, 6 forearm.
 [[nodiscard]] CapsuleUnion handField();
-/// A jointed human figure. Parts: 0 torso, 1 neck, 2 head, then left and right: 3, 4 upper arm, 5, 6 forearm,
-/// 7, 8 hand, 9, 10 thigh, 11, 12 shin, 13, 14 foot.
+/// A jointed human figure. Parts: 0 torso, 1 neck, 2 head. Then pairs, left and right: 3, 4 upper arm; 5, 6 forearm; 7,
+/// 8 hand; 9, 10 thigh; 11, 12 shin; 13, 14 foot.
 [[nodiscard]] CapsuleUnion figureField();
-/// A tree of tubes, like vessels or a neuron: 31 branches in five levels, a part each, in the order of a walk from the
-/// root, the first branch of each fork before the second.
+/// A tree of tubes, like vessels or a neuron: 31 branches in five levels. Each branch is a part; the parts are numbered
+/// in depth-first order from the root.
 [[nodiscard]] CapsuleUnion treeField();
 
 [[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount);

@@ -16,7 +16,7 @@ ArgumentParser parserOf(GeneratorOptions& options) {
        into(options.shape)},
       {"-o,--output", "FILE.ply|-", "The PLY file to write; - is standard output", into(options.output)},
       {"--faces", "N",
-       fmt::format("Approximate number of faces; default {}; of a shape of known diameter", options.faceCount),
+       fmt::format("Approximate number of faces of a shape of known diameter; default {}", options.faceCount),
        into(options.faceCount)},
       {"--longest-edge", "L",
        "Divide the edges of a part until they are at most this long, before the scaling; default: as few faces as "

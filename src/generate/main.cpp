@@ -21,7 +21,7 @@ void place(GeneratedShape& shape, const GeneratorOptions& options) {
   for (float& diameter : shape.diameter) diameter = static_cast<float>(diameter * options.scale);
 }
 
-/// The diameter of the faces of a part is its least thickness.
+/// Makes a part. The diameter of all its faces is its least thickness.
 GeneratedShape makePart(const GeneratorOptions& options) {
   const ThicknessPart part = makeThicknessPart(options.shape);
   SurfaceDivision division;
@@ -34,9 +34,9 @@ GeneratedShape make(const ArgumentParser& parser, const GeneratorOptions& option
   const std::vector<std::string_view> parts = thicknessPartNames();
   const bool isPart = std::find(parts.begin(), parts.end(), options.shape) != parts.end();
   if (isPart && parser.isGiven("--faces"))
-    throw Error(ErrorCode::OptionConflict, "--faces is not for parts; give --longest-edge");
+    throw Error(ErrorCode::OptionConflict, "--faces does not apply to parts; give --longest-edge");
   if (!isPart && parser.isGiven("--longest-edge"))
-    throw Error(ErrorCode::OptionConflict, "--longest-edge is for parts only; give --faces");
+    throw Error(ErrorCode::OptionConflict, "--longest-edge applies to parts only; give --faces");
   return isPart ? makePart(options) : generateShape(options.shape, options.faceCount);
 }
 

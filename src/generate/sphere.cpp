@@ -16,7 +16,7 @@ namespace {
 
 struct Icosahedron {
   std::array<Vec3d, 12> vertices;                 ///< On the unit sphere.
-  std::array<std::array<uint32_t, 3>, 20> faces;  ///< Outward.
+  std::array<std::array<uint32_t, 3>, 20> faces;  ///< Counter-clockwise seen from outside.
 };
 
 [[nodiscard]] Icosahedron unitIcosahedron() {
@@ -40,8 +40,8 @@ struct Icosahedron {
             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}}};
 }
 
-/// The vertices of an icosahedron whose edges are divided into n: corners first, then edges, then the interiors of its
-/// sides.
+/// The vertices of an icosahedron whose edges are divided into n parts: first the corners, then the vertices on edges,
+/// then the vertices inside of its sides.
 class GeodesicGrid {
  public:
   GeodesicGrid(uint32_t n, double radius) : n_(n), radius_(radius) {

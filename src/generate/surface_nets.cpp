@@ -18,10 +18,10 @@ namespace {
 constexpr uint32_t kNone = ~uint32_t{0};
 constexpr int kEveningRounds = 4;
 
-/// The crossed cells of a brick and where its vertices and quads begin.
+/// The crossed cells of a brick, its first vertex and its first quad.
 struct BrickCells {
   std::array<uint64_t, 8> crossed{};
-  std::array<uint16_t, 8> countBefore{};  ///< Crossed cells of the brick below layer z.
+  std::array<uint16_t, 8> countBefore{};  ///< Number of crossed cells of the brick below layer z.
   uint32_t firstVertex = 0;
   uint32_t firstQuad = 0;
 };
@@ -74,7 +74,7 @@ class SurfaceNets {
             const uint32_t mask = signs.mask(x, y, z);
             if (mask == 0 || mask == 0xff) continue;
             cells.crossed[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
-            ++cells.firstVertex;  // A count until the prefix sums below.
+            ++cells.firstVertex;  // A count, which the prefix sums below replace by an index.
           }
       }
       forEachCrossedEdge(signs, [&](int, int32_t, int32_t, int32_t, bool) { ++cells.firstQuad; });
@@ -91,7 +91,7 @@ class SurfaceNets {
     shape_.diameter.resize(2 * quadCount);
   }
 
-  /// The vertex of a cell at most one brick beyond this one; kNone when the surface does not cross it.
+  /// The vertex of a cell in the brick or in an adjacent brick; kNone if the surface does not cross the cell.
   [[nodiscard]] uint32_t vertexOf(size_t brick, int32_t x, int32_t y, int32_t z) const {
     if (((x | y | z) & ~(kBrickEdge - 1)) != 0) {
       const auto floorDivide = [](int32_t c) { return c < 0 ? -1 : c / kBrickEdge; };
@@ -133,8 +133,8 @@ class SurfaceNets {
     });
   }
 
-  /// Moves each vertex by `share` of the way to the mean of its neighbours, then by Newton's steps to the surface, at
-  /// most one spacing along each axis from the centre of its cell.
+  /// Moves each vertex by `share` of the way to the mean of its neighbours, then by Newton steps to the surface. It
+  /// stays within one spacing of the centre of its cell along each axis.
   void moveVertices(double share, int newtonSteps) {
     const std::vector<Vec3d>& from = shape_.mesh.vertices;
     std::vector<Vec3d> to(from.size());
@@ -165,7 +165,7 @@ class SurfaceNets {
 
   [[nodiscard]] Vec3d newtonStep(const Vec3d& p, CapsuleUnion::Selection selection) const {
     const CapsuleUnion::Sample sample = field_.sample(p, selection);
-    // Midway between two limbs the gradients cancel: a step of the distance, because a Newton step would be too long.
+    // Midway between two limbs the gradients cancel, and a Newton step would be too long; the lower bound limits it.
     const double squared = std::max(0.05, dot(sample.gradient, sample.gradient));
     return sample.gradient * (-sample.value / squared);
   }
@@ -175,8 +175,8 @@ class SurfaceNets {
       const Brick& brick = lattice_.bricks()[i];
       size_t face = 2 * size_t{cells_[i].firstQuad};
       forEachCrossedEdge(lattice_.corners(brick), [&](int axis, int32_t x, int32_t y, int32_t z, bool isInside) {
-        const int32_t ux = axis == 2, uy = axis == 0, uz = axis == 1;  // the next axis
-        const int32_t vx = axis == 1, vy = axis == 2, vz = axis == 0;  // and the one after it
+        const int32_t ux = axis == 2, uy = axis == 0, uz = axis == 1;  // Unit vector of the next axis.
+        const int32_t vx = axis == 1, vy = axis == 2, vz = axis == 0;  // Unit vector of the axis after the next.
         std::array<uint32_t, 4> quad{vertexOf(i, x - ux - vx, y - uy - vy, z - uz - vz),
                                      vertexOf(i, x - vx, y - vy, z - vz), vertexOf(i, x, y, z),
                                      vertexOf(i, x - ux, y - uy, z - uz)};
@@ -201,7 +201,7 @@ class SurfaceNets {
     }
   }
 
-  /// Area over the sum of the squared edges.
+  /// Twice the area, divided by the sum of the squared edge lengths.
   [[nodiscard]] double quality(const Face& face) const {
     const std::vector<Vec3d>& at = shape_.mesh.vertices;
     const Vec3d ab = at[face[1]] - at[face[0]], ac = at[face[2]] - at[face[0]], bc = ac - ab;
@@ -232,7 +232,7 @@ BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
       bestError = error;
       best.emplace(std::move(lattice));
     }
-    // The number of quads of coarse lattices changes in jumps: shorter steps find counts between them.
+    // The number of quads of a coarse lattice jumps with the spacing; shorter steps find counts in between.
     const double power = attempt < 6 ? 0.5 : 0.2;
     spacing *= std::pow(std::clamp(ratio, 1.0 / 64, 64.0), power);
   }

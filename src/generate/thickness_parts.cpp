@@ -10,9 +10,10 @@
 #include "asdf_vk/error.h"
 #include "core/text.h"
 
-// Each least thickness is that of the planar sides, which the least ball of two walls gives: their distance where they
-// are parallel; where they diverge from an edge, the distance of this edge from the other wall; and c / cos(h) where
-// they diverge symmetrically from a top of width c, each at the angle h to the middle plane.
+// The least thickness of a part is the diameter of the smallest ball between two of its planar walls. For parallel
+// walls it is their distance. For walls that diverge from an edge it is the distance of this edge from the other wall.
+// For walls that diverge symmetrically from a top of width c, each at the angle h to the middle plane, it is c /
+// cos(h).
 
 namespace asdfvk {
 namespace {
@@ -23,7 +24,7 @@ ThicknessPart soundPart(BlockSolid solid, double leastThickness) {
   return {.solid = std::move(solid), .leastThickness = leastThickness, .leastWall = leastThickness};
 }
 
-/// 60 long, 20 wide, with a flat bottom and ends of these heights; an end of height 0 is a sharp edge.
+/// A wedge, 60 long and 20 wide, with a flat bottom and ends of the given heights. An end of height 0 is a sharp edge.
 ThicknessPart makeWedge(double firstHeight, double lastHeight) {
   BlockSolid solid;
   solid.addLattice({1, 1, 1}, [&](uint32_t i, uint32_t j, uint32_t k) {
@@ -35,7 +36,7 @@ ThicknessPart makeWedge(double firstHeight, double lastHeight) {
           .sharpLength = 20};
 }
 
-/// The wedge with a sharp edge, and far from it a pocket with a floor of 0.7.
+/// The wedge with a sharp edge, and a pocket with a floor of 0.7 far from that edge.
 ThicknessPart makeBlade() {
   constexpr std::array<double, 4> kXs{0, 45, 55, 60}, kYs{0, 6, 14, 20};
   const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
@@ -71,7 +72,7 @@ ThicknessPart makeSteppedPlate() {
   return soundPart(std::move(solid), 1.2);
 }
 
-/// A plate of 2.5 with a boss of 8 and a rib, which is 1.5 thick at its top. slope: of both sides of the rib.
+/// A plate of 2.5 with a boss of 8 and a rib, which is 1.5 thick at its top. slope: draft of both sides of the rib.
 ThicknessPart makeRibbedPlate(double slope) {
   constexpr double kTop = 12.5;
   BlockSolid solid;
@@ -88,7 +89,7 @@ ThicknessPart makePocket() {
   return soundPart(std::move(solid), 0.6);
 }
 
-/// An open box of 40 x 30 x 25. wall: thickness at the rim, along x and y. The slopes are those of the drafted walls.
+/// An open box of 40 x 30 x 25. wall: thickness at the rim, along x and y. outerSlope, innerSlope: draft of the walls.
 ThicknessPart makeOpenBox(double outerSlope, double innerSlope, double wall, double floor) {
   constexpr double kHeight = 25;
   const auto planes = [&](double width) {
@@ -104,11 +105,12 @@ ThicknessPart makeOpenBox(double outerSlope, double innerSlope, double wall, dou
   return soundPart(std::move(solid), std::min(floor, wall / std::sqrt(1 + outerSlope * outerSlope)));
 }
 
-/// Solids of revolution have regular polygons as sections: `sideCount` planar sides, whose distance from the axis is
-/// this factor times that of their vertical edges.
+/// The section of a solid of revolution is a regular polygon with `sideCount` sides. The factor is the distance of a
+/// side from the axis, divided by the distance of a corner.
 double apothemFactor(uint32_t sideCount) { return std::cos(std::numbers::pi / sideCount); }
 
-/// radiusAt(i, k): of the lattice of the profile.
+/// The position function of a solid of revolution. radiusAt(i, k): radius at point (i, k) of the lattice of the
+/// profile.
 template <typename Radius>
 auto revolved(uint32_t sideCount, const std::vector<double>& heights, const Radius& radiusAt) {
   return [=](uint32_t i, uint32_t j, uint32_t k) {
@@ -133,14 +135,14 @@ ThicknessPart makeRoundCup() {
   return soundPart(std::move(solid), 1 / std::hypot(1, factor * kOuterSlope));
 }
 
-/// Rings of teeth around a tube of 12 sides with a wall of 3. crest: width of a tooth at its top, where the upper
-/// flanks are horizontal, so that they are nowhere nearer to the lower ones. 0: sharp teeth, with two inclined flanks.
+/// Rings of teeth around a tube of 12 sides with a wall of 3. crest: width of a tooth at its top; the upper flank is
+/// then horizontal, so that a tooth is thinnest at its top. crest 0: sharp teeth with two inclined flanks.
 ThicknessPart makeThread(double crest) {
   constexpr uint32_t kSideCount = 12, kToothCount = 2;
   constexpr double kBase = 1.6, kLand = 1.4, kDepth = 2, kBore = 2, kEnd = 3.2;
   const double factor = apothemFactor(kSideCount), root = kBore + 3 / factor, crestRadius = root + kDepth;
   std::vector<double> heights{0}, radii{root};
-  std::vector<bool> isTooth;  // Per layer.
+  std::vector<bool> isTooth;  // One entry per layer.
   const auto add = [&](double height, double radius, bool tooth) {
     heights.push_back(heights.back() + height);
     radii.push_back(radius);
@@ -164,7 +166,7 @@ ThicknessPart makeThread(double crest) {
           .sharpLength = kToothCount * kSideCount * 2 * crestRadius * std::sin(std::numbers::pi / kSideCount)};
 }
 
-/// Two legs of 2, and a fillet of radius 3 between them. sideCount: of the fillet, even.
+/// Two legs of thickness 2, and a fillet of radius 3 between them. sideCount: number of sides of the fillet, even.
 ThicknessPart makeBracket(uint32_t sideCount) {
   constexpr double kWall = 2, kRadius = 3, kLeg = 16, kWidth = 10, kCentre = kWall + kRadius;
   const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
@@ -179,8 +181,9 @@ ThicknessPart makeBracket(uint32_t sideCount) {
   return soundPart(std::move(solid), kWall);
 }
 
-/// A plate with a hole of radius 5, near an edge. sideCount: of the hole, a multiple of 4. The ligament is between
-/// the edge and the middle of a side of the hole, or one of its corners.
+/// A plate with a hole of radius 5 near an edge. sideCount: number of sides of the hole, a multiple of 4. The ligament
+/// is between the edge of the plate and the nearest part of the hole: a corner if sideCount is a multiple of 8,
+/// otherwise the middle of a side.
 ThicknessPart makeLigament(uint32_t sideCount) {
   constexpr double kRadius = 5, kLigament = 0.6, kThickness = 4;
   const double nearest = kRadius * (sideCount % 8 == 0 ? 1 : apothemFactor(sideCount));

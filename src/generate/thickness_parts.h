@@ -13,14 +13,14 @@ namespace asdfvk {
 struct ThicknessPart {
   BlockSolid solid;
   double leastThickness = 0;  ///< Minimum over all points of the surface; 0 with a sharp edge or tip.
-  /// Minimum without sharp regions, which are connected with a sharp edge or tip and below this thickness. Infinite
-  /// where the whole surface is a sharp region.
+  /// Minimum outside of sharp regions. A sharp region is thinner than this minimum and connected to a sharp edge or
+  /// tip. Infinite where the whole surface is a sharp region.
   double leastWall = std::numeric_limits<double>::infinity();
-  double sharpAngleDegrees = 0;  ///< Inner angle of its sharp edges, or of its tip; 0 without one.
-  double sharpLength = 0;        ///< Sum over all its sharp edges.
+  double sharpAngleDegrees = 0;  ///< Inner angle of the sharp edges or of the tip; 0 without a sharp edge or tip.
+  double sharpLength = 0;        ///< Sum of the lengths of all sharp edges.
 };
 
-/// Wedges, plates with ribs, pockets, cups, brackets with fillets, ligaments beside holes, threads.
+/// Names of the parts: wedges, plates with ribs, pockets, cups, brackets with fillets, ligaments beside holes, threads.
 [[nodiscard]] std::vector<std::string_view> thicknessPartNames();
 
 /// Throws Error{OptionOutOfRange} for an unknown name.
