@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-// Divided by the height of capitals.
+// Lengths relative to the height of capitals.
 constexpr double kRingRadius = 0.62, kRingWidth = 0.16, kLineWidth = 0.07, kRowHeight = 1.9, kCalloutGap = 0.5;
 constexpr double kHidden = 1e-4;  ///< A point this far behind the first face is hidden; in normalised units.
 
@@ -45,10 +45,10 @@ void drawRing(Image& image, const Pixel& centre, double radius, double width, co
          [&](const Pixel& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
-/// The pixel of the place, or of the opposite one where only that is visible.
+/// The pixel of the place, or of the opposite point where only that point is visible.
 Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
-    constexpr double kBeyond = 4;  // The length of the normalised box is 2 sqrt(3) at most.
+    constexpr double kBeyond = 4;  // More than the diagonal of the normalised box, which is at most 2 sqrt(3).
     return !isHitBetween(scene.bvh, scene.mesh, point, camera.toViewer, kHidden, kBeyond);
   };
   Vec3d point = scene.bvh.normalization.toNormalized(callout.place);
@@ -65,7 +65,7 @@ struct Label {
   double y = 0;  ///< Middle of the text.
 };
 
-/// Sorts by place, and moves the texts apart within the column.
+/// Sorts the labels from top to bottom, and moves the texts apart within the column.
 void arrange(std::vector<Label>& labels, const PixelArea& column, double rowHeight) {
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.place.y < b.place.y; });
   double least = column.top + rowHeight / 2;

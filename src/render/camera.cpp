@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-/// Points within this distance of the lowest one touch the floor; divided by the longest side of the box.
+/// Points at most this far above the lowest point touch the floor. Relative to the longest side of the box.
 constexpr double kFloorShare = 0.025;
 
 struct FloorPoint {
@@ -24,7 +24,8 @@ double turn(const FloorPoint& a, const FloorPoint& b, const FloorPoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Counter-clockwise (Andrew's monotone chain); fewer than three points where they lie in a line.
+/// The convex hull, counter-clockwise (Andrew's monotone chain). Fewer than three points where all points lie on a
+/// line.
 std::vector<FloorPoint> convexHull(std::vector<FloorPoint> points) {
   std::sort(points.begin(), points.end());
   std::vector<FloorPoint> hull;
@@ -42,7 +43,7 @@ std::vector<FloorPoint> convexHull(std::vector<FloorPoint> points) {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-/// Sets the three directions.
+/// A camera with the three directions of the view.
 Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
   const Vec3d up = directionOf(upwards);
   const size_t axis = static_cast<size_t>(upwards) % 3;
@@ -103,7 +104,7 @@ double standingShare(std::span<const Vec3d> points, Up up) {
 }
 
 Up guessUp(std::span<const Vec3d> points) {
-  // The likely directions first: a table is even more stable upside down.
+  // The likely directions come first, because a table is even more stable upside down.
   constexpr std::array<Up, 5> kOthers{Up::Z, Up::MinusY, Up::MinusZ, Up::X, Up::MinusX};
   constexpr double kBad = 0.05, kGood = 0.2;
   if (standingShare(points, Up::Y) > kBad) return Up::Y;

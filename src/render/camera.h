@@ -12,22 +12,22 @@ enum class Up { X, Y, Z, MinusX, MinusY, MinusZ };
 /// Direction of view. Azimuth and elevation 0 show the broad side of the mesh: the view is along the shorter of the two
 /// horizontal axes of its box.
 struct View {
-  std::optional<Up> up;          ///< Unset: guessUp(), because no format stores it.
+  std::optional<Up> up;          ///< Unset: the result of guessUp(), because mesh formats do not store it.
   double azimuthDegrees = 30;    ///< Position of the viewer to the right, around the up direction.
   double elevationDegrees = 18;  ///< Position of the viewer above the horizon, -90 to 90.
 };
 
-/// Unit.
+/// The unit vector that points up.
 [[nodiscard]] Vec3d directionOf(Up up);
 
-/// Stability of the points on a floor with that direction up: the area of the hull of the lowest points over the area
-/// of the box seen from above. Negative if the mean of the points is outside of the hull (unstable); 0 if the hull has
-/// no area.
+/// Stability of the points on a floor if the given direction is up: the area of the convex hull of the lowest points,
+/// divided by the area of the bounding box seen from above. Negative if the mean of the points is outside of the hull
+/// (unstable); 0 if the hull has no area.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// Y if the points are stable with y up, or in no direction. Otherwise another stable direction; z is tested first.
-/// Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made
-/// Objects).
+/// Y if the points are stable with y up, or stable in no direction. Otherwise another stable direction; z is tested
+/// first. Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of
+/// Man-Made Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);
 
 /// A part of the picture, in pixels from its top left corner.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMaxTickCount = 6;
 
-/// "2.5e-05" to "2.5e-5".
+/// Shortens the exponent: "2.5e-05" becomes "2.5e-5".
 std::string shortExponent(std::string text) {
   const size_t e = text.find('e');
   if (e == std::string::npos) return text;
@@ -29,7 +29,7 @@ std::vector<Tick> endsOf(const ColourRange& range) {
   return {tick(range.low), tick(range.high)};
 }
 
-/// A step of mantissa * 10^exponent.
+/// The distance between two ticks: mantissa * 10^exponent.
 struct Step {
   double mantissa = 1;
   int exponent = 0;
@@ -41,7 +41,7 @@ struct Step {
   [[nodiscard]] int lastDigit() const { return mantissa == 2.5 ? exponent - 1 : exponent; }
 };
 
-/// First and last whole multiple of the step within the range.
+/// The least and the greatest whole n for which n steps are within the range.
 std::array<double, 2> multiplesWithin(const ColourRange& range, const Step& step) {
   const double slack = 1e-9;
   return {std::ceil(range.low / step.multiple(1) - slack), std::floor(range.high / step.multiple(1) + slack)};
@@ -57,7 +57,7 @@ Step stepFor(const ColourRange& range) {
     }
 }
 
-// Lengths divided by the height of capitals.
+// Lengths relative to the height of capitals.
 constexpr double kBarWidth = 1.3, kTickLength = 0.4, kLabelGap = 0.35, kTitleGap = 1.4;
 constexpr double kHeightShare = 0.62, kWidestTitle = 1.0 / 3;
 
@@ -104,7 +104,7 @@ double columnWidth(const ColourBar& bar, double pictureWidth) {
 
 void drawColourBar(Image& image, const ColourBar& bar, const PixelArea& column) {
   const double cap = bar.capHeight;
-  // Whole pixels, so that the rows of the bar leave no seams.
+  // Whole pixels, so that there are no seams between the rows of the bar.
   const double height = std::max(1.0, std::round(column.height * kHeightShare));
   const double top = std::round(column.top + (column.height - height + kTitleGap * cap) / 2);
   const double left = column.left + (column.width - bodyWidth(bar)) / 2, width = kBarWidth * cap;

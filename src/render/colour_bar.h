@@ -29,7 +29,7 @@ struct ColourBar {
 /// Width of the column, in pixels.
 [[nodiscard]] double columnWidth(const ColourBar& bar, double pictureWidth);
 
-/// Draws it centred within `column`.
+/// Draws the bar, centred within `column`.
 void drawColourBar(Image& image, const ColourBar& bar, const PixelArea& column);
 
 }  // namespace asdfvk

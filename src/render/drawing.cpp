@@ -17,8 +17,9 @@ namespace {
 constexpr char kFirst = '!', kLast = '~';
 constexpr double kGap = 3.6, kSpaceAdvance = 7;
 
-/// Strokes: `m x y` begins one, `n` begins one at the arc that follows, `l x y` is a line, and `a cx cy rx ry from to`
-/// an arc of an ellipse between two angles in degrees, counter-clockwise where they grow, joined by a line.
+/// A glyph as text. `m x y` begins a stroke at a point, and `n` begins a stroke at the arc that follows. `l x y` adds a
+/// line. `a cx cy rx ry from to` adds an arc of an ellipse between two angles in degrees, counter-clockwise where they
+/// grow; a line joins it to the stroke.
 struct GlyphText {
   double width;
   const char* strokes;

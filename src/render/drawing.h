@@ -8,7 +8,8 @@
 
 namespace asdfvk {
 
-/// In font units: x to the right of the glyph's left side, y up from the baseline. Capitals are kCapHeight high.
+/// A point in font units: x to the right of the left side of the glyph, y up from the baseline. Capitals are kCapHeight
+/// high.
 struct FontPoint {
   double x = 0, y = 0;
 };
@@ -20,16 +21,16 @@ struct Glyph {
   std::vector<std::vector<FontPoint>> strokes;
 };
 
-/// Every printable ASCII character has a glyph; all other bytes have that of the question mark.
+/// The glyph of a printable ASCII character; for any other byte, the question mark.
 [[nodiscard]] const Glyph& glyphOf(char character);
 
-/// Distance from the left side of a glyph to that of the next one.
+/// Distance from the left side of a glyph to the left side of the next glyph.
 [[nodiscard]] double advanceOf(char character);
 
 // Antialiased drawing on a finished image. Coordinates are in pixels from its top left corner; parts outside of the
 // image are clipped.
 
-/// `capHeight` is that of capitals, in pixels.
+/// Width of a text, in pixels. capHeight: height of capitals, in pixels.
 [[nodiscard]] double textWidth(std::string_view text, double capHeight);
 
 /// One line of text in the stroke font, with its left end and baseline at (left, baseline).

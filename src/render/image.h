@@ -17,10 +17,10 @@ inline constexpr Rgb kWhite{255, 255, 255}, kInk{34, 34, 34};
 /// Colour of a body without values.
 inline constexpr Rgb kNeutral{210, 209, 204};
 
-/// Rows from the top, each from the left.
+/// A picture. Its pixels are stored in rows from the top, each row from the left.
 class Image {
  public:
-  /// All white. Sizes are at least 1.
+  /// An all-white image. Precondition: both sizes are at least 1.
   Image(int width, int height) : width_(width), height_(height) {
     ASDFVK_CHECK(width > 0 && height > 0);
     pixels_.assign(static_cast<size_t>(width) * static_cast<size_t>(height), kWhite);

@@ -12,10 +12,10 @@
 namespace asdfvk {
 namespace {
 
-constexpr int kSamples = 4;             ///< Per side of a pixel.
-constexpr int kBandRows = 256;          ///< Rows of samples. Every band reads all faces.
-constexpr size_t kBandsAtOnce = 4;      ///< Between two checkpoints.
-constexpr double kThroughShare = 0.45;  ///< Share of the alarm colour where it is behind faces.
+constexpr int kSamples = 4;             ///< Samples per side of a pixel.
+constexpr int kBandRows = 256;          ///< Rows of samples in a band. Every band reads all faces.
+constexpr size_t kBandsAtOnce = 4;      ///< Bands between two checkpoints.
+constexpr double kThroughShare = 0.45;  ///< Share of the alarm colour in the colour of faces in front of it.
 static_assert(kBandRows % kSamples == 0);
 
 class MeshRenderer {
@@ -88,7 +88,7 @@ class MeshRenderer {
     return {grid_.camera.pointAt(place.x / kSamples, place.y / kSamples) + toViewer * depth, normal};
   }
 
-  /// Samples that are near each other on one smooth surface have the light of the first of them.
+  /// The light at a sample. Samples near each other on a smooth surface have the light of the first of them.
   [[nodiscard]] double lightOf(LitPoint point, std::array<LitPoint, kSamples * kSamples>& points,
                                size_t& pointCount) const {
     constexpr double kMinCosine = 0.995, kMaxDistance = 3;  // In pixels.

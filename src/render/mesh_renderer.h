@@ -11,10 +11,10 @@ namespace asdfvk {
 
 inline constexpr Rgb kAlarm{206, 38, 30};
 
-/// Draws the mesh onto the image with a depth buffer of 4 x 4 samples per pixel: smooth normals, and soft shadows of
-/// SkyLight. faceColours: #F. alarming: triangles on the surface or within the body, in the unit of the mesh: kAlarm
-/// where they are visible, and through the faces before them. The same bits for any number of threads. Throws
-/// Error{Cancelled}.
+/// Draws the mesh onto the image with a depth buffer of 4 x 4 samples per pixel, smooth normals, and the soft shadows
+/// of SkyLight. faceColours: #F. alarming: triangles on the surface or within the body, in the unit of the mesh. They
+/// have the colour kAlarm where they are visible; elsewhere they tint the faces in front of them. The result has the
+/// same bits for any number of threads. Throws Error{Cancelled}.
 void renderMesh(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
                 Surface alarming, const RunControl& control);
 

@@ -15,7 +15,7 @@ namespace asdfvk {
 namespace {
 
 constexpr Rgb kPass{24, 122, 56};
-// Divided by the height of the picture.
+// Relative to the height of the picture, or to 3/4 of its width if that is less.
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
 std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range) {
@@ -30,7 +30,8 @@ std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range)
   return colours;
 }
 
-/// A square in the colour of the highlighted or thin parts, if any, the title, and the verdict at the right end.
+/// Draws a square in the alarm colour if there are highlighted or thin parts, the title, and the verdict at the right
+/// end.
 void drawLegend(Image& image, const Picture& picture, const PixelArea& area, double capHeight) {
   const bool hasSwatch = !picture.highlighted.empty() || (picture.thinPlaces && !picture.thinPlaces->surface.empty());
   const double swatch = hasSwatch ? capHeight * 1.6 : 0;

@@ -16,24 +16,24 @@ namespace asdfvk {
 
 inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 
-/// A mesh to draw, with its geometry and hierarchy. Views only.
+/// What render() draws. Holds views of the arrays only.
 struct Picture {
   const TraceScene& scene;
-  /// #F, in the colours of colourOf() with a colour bar; grey where NaN. Empty: the mesh is light grey without a bar.
+  /// #F: faces in the colours of colourOf(), grey for NaN, and a colour bar. Empty: light grey faces, and no bar.
   std::span<const double> values;
-  std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the highlight colour; or empty.
-  std::span<const uint32_t> labels;      ///< #F, in the colours of colourOfPart(); or empty.
-  std::optional<ThinPlaces> thinPlaces;  ///< On a grey body, with the title as their legend.
-  std::string title;                     ///< Above the bar; without one, above the mesh.
+  std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the alarm colour. Or empty.
+  std::span<const uint32_t> labels;      ///< #F: faces in the colours of colourOfPart(). Or empty.
+  std::optional<ThinPlaces> thinPlaces;  ///< Drawn on a grey body, with the title as their legend.
+  std::string title;                     ///< Above the bar; if there is no bar, above the mesh.
   std::optional<ColourRange> range;      ///< Range of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.
   View view;
   double textScale = 1;  ///< Factor on title and labels; above 1 for pictures that are printed small.
 };
 
-/// Renders on the CPU with depth buffers: parallel projection, white background, soft light. The same bits for any
-/// number of threads. A mesh that rays cannot hit (no face, none with an area) leaves the background. Precondition:
-/// every index of a face is below the vertex count. Throws Error{Cancelled}.
+/// Renders on the CPU with depth buffers: parallel projection, white background, soft light. The result has the same
+/// bits for any number of threads. Only the background is drawn where rays can hit no face, because the mesh has no
+/// face with an area. Precondition: every index of a face is below the vertex count. Throws Error{Cancelled}.
 [[nodiscard]] Image render(const Picture& picture, const RunControl& control = {});
 
 }  // namespace asdfvk

@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-/// Entries per triangle from entries per input face.
+/// Copies the entry of each input face to its triangles.
 template <typename T>
 std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
   if (mesh.polygons.isEmpty()) return ofInputFaces;
@@ -33,7 +33,7 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", "nowhere thinner than 0.8: least 1.2"
+/// For example "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", or "nowhere thinner than 0.8: least 1.2".
 std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = fmt::format("thinner than {:g}", *thickness.thinnerThan);
   const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);

@@ -14,13 +14,13 @@ struct PictureStyle {
   double textScale = 1;            ///< See Picture::textScale.
 };
 
-/// The requested view with an upright axis: without one, z where the file `input` is an STL, else guessUp().
-/// findsThin: its angles are those of bestViewOf() the thin places. Precondition: result.scene is set.
+/// The requested view with its up direction set. If the request has none, it is z for a file `input` that is an STL,
+/// otherwise guessUp(). findsThin: bestViewOf() the thin places sets the angles. Precondition: result.scene is set.
 [[nodiscard]] View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin);
 
-// Preconditions: result.scene is set. Both throw Error{Cancelled}.
+// Precondition of both functions: result.scene is set. Both throw Error{Cancelled}.
 
-/// Renders the mesh of a result coloured by a field per input face of one component.
+/// Renders the mesh of a result, coloured by a field per input face with one component.
 [[nodiscard]] Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
                               const RunControl& control);
 

@@ -10,7 +10,8 @@
 namespace asdfvk {
 namespace {
 
-/// First and last whole number i in [begin, end) with low <= i + 0.5 <= high; the last is below the first without one.
+/// First and last whole number i in [begin, end) with low <= i + 0.5 <= high. If there is none, the last is below the
+/// first.
 std::pair<int, int> centresWithin(double low, double high, int begin, int end) {
   // Conversions instead of std::ceil and std::floor, which are calls without SSE 4.1.
   const double from = std::clamp(low - 0.5, double(begin), double(end));
@@ -30,7 +31,7 @@ SampleRows::SampleRows(int width, int top, int bottom, int perSide)
 
 void SampleRows::draw(uint32_t index, const std::array<Projected, 3>& corners) {
   const auto& [a, b, c] = corners;
-  const double shift = 0.5 - 0.5 / perSide_;  // The greatest distance of a sample from its centre.
+  const double shift = 0.5 - 0.5 / perSide_;  // The greatest distance of a sample from the centre of its square.
   const auto [low, high] = std::minmax({a.y, b.y, c.y});
   const auto [firstRow, lastRow] = centresWithin(low - shift, high + shift, top_, bottom_);
   if (firstRow > lastRow) return;

@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// A point in units of samples, x to the right, y down, depth towards the viewer.
+/// A projected point: x to the right and y down, in units of samples; depth towards the viewer, as a length.
 struct Projected {
   double x = 0, y = 0, depth = 0;
 };
@@ -28,13 +28,13 @@ struct SampleGrid {
   }
 };
 
-/// Where a sample is, in units of samples.
+/// The position of a sample, in units of samples.
 struct SamplePlace {
   double x = 0, y = 0;
 };
 
-/// Shares of the corners in the point of a projected triangle at `place`. They add up to 1, and are negative outside.
-/// Precondition: the triangle has an area.
+/// Barycentric coordinates of `place` in a projected triangle. They add up to 1; outside of the triangle one or two are
+/// negative. Precondition: the triangle has an area.
 [[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners,
                                                         const SamplePlace& place) {
   const auto& [a, b, c] = corners;
@@ -47,9 +47,9 @@ struct SamplePlace {
 
 inline constexpr uint32_t kNoSample = 0xffffffff;
 
-/// The rows of samples from `top`, below `bottom`: at each the nearest of the triangles drawn, and its depth. Samples
-/// are at the centres of their squares or, with several per side of a pixel, on a rotated grid within each pixel, so
-/// that all of them differ in x and in y, for the edges that are nearly upright or level.
+/// The samples of the rows [top, bottom): at each, the nearest of the drawn triangles and its depth. With one sample
+/// per pixel, a sample is at the centre of its square. With several, the samples of a pixel are on a rotated grid: all
+/// of them differ in x and in y, which smooths edges that are nearly vertical or horizontal.
 class SampleRows {
  public:
   SampleRows(int width, int top, int bottom, int perSide = 1);
@@ -63,7 +63,7 @@ class SampleRows {
 
   /// The index of the triangle, or kNoSample.
   [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
-  /// Minus infinity without a triangle.
+  /// Minus infinity if there is no triangle.
   [[nodiscard]] float depthAt(int column, int row) const { return depths_[indexOf(column, row)]; }
   /// The depths of all samples, row by row.
   [[nodiscard]] std::vector<float> takeDepths() && { return std::move(depths_); }
@@ -78,8 +78,8 @@ class SampleRows {
   std::vector<uint32_t> indices_;
 };
 
-/// Parts of a triangle are at its depth, up to rounding: whether the sample of `surface` is at the depth of `mesh` or
-/// nearer to the viewer. Where there is no sample of `surface`, it is not.
+/// Whether the sample of `surface` is nearer to the viewer than `mesh`, or at the same depth up to rounding. False if
+/// `surface` has no sample.
 [[nodiscard]] inline bool isAtSurface(const SampleRows& mesh, const SampleRows& surface, int column, int row) {
   constexpr float kSlack = 1e-5F;  // In normalised units.
   return surface.indexAt(column, row) != kNoSample &&
@@ -90,7 +90,7 @@ class SampleRows {
 using Surface = std::span<const std::array<Vec3d, 3>>;
 using ProjectedSurface = std::vector<std::array<Projected, 3>>;
 [[nodiscard]] ProjectedSurface projectSurface(const TraceScene& scene, const SampleGrid& grid, Surface surface);
-/// Draws the triangles with their indices.
+/// Draws the triangles. Their indices are their positions in `surface`.
 void drawSurface(SampleRows& rows, const ProjectedSurface& surface);
 
 /// The vertices of the faces that rays can hit, once each, in normalised coordinates.

@@ -14,19 +14,20 @@ namespace {
 
 constexpr double kLampRadius = 0.22;  ///< Radius of the disk of the lamp, at distance 1.
 constexpr double kSky = 0.58, kLamp = 0.55, kFill = 0.08;
-constexpr double kGroundShare = 0.66;  ///< Radiance of the lowest direction, divided by that of the highest.
-constexpr double kSkyReach = 0.9;      ///< Farther surfaces cast no shadow of the sky; normalised unit.
-/// Directions of light: fewer of them for very many faces, which take their time in every depth map.
+constexpr double kGroundShare = 0.66;  ///< Radiance of the lowest direction, divided by the radiance of the highest.
+constexpr double kSkyReach = 0.9;      ///< Surfaces farther away cast no shadow of the sky. Normalised unit.
+/// Numbers of directions of light. There are fewer for very many faces, because each depth map draws all faces.
 constexpr int kMinSkyCount = 16, kMaxSkyCount = 96, kSkyPerLamp = 4;
-constexpr size_t kFacesPerTexel = 48'000;  ///< Faces that all maps of the sky draw, per texel of the side of a map.
-constexpr int kMaxMapSide = 512;           ///< Texels of a depth map.
-/// Distance in texels by which points are lifted from their surface: above the greatest distance of a point from the
-/// texels that it is compared with, sqrt(2), so that no plane shades itself.
+/// Limit on the faces drawn into all maps of the sky, per texel of the side of a map.
+constexpr size_t kFacesPerTexel = 48'000;
+constexpr int kMaxMapSide = 512;  ///< Greatest side of a depth map, in texels.
+/// Distance in texels by which points are lifted from their surface, so that no plane shadows itself. It is above
+/// sqrt(2), the greatest distance of a point from the texels that it is compared with.
 constexpr double kLift = 1.6;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
 
-/// Point i of `count` on a Vogel spiral: evenly distributed if squaredRadius is uniform over a disk.
+/// Point i on a Vogel spiral. The points are evenly distributed over a disk if the squared radii are uniform.
 Vec3d spiralPoint(int i, double radius, double height) {
   return {radius * std::cos(i * kGoldenAngle), radius * std::sin(i * kGoldenAngle), height};
 }
@@ -55,7 +56,8 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
   for (int i = 0; i < skyCount; ++i) {
     const double height = 1 - 2 * (i + 0.5) / skyCount;
     const Vec3d d = spiralPoint(i, std::sqrt(1 - height * height), height);
-    // A white surface in a sky of radiance 1 has the light 1: the mean of its cosine over the sphere is a quarter.
+    // The factor 4 gives a white surface in a sky of radiance 1 the light 1: the mean of max(0, cosine) over the sphere
+    // is 1/4.
     addSource(camera.right * d.x + camera.toViewer * d.y + camera.up * d.z,
               kSky * 4 / skyCount * (kGroundShare + (1 - kGroundShare) * (0.5 + 0.5 * height)), kSkyReach);
   }
@@ -66,7 +68,7 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
     addSource(d / length(d), kLamp / lampCount, kNoHit);
   }
 
-  constexpr size_t kMapsAtOnce = 8;  // Between two checkpoints.
+  constexpr size_t kMapsAtOnce = 8;  // Maps between two checkpoints.
   for (size_t begin = 0; begin < sources_.size(); begin += kMapsAtOnce) {
     control.checkpoint(static_cast<double>(begin) / static_cast<double>(sources_.size()));
     forEachTask(std::min(kMapsAtOnce, sources_.size() - begin), [&](size_t i) {

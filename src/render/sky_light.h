@@ -12,12 +12,12 @@ namespace asdfvk {
 /// Curved Shadows on Curved Surfaces). Both move with the camera: the lamp is behind and above the viewer, to the left.
 class SkyLight {
  public:
-  /// pictureSide: the longer one, in pixels. Precondition: the scene has a face that rays can hit. Throws
-  /// Error{Cancelled}.
+  /// pictureSide: the longer side of the picture, in pixels. Precondition: the scene has a face that rays can hit.
+  /// Throws Error{Cancelled}.
   SkyLight(const TraceScene& scene, const Camera& camera, int pictureSide, const RunControl& control);
 
-  /// Linear light that a white diffuse surface reflects to the viewer at a point in normalised coordinates. normal:
-  /// unit, towards the viewer.
+  /// Linear light that a white diffuse surface reflects to the viewer at a point in normalised coordinates. normal: a
+  /// unit vector towards the viewer.
   [[nodiscard]] double at(const Vec3d& point, const Vec3d& normal) const;
 
  private:
@@ -25,11 +25,12 @@ class SkyLight {
   struct Source {
     SampleGrid grid;
     double radiance = 0;
-    double reach = 0;           ///< A shadow fades behind the surface that casts it, and ends at this distance from it.
-    std::vector<float> depths;  ///< Depths of the surface that is nearest to the light.
+    double reach = 0;           ///< Distance behind a surface at which its shadow ends. The shadow fades up to there.
+    std::vector<float> depths;  ///< Per texel, the depth of the surface that is nearest to the light.
   };
 
-  /// 1 where the point is not behind the surface; behind it from 0 to 1, see reach. Bilinear between the texels.
+  /// Share of the light that reaches the point. It is 1 where no surface is in front of the point, and also where the
+  /// surface is at least `reach` in front of it; between 0 and 1 otherwise. Bilinear between the texels.
   [[nodiscard]] double litShare(const Source& source, const Vec3d& point) const;
 
   Vec3d toViewer_;

@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Sum over the regions of the square root of their visible samples.
+/// Sum over the regions of the square root of the number of their visible samples.
 double visibilityOf(const TraceScene& scene, Surface places, std::span<const uint32_t> regions,
                     std::span<const Vec3d> points, const View& view) {
   constexpr int kWidth = 240, kHeight = 180;
@@ -34,7 +34,7 @@ View bestViewOf(const TraceScene& scene, Surface places, std::span<const uint32_
   const std::vector<Vec3d> points = verticesOfHitFaces(scene);
   View base = view;
   if (!base.up) base.up = guessUp(points);
-  // The usual view first: of equal ones it is the best.
+  // The usual view comes first, so that it is chosen among equally good views.
   std::vector<View> candidates;
   for (const double elevation : {base.elevationDegrees, 50.0, -30.0})
     for (const double turn : {0.0, -60.0, 120.0, 180.0})

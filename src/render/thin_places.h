@@ -12,13 +12,13 @@
 
 namespace asdfvk {
 
-/// A place that a ring and a text mark, in the unit of the mesh.
+/// A place to mark with a ring and a text. In the unit of the mesh.
 struct Callout {
-  Vec3d place, opposite;  ///< Two points of the surface: the ring is around the one that is visible.
+  Vec3d place, opposite;  ///< Two points of the surface. The ring is around the visible one.
   std::string text;
 };
 
-/// The thin places of a mesh, for a picture of a grey body. Views only.
+/// The thin places of a mesh, for a picture of a grey body.
 struct ThinPlaces {
   Surface surface;
   std::vector<Callout> callouts;
@@ -26,16 +26,17 @@ struct ThinPlaces {
   bool isFailure = false;
 };
 
-/// `view` with the azimuth and the elevation, of twelve, from which the most regions are seen best: the greatest sum of
-/// the square roots of their visible areas. regions: per triangle of the surface. Unchanged where nothing is visible
-/// from any.
+/// Returns `view` with the best of twelve pairs of azimuth and elevation: the pair with the greatest sum, over the
+/// regions, of the square root of their visible area. regions: the region of each triangle of the surface. Returns
+/// `view` unchanged if no pair shows a region.
 [[nodiscard]] View bestViewOf(const TraceScene& scene, Surface surface, std::span<const uint32_t> regions,
                               const View& view);
 
-/// Width of the columns for the texts of the callouts at either side of a picture, 0 without callouts.
+/// Width of the columns for the texts of the callouts at either side of a picture, in pixels; 0 without callouts.
 [[nodiscard]] double calloutWidth(std::span<const Callout> callouts, double capHeight);
 
-/// Draws a ring at each place, and its text in the column of `columns` (left, right) that is nearer, joined by a line.
+/// Draws a ring at each place and its text in the nearer one of the two columns (left, right). A line joins ring and
+/// text.
 void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Callout> callouts,
                   const std::array<PixelArea, 2>& columns, double capHeight);
 
