@@ -23,7 +23,7 @@ namespace {
 constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either of its faces.
 constexpr int kRunCount = 3;
 
-/// All that the self-test computes on.
+/// The mesh, the cone and the duration of the self-test.
 struct TestTorus : GeneratedMesh {
   explicit TestTorus(double duration) : GeneratedMesh(bumpyTorus(200, 100)), secondsPerRun(duration) {}
 
@@ -31,7 +31,7 @@ struct TestTorus : GeneratedMesh {
   Cone cone = makeCone({});
 };
 
-/// Runs `test` and stores why it could not run.
+/// Runs `test`. Stores the reason if it cannot run.
 template <typename Report>
 void runTest(Report& report, const std::function<void()>& test) {
   try {
@@ -45,7 +45,8 @@ void runTest(Report& report, const std::function<void()>& test) {
   }
 }
 
-/// Faces spread over the mesh, in a number that takes some time: rates of short runs are those of the overhead.
+/// Rays per second. The number of faces is doubled until a run takes secondsPerRun, because the rate of a short run
+/// measures the overhead. The faces are spread over the mesh.
 double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
   constexpr size_t kFirstFaceCount = 2048;
   const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;
@@ -93,7 +94,7 @@ void testVariants(DeviceReport& report, const Device& device, const TestTorus& t
   }
 }
 
-/// open(): the backend, which exists until the test ends.
+/// open() returns the backend, which exists until the test ends.
 template <typename Open>
 void testOther(DeviceReport& report, const std::string& name, const TestTorus& test, const RunControl& control,
                const Open& open) {
@@ -105,7 +106,7 @@ void testOther(DeviceReport& report, const std::string& name, const TestTorus& t
   report.tracers.push_back(std::move(tracer));
 }
 
-/// An equation with a smooth function at every eighth face, and its solution.
+/// An equation with the values of a smooth function at every eighth face, and its solution.
 struct TestEquation {
   explicit TestEquation(const TestTorus& test)
       : graph(test.scene.prepared.graph),

@@ -8,8 +8,8 @@
 namespace asdfvk {
 namespace {
 
-/// A line of text without markup in the macros of groff_man(7): each character is itself, and a hyphen is a minus sign,
-/// so that options can be copied.
+/// Escapes a line of text for groff_man(7), so that each character stands for itself. A hyphen becomes a minus sign, so
+/// that options can be copied.
 std::string plain(const std::string& text) {
   static const std::pair<char, const char*> kEscapes[]{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
                                                        {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
@@ -22,7 +22,7 @@ std::string plain(const std::string& text) {
   return result;
 }
 
-/// Headings, and options in bold with their texts, of the help of an ArgumentParser.
+/// Converts the help of an ArgumentParser to headings, and options in bold with their texts.
 std::string optionSections(const std::string& help) {
   std::string sections, line;
   bool hasBegun = false;

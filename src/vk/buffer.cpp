@@ -19,7 +19,7 @@ namespace {
 
 constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-/// The types that may hold a buffer of that kind, the best first.
+/// The memory types that may hold a buffer of the given kind, the best first.
 std::vector<uint32_t> rankMemoryTypes(const Device& device, uint32_t allowed, MemoryKind kind) {
   using Flags = VkMemoryPropertyFlags;
   const Flags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
@@ -49,8 +49,8 @@ VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<co
   return result;
 }
 
-/// On several threads: one does not saturate the memory, and the first write to each page of fresh memory costs more
-/// than the copy.
+/// Copies on several threads: one thread does not saturate the memory, and the first write to each page of fresh memory
+/// costs more than the copy.
 void copyInParallel(std::span<const std::byte> from, std::byte* to) {
   constexpr size_t kBlockByteCount = size_t{1} << 20;
   forEachTask((from.size() + kBlockByteCount - 1) / kBlockByteCount, [&](size_t block) {
@@ -59,7 +59,7 @@ void copyInParallel(std::span<const std::byte> from, std::byte* to) {
   });
 }
 
-/// Calls copyPiece(commands, staging, begin, byteCount) for each piece; staging: mapped memory for one.
+/// Calls copyPiece(commands, staging, begin, byteCount) for each piece; staging: mapped memory for one piece.
 template <typename CopyPiece>
 void forEachPiece(const Device& device, uint64_t byteCount, const CopyPiece& copyPiece) {
   constexpr uint64_t kMinPieceByteCount = 64u << 10;

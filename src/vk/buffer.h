@@ -12,10 +12,10 @@ namespace asdfvk {
 enum class MemoryKind {
   DeviceLocal,  ///< Fastest for kernels; also mapped where device and host share memory.
   DeviceOnly,   ///< Never mapped, as on a device with separate memory; for tests.
-  HostVisible,  ///< Mapped and coherent, cached where there is a choice.
+  HostVisible,  ///< Mapped and coherent; cached where the device has such memory.
 };
 
-/// A buffer with its memory: of the best type that has enough left. Throws Error{OutOfDeviceMemory, DeviceLimit}.
+/// A buffer with memory of the best type that has enough left. Throws Error{OutOfDeviceMemory, DeviceLimit}.
 class Buffer {
  public:
   Buffer() = default;
@@ -28,7 +28,7 @@ class Buffer {
   [[nodiscard]] uint64_t byteCount() const { return byteCount_; }
   /// Null where the host cannot access the memory.
   [[nodiscard]] std::byte* mapped() const { return mapped_; }
-  /// Whether reads of mapped() are cached; others are about 100 times slower.
+  /// Whether reads of mapped() are cached. Uncached reads are about 100 times slower.
   [[nodiscard]] bool isCached() const { return isCached_; }
   template <typename T>
   [[nodiscard]] std::span<T> mappedAs() const {

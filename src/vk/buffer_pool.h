@@ -7,14 +7,14 @@
 
 namespace asdfvk {
 
-/// Buffers of a device that are not in use, kept for later computations: a driver of a GPU takes up to milliseconds to
-/// allocate memory. PooledBuffer takes them and gives them back.
+/// Unused buffers of a device, kept for later computations, because a GPU driver takes up to milliseconds to allocate
+/// memory. PooledBuffer takes buffers from the pool and gives them back.
 class BufferPool {
  public:
-  /// Further buffers are freed.
+  /// Limit on the memory of all buffers in the pool. Buffers beyond it are freed.
   static constexpr uint64_t kMaxIdleByteCount = 256u << 20;
 
-  /// The device must outlive it.
+  /// The device must outlive the pool.
   explicit BufferPool(const Device& device) : device_(device) {}
 
   [[nodiscard]] uint64_t idleByteCount() const;
@@ -36,8 +36,8 @@ class BufferPool {
   std::vector<Entry> idle_;
 };
 
-/// A buffer of Device::pool(), with contents of earlier users. Its destructor gives it back; then no submitted work may
-/// use it.
+/// A buffer of Device::pool(). It has the contents of earlier users. The destructor gives it back to the pool.
+/// Precondition: no submitted work uses it then.
 class PooledBuffer {
  public:
   PooledBuffer() = default;

@@ -15,14 +15,14 @@ namespace asdfvk {
 class CommandList {
  public:
   explicit CommandList(const Device& device);
-  /// Waits as finish().
+  /// Waits like finish().
   ~CommandList();
   CommandList(const CommandList&) = delete;
   CommandList& operator=(const CommandList&) = delete;
 
   void begin();
   [[nodiscard]] VkCommandBuffer handle() const { return commands_; }
-  /// `pushConstants` has the byte count of the pipeline's description.
+  /// `pushConstants` must have the byte count that the description of the pipeline states.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);
   /// dispatch() with the workgroup counts of the VkDispatchIndirectCommand in `size`, read when the dispatch starts.
@@ -40,7 +40,7 @@ class CommandList {
   /// Waits for the submitted commands, if any. Throws Error{Device} when the device is lost. There is no time limit:
   /// drivers report a GPU that hangs as lost, and the resources of running work cannot be freed.
   void wait();
-  /// wait() without an exception: afterwards the device does not use the resources of the commands.
+  /// Like wait(), but without exceptions. Afterwards the device does not use the resources of the commands.
   void finish() noexcept;
   void submitAndWait() {
     submit();

@@ -50,10 +50,10 @@ struct Binding {
   VkBufferView view = VK_NULL_HANDLE;
 };
 
-/// The buffers that the dispatches of a pipeline read and write; they must outlive it.
+/// The buffers that the dispatches of a pipeline read and write. The buffers must outlive the set.
 class BindingSet {
  public:
-  /// Throws Error{DeviceLimit} for a buffer beyond DeviceFacts::maxStorageBufferRange.
+  /// Throws Error{DeviceLimit} for a buffer larger than DeviceFacts::maxStorageBufferRange.
   BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings);
   ~BindingSet();
   BindingSet(const BindingSet&) = delete;

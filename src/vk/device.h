@@ -15,13 +15,13 @@ namespace asdfvk {
 
 class BufferPool;
 
-/// The first family with compute and without graphics, which does not delay the desktop and on some systems has a
-/// longer watchdog; else the first with compute.
+/// The first queue family with compute and without graphics; otherwise the first with compute. A family without
+/// graphics does not delay the desktop, and its watchdog timeout is longer on some systems.
 [[nodiscard]] std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families);
 
 [[nodiscard]] DeviceFacts describeDevice(VkPhysicalDevice device);
 
-/// A logical device with one compute queue. Not thread-safe: one thread at a time.
+/// A logical device with one compute queue. Not thread-safe: only one thread may use it at a time.
 class Device {
  public:
   /// Precondition: `facts` describes `physical` and has a compute queue family. Throws Error{Device}.
@@ -35,7 +35,7 @@ class Device {
   [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
   [[nodiscard]] BufferPool& pool() const { return *pool_; }
-  /// The first memory type among `allowedTypes` with all of `wanted`; unset when there is none.
+  /// The first memory type among `allowedTypes` with all flags of `wanted`; unset if there is none.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
     return memory_.memoryTypes[type].propertyFlags;
@@ -52,7 +52,7 @@ class Device {
 
 struct OpenedDevice {
   std::unique_ptr<Device> device;
-  /// One line per device with its name and the decision; the opened one first, with its driver.
+  /// One line per device with its name and the decision. The opened device comes first, with its driver.
   std::vector<std::string> reasons;
 };
 

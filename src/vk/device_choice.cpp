@@ -45,7 +45,7 @@ bool isSelected(const DeviceFacts& device, uint32_t index, size_t deviceCount, c
   return wanted && *wanted < deviceCount ? wanted == index : holdsNumber(device.name, selector);
 }
 
-/// The reason for a refusal, or empty.
+/// The reason to refuse the device; empty if there is none.
 std::string refusal(const DeviceFacts& device, uint32_t index, size_t deviceCount, const DeviceRequest& request) {
   if (!isSelected(device, index, deviceCount, request.selector))
     return fmt::format("is not the requested device '{}'", request.selector);

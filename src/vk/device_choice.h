@@ -31,14 +31,14 @@ struct DeviceFacts {
   uint64_t maxStorageBufferRange = 0;  ///< Bytes.
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
-  bool mapsDeviceMemory = true;          ///< False: as on a device with separate memory, for tests.
-  bool endsLongLoops = false;            ///< Kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
+  bool mapsDeviceMemory = true;          ///< False imitates a device with separate memory, for tests.
+  bool endsLongLoops = false;  ///< Loops of kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
 
-/// Whether kernels read large read-only arrays as texels instead of from storage buffers: on CPU devices, where that is
-/// faster, unless storage buffers can be larger. Random loads of 16 bytes from texel buffers are up to 3 times slower
-/// than from storage buffers on NVIDIA GPUs since Volta, and equal on AMD GPUs (Aaltonen,
-/// https://github.com/sebbbi/perftest); many devices allow 65,536 texels only.
+/// Whether kernels read large read-only arrays as texels instead of from storage buffers. True on CPU devices, where
+/// texels are faster, unless storage buffers can be larger. Random loads of 16 bytes from texel buffers are up to 3
+/// times slower than from storage buffers on NVIDIA GPUs since Volta, and equally fast on AMD GPUs (Aaltonen,
+/// https://github.com/sebbbi/perftest). Many devices allow 65,536 texels only.
 [[nodiscard]] bool prefersTexels(const DeviceFacts& device);
 
 /// llvmpipe before Mesa 25 silently ends all loops of an invocation after this many iterations, counted for the lanes
@@ -55,14 +55,14 @@ struct DeviceRequest {
 };
 
 struct DeviceChoice {
-  std::optional<uint32_t> index;     ///< Into the facts; unset when every device was refused.
+  std::optional<uint32_t> index;     ///< Index of the chosen device; unset if every device was refused.
   std::vector<std::string> reasons;  ///< Per device, without its name: "chosen", or the reason against it.
 };
 
 [[nodiscard]] std::string_view toString(DeviceKind kind);
 
-/// GPUs before CPU devices, discrete GPUs first, then in the given order. A CPU device is refused only where a GPU is
-/// required. A pure function.
+/// Chooses a device: GPUs before CPU devices, discrete GPUs first, otherwise in the given order. A CPU device is
+/// refused only where a GPU is required. A pure function.
 [[nodiscard]] DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request);
 
 }  // namespace asdfvk

@@ -16,7 +16,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onValidationMessage(VkDebugUtilsMessageSeverityFl
                                                    VkDebugUtilsMessageTypeFlagsEXT,
                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
   std::string message = data->pMessage;
-  // Layers since 2025 leave the identifier out of the text.
+  // Validation layers since 2025 leave the identifier out of the text.
   if (data->pMessageIdName != nullptr && message.find(data->pMessageIdName) == std::string::npos)
     message = std::string(data->pMessageIdName) + ": " + message;
   static_cast<ValidationLog*>(log)->add(std::move(message));
@@ -51,7 +51,8 @@ struct LayerSettingsInfo {
   const LayerSetting* settings;
 };
 
-/// Layers since July 2024 check the accesses of shaders, which are most accesses here, on request only.
+/// Enables the checks of shader accesses, which are most accesses here. Layers since July 2024 do not check them by
+/// default.
 LayerSettingsInfo shaderAccessValidation() {
   constexpr auto kLayerSettingsCreateInfo = static_cast<VkStructureType>(1000496000);
   constexpr int32_t kBool32 = 0;
@@ -60,7 +61,7 @@ LayerSettingsInfo shaderAccessValidation() {
   return {kLayerSettingsCreateInfo, nullptr, 1, &setting};
 }
 
-/// Whether the loader and the drivers have the extension, or, with its name, a layer.
+/// Whether the loader and the drivers have the extension. If `layer` is given: whether this layer has it.
 bool hasExtension(const char* name, const char* layer = nullptr) {
   uint32_t count = 0;
   if (vkEnumerateInstanceExtensionProperties(layer, &count, nullptr) != VK_SUCCESS) return false;

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Messages of the validation layers. Outlives the instance, whose destruction may still add messages.
+/// Messages of the validation layers. The log outlives the instance, whose destruction may still add messages.
 class ValidationLog {
  public:
   void add(std::string message);
@@ -21,11 +21,12 @@ class ValidationLog {
 };
 
 struct InstanceOptions {
-  bool validation = false;  ///< Core and synchronization validation; Error{Device} where the layer is not installed.
+  /// Core and synchronization validation. Error{Device} where the layer is not installed.
+  bool validation = false;
 };
 
-/// A Vulkan 1.2 instance, which also lists devices of incomplete implementations (VK_KHR_portability_subset). Throws
-/// Error{Device} with the reason when there is no loader or no driver.
+/// A Vulkan 1.2 instance. It also lists devices of incomplete implementations (VK_KHR_portability_subset). Throws
+/// Error{Device} with the reason if there is no loader or no driver.
 class Instance {
  public:
   explicit Instance(const InstanceOptions& options = {});
@@ -35,13 +36,14 @@ class Instance {
 
   [[nodiscard]] VkInstance handle() const { return instance_; }
   [[nodiscard]] std::vector<VkPhysicalDevice> physicalDevices() const;
-  /// Null unless validation is on.
+  /// Null if validation is off.
   [[nodiscard]] const std::shared_ptr<ValidationLog>& validationLog() const { return log_; }
 
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  /// The function of this instance: that of Volk is null after the creation of an instance without the extension.
+  /// The function pointer of this instance. Volk's global pointer becomes null when an instance without the extension
+  /// is created.
   PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
   std::shared_ptr<ValidationLog> log_;
 };

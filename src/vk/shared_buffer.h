@@ -7,13 +7,13 @@
 
 namespace asdfvk {
 
-/// A pooled buffer in the memory of the device. The host accesses it directly where that memory is mapped, else through
-/// a mapped copy.
+/// A pooled buffer in the memory of the device. The host accesses this memory directly where it is mapped, otherwise
+/// through a mapped copy.
 class SharedBuffer {
  public:
   enum class Host { Writes, Reads };
 
-  /// usage: of the kernels. host: the direction in which the host uses it.
+  /// usage: by the kernels. host: whether the host writes or reads the buffer.
   SharedBuffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, Host host)
       : device_(device),
         buffer_(device, byteCount,
@@ -24,14 +24,16 @@ class SharedBuffer {
 
   [[nodiscard]] const Buffer& onDevice() const { return *buffer_; }
 
-  /// The memory of the host. The mapped copy, if any, is made by the first call of this or of recordCopy().
+  /// The memory that the host accesses. The first call of onHost() or recordCopy() creates the mapped copy if it is
+  /// needed.
   template <typename T>
   [[nodiscard]] std::span<T> onHost() {
     return hostBuffer().mappedAs<T>();
   }
 
-  /// Records the copy of the first bytes in the direction of the constructor, or nothing where the access is direct.
-  /// The caller records a barrier before, for what kernels wrote, and one after it.
+  /// Records the copy of the first byteCount bytes, from or to the host as given to the constructor. Records nothing
+  /// where the host accesses the buffer directly. The caller records a barrier before the copy, for the writes of
+  /// kernels, and another after it.
   void recordCopy(CommandList& commands, uint64_t byteCount) {
     if (isDirect_) return;
     const Buffer& host = hostBuffer();
