@@ -174,8 +174,8 @@ void AtomicFile::withdrawTemporary() noexcept {
     announced_.reset();
     return;
   }
-  (void)announced_
-      .release();  // The signal handler has taken the name and may still read it; the process is about to end.
+  // The signal handler has taken the name and may still read it; the process is about to end.
+  (void)announced_.release();
 }
 
 void AtomicFile::write(const void* bytes, size_t size) {

@@ -260,8 +260,8 @@ void GltfFile::readBuffers() {
     } else if (i == 0 && hasBinary_) {
       contents = binary_;
     } else {
-      buffers_.emplace_back();  // A compressed view may refer to a buffer without data. Its use without the extension
-                                // is an error.
+      // A compressed view may refer to a buffer without data. A use without the extension is an error.
+      buffers_.emplace_back();
       continue;
     }
     if (length > contents.size())

@@ -1,5 +1,4 @@
-// NumPy's .npy, version 1.0, with the first field of a result: shape (n,) or (n, 3), type '<f4', '
-// u1' or '<u4'.
+// NumPy's .npy, version 1.0, with the first field of a result: shape (n,) or (n, 3), type '<f4', '|u1' or '<u4'.
 #include "io/npy_file.h"
 
 #include <fmt/core.h>

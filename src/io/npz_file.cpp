@@ -20,11 +20,11 @@ namespace {
 
 constexpr uint32_t kLocalSignature = 0x04034b50, kCentralSignature = 0x02014b50, kEndSignature = 0x06054b50;
 constexpr uint64_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22;
-constexpr std::string_view kRenamed =
-    "vertex ";  // Start of the comment of a member that does not have the name of its field.
+// The comment of a member that does not have the name of its field starts with this word.
+constexpr std::string_view kRenamed = "vertex ";
 constexpr uint16_t kZipVersion = 20;
-constexpr uint16_t kFirstDate =
-    0x21;  // 1980-01-01, the first date of the format; with the current date the bytes of a result would vary.
+// 1980-01-01, the first date of the format. With the current date the bytes of a result would vary.
+constexpr uint16_t kFirstDate = 0x21;
 
 /// CRC-32 of a part. For several parts, `earlier` is the checksum of the previous parts.
 uint32_t checksumOf(std::span<const char> part, uint32_t earlier = 0) {

@@ -37,9 +37,8 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
   PlyRole role = PlyRole::Other;
-  std::array<size_t, 3> coordinates{kNoProperty, kNoProperty,
-                                    kNoProperty};  ///< Properties x, y, z of an element with the role Vertices.
-  size_t indices = kNoProperty;                    ///< Property vertex_indices or vertex_index of Faces and Strips.
+  std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};  ///< Properties x, y, z of Vertices.
+  size_t indices = kNoProperty;  ///< Property vertex_indices or vertex_index of Faces and Strips.
 
   /// Lower bound of the bytes of one row.
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const;
@@ -47,11 +46,10 @@ struct PlyElement {
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
-  std::vector<PlyElement>
-      elements;              ///< In file order: one element with the role Vertices, at least one with Faces or Strips.
-  uint64_t bodyOffset = 0;   ///< Byte of the first row.
-  uint64_t bodyLine = 1;     ///< Line of the first row, in an ASCII file.
-  uint64_t vertexCount = 0;  ///< Below 2^32.
+  std::vector<PlyElement> elements;  ///< In file order: one of Vertices, at least one of Faces or Strips.
+  uint64_t bodyOffset = 0;           ///< Byte of the first row.
+  uint64_t bodyLine = 1;             ///< Line of the first row, in an ASCII file.
+  uint64_t vertexCount = 0;          ///< Below 2^32.
 };
 
 /// Reads and checks the header. Throws Error{UnreadableInput} with the line. Names are views into `bytes`.
