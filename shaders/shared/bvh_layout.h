@@ -6,20 +6,21 @@
 //   byte 16  childBase  triangleBase  childBits  unused  texel 1
 //   byte 32  x: lower of slots 0-3, 4-7, upper likewise  texel 2, texels 3 and 4 for y and z
 //
-// Node 0 is the root. The box of the child in slot s spans origin + lower[s] * scale to origin + upper[s] * scale on
-// each axis, with the bytes lower[s] and upper[s] and the power of two `scale` whose biased exponent is byte 0, 1 or 2
-// of `exponents`. Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with as many
-// triangles as the nibble has bits; 0 no child. The nodes of inner children are consecutive from childBase on, the
-// triangles of leaves from triangleBase on, both in the order of the slots. Slots are assigned so that a ray whose
-// direction has the sign bits q (x in bit 0) hits the children approximately in the order of slot ^ q.
+// Node 0 is the root. On each axis the box of the child in slot s spans origin + lower[s] * scale to origin + upper[s]
+// * scale. lower[s] and upper[s] are bytes. `scale` is a power of two; its biased exponent is byte 0 (x), 1 (y) or 2
+// (z) of `exponents`. Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with as many
+// triangles as the nibble has set bits; 0 no child. The nodes of inner children are consecutive from index childBase
+// on, in the order of the slots. Likewise, the triangles of leaves are consecutive from index triangleBase on. Slots
+// are assigned so that a ray whose direction has the sign bits q (x in bit 0) hits the children approximately in the
+// order of slot ^ q.
 //
 //   triangle, 48 bytes, in primitive order
 //   byte  0  v0.xyz  faceIndex                           texel 0
 //   byte 16  v1.xyz  normalU                             texel 1
 //   byte 32  v2.xyz  normalV                             texel 2
 //
-// The normal is that of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): the normal of the
-// rounded corners would be noise on small faces.
+// normalU and normalV are the octahedral encoding of the normal (Cigolle et al. 2014). The normal is computed from the
+// double-precision mesh, because the normal of the rounded corners would be noise on small faces.
 #ifndef ASDFVK_BVH_LAYOUT_H
 #define ASDFVK_BVH_LAYOUT_H
 
@@ -76,7 +77,7 @@ DeviceTriangle decodeTriangle(uvec4 t0, uvec4 t1, uvec4 t2) {
                         uintBitsToFloat(t2.xyz), uintBitsToFloat(t2.w));
 }
 
-// The normal, in a length between 1 / sqrt(3) and 1.
+// A vector in the direction of the normal. Its length is between 1 / sqrt(3) and 1.
 vec3 octahedralDirection(float u, float v) {
   const float z = 1.0 - abs(u) - abs(v);
   const float fold = max(-z, 0.0);

@@ -24,11 +24,12 @@ struct ConeOrigin {
 
 // The seed of a cone, 8 bytes, from which cone_origins.comp makes the start of the cone.
 struct ConeSeed {
-  uint triangle;   // In the order of the hierarchy.
+  uint triangle;   // Index in the order of the hierarchy, with kFlippedFrameBit.
   float halfTurn;  // Tangent of half the angle by which the frame is turned about its axis: coneRotation().
 };
 
-// The first case of coneFrame() in src/cone/cone.h, decided by the host, so that rounding selects no other frame.
+// Set in ConeSeed::triangle where coneFrame() in src/cone/cone.h takes its first case. The host decides the case, so
+// that rounding on the device does not select another frame.
 const uint kFlippedFrameBit = 0x40000000u;
 
 // One ray of every cone, 16 bytes and one texel, in the frame of the cone.
@@ -44,7 +45,7 @@ struct ConePush {
   float contactDistance;    // See Cone.
 };
 
-// A result is the bits of a length in normalised units, or one of these.
+// A result is the bits of a length in normalised units, or one of these constants.
 const uint kNoValueBits = 0x7fc00000u;         // No valid ray: a quiet NaN.
 const uint kIterationLimitBits = 0x7fc00001u;  // The iteration limit stopped the cone: the reference traces it.
 

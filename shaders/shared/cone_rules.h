@@ -12,13 +12,13 @@ namespace asdfvk {
 // of a CAD part changed with the last bit of a normal.
 const float kFalseHitSlack = 1e-3f;
 
-// A length is kept when |length - median| <= standard deviations + this * median, so that ties (two rays are always a
-// tie) do not depend on rounding.
+// A length is kept if |length - median| <= deviations * spread + kOutlierSlack * median (OutlierRule in
+// src/cone/cone.h). With the slack, ties do not depend on rounding; two rays are always a tie.
 const float kOutlierSlack = 1e-5f;
 
 // Where faces touch, a ray from inside leaves its own part before it enters the next one: a face that is hit on its
 // outer side counts as farther away by this many contact distances (Cone in src/cone/cone.h). The two faces are less
-// than one apart, but rays meet them at an angle.
+// than one contact distance apart, but a ray that meets them at an angle travels farther between them.
 const float kOuterSideFactor = 8.0f;
 
 #ifdef __cplusplus

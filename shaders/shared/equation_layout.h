@@ -1,9 +1,9 @@
-// What the kernels of the equation on a graph (shaders/poisson/equation_*.comp) share with the host. Included by C++
-// and by GLSL.
+// Structs that the kernels of the equation on a graph (shaders/poisson/equation_*.comp) share with the host. Included
+// by C++ and by GLSL.
 //
 // The unknowns are differences from a base value of each face, in units in which values and weights are about 1.
-// Between faces that a guiding field joins, the field is the base, and its divergence cancels: what is left is the sum
-// of w_fg (e_g - e_f) over differences e, which float32 resolves.
+// Between two guided faces the bases are the values of the guiding field, and the divergence of the field cancels. The
+// rest is the sum of w_fg (e_g - e_f) over the differences e. Float32 is precise enough for this sum.
 #ifndef ASDFVK_EQUATION_LAYOUT_H
 #define ASDFVK_EQUATION_LAYOUT_H
 
@@ -20,7 +20,7 @@ struct EquationStart {
   uint flags;
 };
 const uint kIsUnknown = 1u;
-const uint kIsGuided = 2u;  // The equation has the divergence of the bases between two such faces.
+const uint kIsGuided = 2u;  // The equation includes the divergence of the bases between two guided faces.
 
 struct EquationPush {
   uint faceCount;

@@ -1,5 +1,5 @@
-// The GLSL types of structs shared by host and device, for C++. The structs are packed: with the asserted size each
-// member is at the sum of the sizes before it.
+// C++ equivalents of the GLSL types in structs shared by host and device. The structs have no padding: their sizes are
+// asserted, and the offset of a member is the sum of the sizes of the members before it.
 #pragma once
 
 #include <cstdint>

@@ -13,18 +13,18 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-// A row of S, two blocks of 16 bytes: its first three entries and the location of the others. On a
-// manifold mesh a row has at most three. An absent entry has coupling 0 and the column of the row.
+// A row of S, two blocks of 16 bytes: its first three entries and the location of the others. On a manifold mesh a row
+// has at most three entries. An absent entry has coupling 0, and its column is the index of the row.
 const uint kPoissonRowBlockCount = 2u;
 const uint kPoissonRowHeadLength = 3u;  // Entries in the row itself.
 struct PoissonRow {
   uint column0, column1, column2;
-  uint tailBegin;  // Into the arrays of further columns and couplings.
+  uint tailBegin;  // Index into the arrays of further columns and couplings.
   float coupling0, coupling1, coupling2;
   uint tailCount;
 };
 
-// Each workgroup writes one partial sum per scalar, and each workgroup adds up all of them.
+// Each workgroup writes one partial sum per scalar, and each workgroup adds up the partial sums of all workgroups.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
 // State of the iteration, 16 bytes. Double-buffered: an iteration reads one state and writes the other, so that no
@@ -55,8 +55,8 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
-  // Workgroups of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while the
-  // kernel runs, from the DispatchSize that cg_step.comp overwrites.
+  // Number of workgroups of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while
+  // the kernel runs, from the DispatchSize that cg_step.comp overwrites.
   uint workgroupCount;
 };
 
@@ -64,9 +64,10 @@ struct PoissonPush {
 // float.
 //
 // One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
-// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. Unlike the recurrence of
-// Chronopoulos and Gear (1989), this one multiplies the direction itself and sums r.r in every iteration. In float32 it
-// therefore drifts no more than the textbook iteration. It needs one vector fewer.
+// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. The recurrence of Chronopoulos and
+// Gear (1989) multiplies the residual. Here the matrix multiplies the direction, and every iteration sums r.r. In
+// float32 this recurrence therefore drifts no more than the textbook iteration, and it needs one vector fewer than
+// Chronopoulos and Gear's.
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
 const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.
@@ -99,7 +100,8 @@ struct CgRules {
     uint status;
   };
 
-  // False also for a NaN, which a device may assume not to exist: there by the bits.
+  // Whether the absolute value is below kMaxCgSum; false for a NaN. GLSL tests the bits, because a device may assume
+  // that no NaN occurs.
   ASDFVK_CG_FUNCTION bool isBounded(Real sum) {
 #ifdef __cplusplus
     return sum > -kMaxCgSum && sum < kMaxCgSum;
@@ -108,8 +110,8 @@ struct CgRules {
 #endif
   }
 
-  // rounding: share of p.p at or below which p.Mp consists of rounding errors; a step with it would change x but not
-  // the residual.
+  // rounding: a p.Mp at or below this share of p.p consists of rounding errors; a step would then change x but not the
+  // residual.
   ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
     CgStep next;
     next.alpha = Real(0);
@@ -123,7 +125,7 @@ struct CgRules {
     if (!(isBounded(sums.residualDot) && isBounded(sums.directionSquared) && isBounded(sums.productDot))) return next;
     if (!(sums.residualDot > Real(0) && sums.productDot > rounding * sums.directionSquared)) return next;
     const Real alpha = sums.residualDot / sums.productDot;
-    // The ratio of the next r.r to this one. Rounding can make it negative when the residual is tiny.
+    // The ratio of the next r.r to the current r.r. Rounding can make the ratio negative when the residual is tiny.
     const Real beta =
         Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
     if (!(isBounded(alpha) && isBounded(beta))) return next;

@@ -11,18 +11,20 @@ using glsl::uint;
 using glsl::vec3;
 #endif
 
-// A ray represents the surface around its hit, which fills another solid angle when seen from the virtual cone. Where
-// the two solid angles differ by more than this factor, the point is close to one of the origins and far from the
-// other, and the surface around it is not a disc.
+// A ray represents the surface around its hit point. This surface fills one solid angle seen from the seed and another
+// one seen from the virtual cone. The ratio of the two is limited to this factor and its inverse: beyond, the point is
+// close to one of the origins and far from the other, and the surface around it is not a disc.
 const float kMaxSolidAngleChange = 4.0f;
 
-// The share of a length's weight that depends on the outlier rule for all lengths pooled; the rest depends on the rule
-// for the seed's own cone. The pooled rule is less noisy; the other has the noise of a traced cone.
+// The outlier rule is applied twice: to the lengths of all seeds together (pooled), and to the lengths in the cone of
+// one seed. This share of a length's weight depends on the pooled rule, the rest on the rule within the cone. The
+// pooled rule is less noisy.
 const float kPooledShare = 0.75f;
 
-// The median is bisected twice between mean - deviation and mean + deviation, which contain it, to a quarter of the
-// interval each time. Within the last interval lengths are taken as evenly distributed. Where it is searched again for
-// the spread, the deviation does not bound it as closely.
+// Passes of the search for a median. Each pass reduces the interval that contains the median to a quarter; within the
+// last interval, lengths are taken as evenly distributed. The median of the lengths is between mean - deviation and
+// mean + deviation. The median of the differences from it (the spread) needs another pass, because its first interval
+// is less tight.
 const uint kMedianPassCount = 2u;
 const uint kSpreadPassCount = 3u;
 
@@ -36,14 +38,14 @@ const float kNormalDeviationRadians = 0.5f;
 // time (docs/experiments.md).
 const float kMinWeightShare = 0.08f;
 
-// Seeds that a device uses for one face: that of its cell and those of neighbouring cells.
+// Largest number of seeds that a device uses for one face: the seed of its cell and the seeds of neighbouring cells.
 const uint kMaxContributingSeedCount = 7u;
 
 // A face, 32 bytes.
 const uint kPredictionFaceBlockCount = 2u;
 struct PredictionFace {
   vec3 barycentre;
-  uint representative;  // One of the coincident faces.
+  uint representative;  // The representative of its coincident faces.
   vec3 normal;          // Unit; 0 for a degenerate face.
   uint unused;
 };
@@ -60,8 +62,9 @@ struct PredictionSeed {
   uint face;
 };
 
-// The hit point of a ray, 32 bytes. A seed has as many as rays, after one that describes the seed: its barycentre, its
-// face, its normal, and the median length of its valid rays (0 if there are none).
+// The hit point of a ray, 32 bytes. Each seed has one PredictionPoint per ray, after a first one that describes the
+// seed: its barycentre, its face, its normal and, in solidAngleRatio, the median length of its valid rays (0 if there
+// are none).
 const uint kPredictionPointBlockCount = 2u;
 struct PredictionPoint {
   vec3 position;
@@ -77,9 +80,9 @@ struct PointPush {
   float outlierDeviations;  // Cone::outliers.
 };
 
-// Faces to be predicted and the cells that they belong to are in one array of words: a face and an index of a cell for
-// each item, then kMaxContributingSeedCount indices of seeds for each cell.
-const uint kNoSeed = 0xffffffffu;  // The index of an absent seed, and of the cell of a face without one.
+// One array of words holds the faces to be predicted and their cells. It has a face and the index of a cell for each
+// item, then kMaxContributingSeedCount indices of seeds for each cell.
+const uint kNoSeed = 0xffffffffu;  // The index of an absent seed, and of the cell of a face without a cell.
 struct PredictionPush {
   uint itemCount;
   uint rayCount;

@@ -12,8 +12,8 @@
 
 namespace asdfvk {
 
-/// 32 bytes. Boxes are in normalised coordinates and rounded outwards: they contain the corners of a triangle in double
-/// and rounded to float.
+/// 32 bytes. Boxes are in normalised coordinates and rounded outwards: a box contains the corners of its triangles both
+/// in double and rounded to float.
 struct BvhNode {
   Vec3f min;
   uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: first primitive.
@@ -23,11 +23,11 @@ struct BvhNode {
   [[nodiscard]] bool isLeaf() const { return triangleCount > 0; }
 };
 
-/// A binary bounding volume hierarchy. nodes[0] is the root; empty without triangles.
+/// A binary bounding volume hierarchy. nodes[0] is the root; `nodes` is empty without triangles.
 struct Bvh {
   UnsetVector<BvhNode> nodes;
-  std::vector<uint32_t> primitiveFaces;  ///< Face index of each primitive; each traceable face once.
-  uint32_t depth = 0;                    ///< Levels below the root; the size of a traversal stack.
+  std::vector<uint32_t> primitiveFaces;  ///< Face index of each primitive. No face occurs twice.
+  uint32_t depth = 0;                    ///< Levels below the root.
   Normalization normalization;
 };
 
@@ -36,14 +36,14 @@ inline constexpr float kNodeCost = 1.0f;
 inline constexpr float kTriangleCost = 1.0f;
 
 struct BvhOptions {
-  /// Upper limit: 1 to the capacity of a leaf of the wide layout.
+  /// 1 to kMaxWideLeafTriangleCount.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
-  uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
+  uint32_t binCount = 16;  ///< Bins per axis, 2 to 32. Small sets of triangles use fewer bins.
 };
 
-/// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
-/// Contains the non-degenerate faces that are their own representative (see coincidentRepresentatives()). Faces with
-/// non-finite normalised corners, which occur in meshes as wide as the range of double, are left out.
+/// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count. The
+/// hierarchy contains the non-degenerate faces that are their own representative (see coincidentRepresentatives()).
+/// Faces with non-finite normalised corners, which occur in meshes as wide as the range of double, are left out.
 [[nodiscard]] Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry,
                            std::span<const uint32_t> representatives, const BvhOptions& options = {});
 

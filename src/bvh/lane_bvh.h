@@ -9,20 +9,22 @@
 
 namespace asdfvk {
 
-/// Boxes of a node and triangles of a block, tested side by side against one ray.
+/// Number of boxes of a node, or triangles of a block, that are tested together against one ray.
 inline constexpr uint32_t kBvhLaneCount = 8;
 
-/// Up to eight children. Slots as chooseSlots() assigns them; in a slot without a child the lower corner is above the
-/// upper one, so that no ray enters. 256 bytes.
+/// A node with up to eight children, in the slots that chooseSlots() assigns. In a slot without a child the lower
+/// corner of the box is above the upper corner, so that no ray enters it. 256 bytes.
 struct alignas(64) LaneNode {
-  std::array<std::array<std::array<float, kBvhLaneCount>, 2>, 3> planes;  ///< Per axis: the lower ones, the upper ones.
-  std::array<uint32_t, kBvhLaneCount> children;                           ///< A node, or a block | kLaneBlockBit.
+  /// [axis][0]: lower planes, [axis][1]: upper planes.
+  std::array<std::array<std::array<float, kBvhLaneCount>, 2>, 3> planes;
+  std::array<uint32_t, kBvhLaneCount> children;  ///< Index of a node, or index of a block with kLaneBlockBit.
 };
 static_assert(sizeof(LaneNode) == 256);
 
 inline constexpr uint32_t kLaneBlockBit = 0x8000'0000u;
 
-/// A leaf: up to eight triangles, which are consecutive primitives of the Bvh. Unused lanes have no area. 320 bytes.
+/// A leaf: up to eight triangles, which are consecutive primitives of the Bvh. Triangles of unused lanes have no area.
+/// 320 bytes.
 struct alignas(64) LaneBlock {
   std::array<std::array<std::array<float, kBvhLaneCount>, 3>, 3> corners;  ///< Per corner: x, y, z.
   uint32_t firstPrimitive;
@@ -30,18 +32,18 @@ struct alignas(64) LaneBlock {
 };
 static_assert(sizeof(LaneBlock) == 320);
 
-/// The hierarchy for the lanes of a CPU, in float32: corners are rounded to nearest, boxes are those of the Bvh. Node 0
-/// is the root; empty without triangles.
+/// The hierarchy for the lanes of a CPU, in float32: corners are rounded to nearest, boxes are equal to those of the
+/// Bvh. Node 0 is the root; there is no node without triangles.
 struct LaneBvh {
   UnsetVector<LaneNode> nodes;
   UnsetVector<LaneBlock> blocks;
   uint32_t depth = 0;  ///< Levels below the root.
 };
 
-/// Entries of the stack of a traversal that pushes all children of a node that a ray enters.
+/// Stack entries that a traversal needs if it pushes all children of each node that a ray enters.
 inline constexpr uint32_t kLaneStackSize = kBvhLaneCount + (kBvhLaneCount - 1) * (kMaxBvhDepth + 1);
 
-/// Costs of the collapse: a block of triangles is tested in 1.2 times the time of a node.
+/// Costs for WideCollapse: the test of a block of triangles takes 1.2 times as long as the test of a node.
 inline constexpr WideCosts kLaneCosts{.node = 1, .leaf = 1.2f, .triangle = 0, .maxLeafTriangleCount = kBvhLaneCount};
 
 /// Collapses `bvh` by WideCollapse with kLaneCosts. Parallel, with the same result for any thread count.

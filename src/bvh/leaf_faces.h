@@ -15,8 +15,8 @@ template <typename Box>
   return true;
 }
 
-/// Calls visit(primitive face) for the faces of each leaf for which reaches(node) is true, as it must be for all nodes
-/// above the leaf. Ends when visit() returns false.
+/// Calls visit(face) for each primitive face of each leaf for which reaches(node) is true. Precondition: reaches(node)
+/// is then true for all nodes above the leaf. Ends when visit() returns false.
 template <typename Reaches, typename Visit>
 void forEachLeafFace(const Bvh& bvh, const Reaches& reaches, const Visit& visit) {
   std::array<uint32_t, kMaxBvhDepth + 1> stack;

@@ -11,11 +11,11 @@
 
 namespace asdfvk {
 
-/// Costs of the surface-area heuristic for wide nodes, in triangle tests of a device.
+/// Costs of the surface-area heuristic for wide nodes. Unit: the time of a triangle test on a device.
 struct WideCosts {
   float node = 2;
-  float leaf = 0;      ///< Cost of a leaf, whatever the number of its triangles.
-  float triangle = 1;  ///< Added for each of its triangles.
+  float leaf = 0;      ///< Fixed cost of a leaf.
+  float triangle = 1;  ///< Further cost for each triangle of a leaf.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
 
   [[nodiscard]] float ofLeaf(uint32_t triangleCount) const {
@@ -41,12 +41,12 @@ struct WideChildren {
 /// nodes or leaves. Minimises the cost by the surface-area heuristic (Ylitie, Karras and Laine 2017, section 3.1).
 class WideCollapse {
  public:
-  /// nodes: as in Bvh, at least one, leaves of at most costs.maxLeafTriangleCount triangles; must outlive this object.
-  /// Parallel, with the same result for any thread count.
+  /// nodes: as in Bvh, at least one; a leaf has at most costs.maxLeafTriangleCount triangles. They must outlive this
+  /// object. Parallel, with the same result for any thread count.
   explicit WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs = {});
 
-  /// Children of the wide node that replaces a binary node. A root that is a leaf becomes a wide node with itself as
-  /// the only child.
+  /// Children of the wide node that replaces a binary node. Where the root is a leaf, it becomes a wide node whose only
+  /// child is this leaf.
   [[nodiscard]] WideChildren childrenOf(uint32_t node) const;
   /// Consecutive primitives below a binary node.
   struct PrimitiveRange {
@@ -70,8 +70,8 @@ class WideCollapse {
   };
   // Choices at an inner node of the binary hierarchy.
   struct Choice {
-    // Nibble i - 1, i = 2 to 8: number of the i children that the left child contributes; 0 if i - 1 children are as
-    // cheap. Lowest nibble: 1 if the node as a single child is a leaf.
+    // Nibble i - 1, for i = 2 to 8: how many of i children are below the left child; 0 if i - 1 children are as cheap.
+    // Nibble 0: 1 if the node becomes a leaf when it is a single child.
     uint32_t leftCounts;
     uint32_t nodeCountBelow;
     PrimitiveRange primitives;
@@ -87,17 +87,18 @@ class WideCollapse {
   UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 
-/// Margin of the boxes of a wide hierarchy on a device, in normalised units: a ray must enter each box that contains a
-/// triangle that it hits. It is the sum of three errors: of the triangle test in float32, a few units of 2^-24 times
-/// coordinates up to 3.5; of decoding a box in float32, up to 6 units of 2^-24; and of the distance to a plane
-/// (shaders/ray_query.glsl), with three roundings that each shift the plane by up to 3.5 units of 2^-24.
+/// Margin of the boxes of a wide hierarchy on a device, in normalised units. With it, a ray enters each box that
+/// contains a triangle that the ray hits. It covers three errors of float32. The triangle test has an error of a few
+/// units of 2^-24 times coordinates up to 3.5. Decoding a box has an error of up to 6 units of 2^-24. The distance to a
+/// plane (shaders/ray_query.glsl) has three roundings, which each shift the plane by up to 3.5 units of 2^-24.
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
 /// Assigns a different slot s to each of at most eight children, so that a ray whose direction has the sign bits q hits
 /// the children approximately in ascending order of s ^ q. Greedy (Ylitie et al. 2017, section 3.2, use an auction).
 [[nodiscard]] std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> children);
 
-/// A node with the boxes of `children` in `slots`, rounded outwards and with the margin; its references are not set.
+/// A node with the boxes of `children` in `slots`, enlarged by kWideBoxMargin and rounded outwards. childBase,
+/// triangleBase and childBits are not set.
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
                                            const std::array<uint32_t, kWideChildCount>& slots);
 
@@ -105,7 +106,7 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 /// first child; all nodes below the second child; and so on.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
-  UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh; the range of primitives of a subtree is the same.
+  UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh. A subtree has the same range of primitives as in the Bvh.
   uint32_t depth = 0;                    ///< Levels below the root, at most kMaxBvhDepth.
 };
 

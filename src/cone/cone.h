@@ -14,13 +14,13 @@ namespace asdfvk {
 /// Lengths farther from the median than a multiple of their spread are outliers.
 struct OutlierRule {
   enum class Spread {
-    StandardDeviation,  ///< Deviation of the population, about the mean.
+    StandardDeviation,  ///< Population standard deviation about the mean.
     MedianDeviation,    ///< Median of the absolute differences from the median.
   };
 
   Spread spread = Spread::StandardDeviation;
   double deviations = 1;                              ///< Largest difference from the median, in units of the spread.
-  double slack = static_cast<double>(kOutlierSlack);  ///< Added to it, in units of the median.
+  double slack = static_cast<double>(kOutlierSlack);  ///< Added to the largest difference, in units of the median.
 };
 
 /// The rays of every cone and the rules for their hits: a definition of the shape diameter as data. Rays are in the
@@ -35,18 +35,19 @@ struct Cone {
   double falseHitCosine = 0;        ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
   OutlierRule outliers;
   double halfAngleRadians = 0;  ///< Angle between the axis and the rim.
-  /// What is nearer to the origin of a ray is no hit: kContactDistance, more for cones whose rays graze the face. See
-  /// also kOuterSideFactor.
+  /// Faces that a ray reaches within this distance, in normalised units, are ignored. kContactDistance; more for cones
+  /// whose rays graze the face. See also kOuterSideFactor.
   double contactDistance = 0;
   ConeRotation rotation = ConeRotation::Fixed;
 };
 
 /// Paper: a golden-angle (Vogel) spiral, uniform in solid angle. Cgal: the spiral of CGAL's disk, uniform in the
-/// tangent of the angle to the axis. Precondition: a number of rays within its range.
+/// tangent of the angle to the axis. Precondition: 1 to kMaxRayCount rays.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
 /// Whether a hit is false. Paper: the normal of the hit face is within the false-hit angle of the normal of the seed
-/// face. Cgal: the angle between the ray and the normal of the hit face is not acute. direction: of the ray.
+/// face. Cgal: the angle between the ray and the normal of the hit face is not acute. direction: the direction of the
+/// ray.
 [[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& direction,
                                      const Vec3d& hitNormal) {
   const double cosine = cone.definition == Definition::Paper ? dot(seedNormal, hitNormal) : -dot(direction, hitNormal);
@@ -67,14 +68,14 @@ struct ConeFrame {
 /// normals of axis-aligned walls have z = -1, 0 or 1. axis: unit, minus the normal of the face.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
 
-/// CGAL's frame. inward: not zero, of any length; coordinates that are exactly 0 select the tangent.
+/// CGAL's frame. inward: not zero, of any length. The tangent depends on which coordinates of `inward` are exactly 0.
 [[nodiscard]] ConeFrame cgalConeFrame(const Vec3d& inward);
 
 /// Angle in radians, 0 to 2 pi, by which paperConeFrame() turns the frame with this key about its axis.
 [[nodiscard]] double coneRotation(const Cone& cone, uint64_t key);
 
 /// The frame of the rays at a unit normal, by Definition::Paper: coneFrame(-normal), turned about its axis by the
-/// rotation of the cone. key: hashed by ConeRotation::Hashed; for a face its index.
+/// rotation of the cone. key: the number that ConeRotation::Hashed hashes; for a face its index.
 [[nodiscard]] ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key);
 
 /// The range of lengths that are not outliers.
@@ -88,8 +89,8 @@ struct LengthWindow {
 [[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule);
 
 /// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of those in keptWindow(). It is
-/// kNoValue without valid rays, and if no length is in the window, which is possible only for less than 1 deviation.
-/// lengths and weights have one entry per valid ray, in the order of the cone.
+/// kNoValue without valid rays, and if no length is in the window; the latter is possible only if rule.deviations is
+/// below 1. lengths and weights have one entry per valid ray, in the order of the cone.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
                                const OutlierRule& rule = {});
 

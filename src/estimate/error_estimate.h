@@ -28,8 +28,8 @@ struct EstimatedErrors {
   std::vector<double> expected;  ///< #F, in the unit of the mesh; 0 where a face has no value.
 };
 
-/// Error of the result, from the errors at held-out faces. heldOutCount is 0 if fewer than two held-out faces have a
-/// value and a positive weight, or if the range of values is not positive.
+/// Error of the result, from the errors at held-out faces. estimate.heldOutCount is 0 if fewer than two held-out faces
+/// have a value and a positive weight, or if the range of values is not positive.
 [[nodiscard]] EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& input);
 
 }  // namespace asdfvk

@@ -9,7 +9,8 @@ namespace asdfvk {
 /// Random sample of faces for the unbiased measurement of the error of an interpolation that does not use them.
 struct HeldOutFaces {
   std::vector<uint32_t> faces;
-  /// Sampling weight 1 / p - 1, p the inclusion probability, divided by the number of candidates per held-out face.
+  /// Sampling weight 1 / p - 1, where p is the inclusion probability, divided by the number of candidates per held-out
+  /// face.
   std::vector<double> weights;
 
   void append(const HeldOutFaces& further);

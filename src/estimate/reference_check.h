@@ -18,7 +18,7 @@ struct ComputedValues {
 };
 
 /// Compares values with those of the double-precision reference, at up to `count` random traced faces and up to `count`
-/// random faces among all that can cast rays. A face of both samples is traced once. traceableFaces: ascending.
+/// random faces among all that can cast rays. A face that is in both samples is traced once. traceableFaces: ascending.
 [[nodiscard]] CheckReport checkAgainstReference(const TraceScene& scene, const Cone& cone,
                                                 std::span<const uint32_t> traceableFaces,
                                                 const ComputedValues& computed, uint64_t count, uint64_t randomSeed,

@@ -16,34 +16,34 @@ namespace asdfvk {
 
 class Device;
 
-/// What a tracer has to provide besides the values.
+/// Outputs of a tracer besides the values.
 struct TracerNeeds {
   bool hits = false;  ///< The hits of the rays.
 };
 
-/// Traces the rays and owns the solvers: a Vulkan device with its pipelines, the CPU, or the reference.
+/// Makes tracers, and predictors if it can: a Vulkan device with its pipelines, the CPU, or the reference.
 class Backend {
  public:
   virtual ~Backend() = default;
 
   /// Device and driver, or the library and the number of CPU threads.
   [[nodiscard]] virtual std::string deviceName() const = 0;
-  /// One line per device: the chosen one first, then those that were not chosen, with reasons.
+  /// One line per device: first the chosen device, then each device that was not chosen, with the reason.
   [[nodiscard]] virtual std::vector<std::string> deviceLines() const = 0;
-  /// Whether the CPU traces: also true for a CPU device of Vulkan.
+  /// Whether the CPU traces. Also true for a CPU device of Vulkan.
   [[nodiscard]] virtual bool runsOnCpu() const { return true; }
   /// Whether this backend is the reference itself.
   [[nodiscard]] virtual bool isReference() const { return false; }
-  /// Variant of the last tracer; before the first one the default. Unset without Vulkan.
+  /// Variant of the last tracer; before the first tracer, the default variant. Unset without Vulkan.
   [[nodiscard]] virtual std::optional<TraceVariant> traceVariant() const { return std::nullopt; }
-  /// For solvers that need one; null without Vulkan.
+  /// The device for solvers that need one; null without Vulkan.
   [[nodiscard]] virtual const Device* device() const { return nullptr; }
 
   /// The scene and the cone must outlive the tracer.
   [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                                const TracerNeeds& needs) = 0;
-  /// Predicts faces on the device; null without Vulkan. The scene and the cone must outlive it. Throws Error of kind
-  /// Device.
+  /// Returns a predictor on the device, or null without Vulkan. The scene and the cone must outlive the predictor.
+  /// Throws Error of kind Device.
   [[nodiscard]] virtual std::unique_ptr<DevicePredictor> makePredictor(const TraceScene&, const Cone&) {
     return nullptr;
   }
@@ -54,19 +54,21 @@ class Backend {
 struct NamedBackend {
   std::string name;
   std::unique_ptr<Backend> backend;
-  std::vector<std::string> deviceLines;  ///< A line per device and the reasons why "auto" rejected other backends.
+  /// Backend::deviceLines(), then the reasons why "auto" rejected other backends.
+  std::vector<std::string> deviceLines;
 };
 
-/// The backend of that name, or the first that is available for "auto". Throws Error{UnknownName} and Error of kind
-/// Device.
+/// Opens the backend that the options name; for "auto", the first backend that is available. Throws Error{UnknownName}
+/// and Error of kind Device.
 [[nodiscard]] NamedBackend openBackend(const SessionOptions& options);
 
-/// The first available backend after the one called `failed` in the order of "auto". None unless the options leave the
-/// choice to "auto" without a request for Vulkan.
+/// The first available backend after the one called `failed` in the order of "auto". None if the options name a backend
+/// or request a device or variant of Vulkan.
 [[nodiscard]] std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::string_view failed);
 
-/// For kAutomaticSolver: on the device where it has the storage buffers, but not on a CPU device, which needs more time
-/// than the CPU for the same iterations (docs/speed.md).
+/// The solver that kAutomaticSolver selects. It is the solver of the device if the device has enough storage buffers
+/// and is not a CPU device. A CPU device needs more time for the same iterations than the solver of the CPU
+/// (docs/speed.md).
 [[nodiscard]] const Solver& automaticSolver(const Backend& backend);
 
 /// Throws Error of kind Device.

@@ -27,12 +27,12 @@ struct Computation {
   std::vector<Warning>& warnings;
 
   [[nodiscard]] bool predicts() const { return options.interpolation.guidance == Guidance::Prediction; }
-  /// Whether hits of rays are kept: the prediction needs them.
+  /// Whether hits of rays are kept for the prediction.
   [[nodiscard]] bool keepsHits() const {
     return predicts() && (options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0);
   }
   /// Whether faces that cannot be traced, and traced faces without a valid ray, have no value in the result. Otherwise
-  /// they are interpolated.
+  /// such faces are interpolated.
   [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
 };
 

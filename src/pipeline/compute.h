@@ -17,15 +17,15 @@ struct ComputationInput {
   const std::shared_ptr<PreparedScene>& scene;
   const FaceDomain& domain;  ///< A domain of the scene.
   KeptTracers& tracers;      ///< Tracers of the scene.
-  bool isLast;               ///< The scene is not used again: the computation releases what it does not need any more.
+  bool isLast;  ///< Whether the scene is not used again, so that the computation may release its data early.
 };
 
-/// The computation with completed options behind Session::compute() and Scene::compute(): from the seeds to the report.
-/// The clock refers to result.report.stageSeconds. Throws as Session::compute().
+/// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. options: of
+/// completed(). The clock refers to result.report.stageSeconds. Throws the errors of Session::compute().
 void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
                Result& result);
 
-/// The options with what they imply. Throws where they are invalid on this session.
+/// The options together with the settings that they imply. Throws if they are invalid on this session.
 [[nodiscard]] Options completed(const SessionState& session, const Options& options);
 
 }  // namespace asdfvk

@@ -16,14 +16,14 @@ namespace asdfvk {
 /// The solvers of a session by name, created at first use.
 using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
 
-/// The solver of one computation: that of the options or, with kAutomaticSolver, automaticSolver() until the device
-/// fails, then that of the CPU, with a warning that contains the reason.
+/// The solver of one computation: the one that the options name. With kAutomaticSolver it is automaticSolver(); if the
+/// device fails, the solver of the CPU replaces it, and a warning contains the reason.
 class EquationSolver {
  public:
-  /// The arguments must outlive it.
+  /// The arguments must outlive this object.
   EquationSolver(const Options& options, const Backend& backend, Solvers& solvers, std::vector<Warning>& warnings);
 
-  /// Like GraphSolver::solve(), always on one graph with one set of weights, which must outlive this object.
+  /// Like GraphSolver::solve(). All calls have the same graph and weights, which must outlive this object.
   SolverReport solve(const DualGraph& graph, std::span<const double> weights, GraphProblem problem,
                      std::vector<double>& values, const RunControl& control);
 

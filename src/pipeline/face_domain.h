@@ -13,19 +13,20 @@ namespace asdfvk {
 
 /// The faces that get values, and how they are connected: the whole mesh, or a region of it. Views only.
 struct FaceDomain {
-  const DualGraph& graph;                 ///< #F nodes; arcs between faces of the domain only.
-  std::span<const uint32_t> componentOf;  ///< #F: components of this graph; other faces are in one of their own.
+  const DualGraph& graph;  ///< #F nodes; arcs between faces of the domain only.
+  /// #F: components of `graph`. All faces outside of the domain are one further component.
+  std::span<const uint32_t> componentOf;
   size_t componentCount = 0;
   std::span<const uint32_t> traceableFaces;  ///< Faces of the domain that can cast rays, ascending.
   std::span<const uint8_t> inputFaces;       ///< #I, nonzero = in the domain; empty: all are.
 
-  /// Whether the input face of that index is in the domain.
+  /// Whether the input face with this index is in the domain.
   [[nodiscard]] bool contains(uint64_t inputFace) const { return inputFaces.empty() || inputFaces[inputFace] != 0; }
 };
 
 [[nodiscard]] FaceDomain wholeMesh(const PreparedMesh& prepared);
 
-/// A region of the mesh. The mesh and the array of its input faces must outlive it.
+/// A region of the mesh. The mesh and `inputFaces` must outlive this object.
 class Region {
  public:
   /// inputFaces: #I, nonzero = in the region.
@@ -47,7 +48,7 @@ class Region {
   std::vector<uint32_t> traceableFaces_;
 };
 
-/// Empty where the region has all faces or is not given. Throws Error{ArraySize} for another size than #I,
+/// Returns no region if `inputFaces` is empty or has all faces. Throws Error{ArraySize} if its size is not #I, and
 /// Error{EmptyMesh} for a region without a face.
 [[nodiscard]] std::optional<Region> regionOf(const PreparedMesh& prepared, std::span<const uint8_t> inputFaces);
 

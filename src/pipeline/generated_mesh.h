@@ -9,15 +9,15 @@
 
 namespace asdfvk {
 
-/// A torus with bumps: closed, with values of many sizes. Of 2 longCount shortCount faces.
+/// A closed torus with bumps, which has values of many sizes, and 2 * longCount * shortCount faces.
 [[nodiscard]] Mesh bumpyTorus(uint32_t longCount, uint32_t shortCount);
 
-/// A closed ring of 768 faces, half of it a bumpy torus, half with a square section: sharp edges, and coplanar faces in
-/// planes of the axes.
+/// A closed ring of 768 faces. One half is a bumpy torus; the other half has a square section, with sharp edges and
+/// with coplanar faces in axis-aligned planes.
 [[nodiscard]] Mesh halfSquareRing();
 
-/// A generated mesh, prepared for tracers: tests of a device on it have the same outcome whatever the meshes of the
-/// user are.
+/// A generated mesh, prepared for tracers. The outcome of a test of a device on it does not depend on the meshes of the
+/// user.
 struct GeneratedMesh {
   explicit GeneratedMesh(Mesh generated) : mesh(std::move(generated)) {}
 

@@ -12,11 +12,11 @@
 
 namespace asdfvk {
 
-/// Values of all faces, interpolated from those of the seeds.
+/// Values of all faces, interpolated from the values of the seeds.
 struct Interpolated {
   std::vector<double> values;  ///< #F; NaN outside of the domain and in components without any value.
-  SolverReport solver;         ///< The name is "none" where there was nothing to solve.
-  uint64_t clampedCount = 0;   ///< Faces whose solution was limited to the values of the seeds.
+  SolverReport solver;         ///< Its name is "none" where there was nothing to solve.
+  uint64_t clampedCount = 0;   ///< Faces whose solution was limited to the range of the values of the seeds.
 };
 
 /// Traced values of one component. Components are separate because parts of one mesh may differ in size by any factor.
@@ -29,7 +29,7 @@ struct ComponentValues {
 /// Interpolation on one domain of a mesh, for any sets of seeds.
 class Interpolation {
  public:
-  /// The arguments must outlive it.
+  /// The arguments must outlive this object.
   Interpolation(const FaceDomain& domain, const PreparedMesh& prepared, const Options& options, EquationSolver& solver)
       : domain_(domain), prepared_(prepared), options_(options), solver_(solver) {}
 
@@ -37,11 +37,11 @@ class Interpolation {
   /// with Guidance::Prediction. The values are not pooled yet.
   [[nodiscard]] Interpolated solve(std::span<const double> constraints, std::span<const double> predicted,
                                    const RunControl& control);
-  /// The pooled values of `faces` by these constraints and this prediction; see interpolateLocally(). solved: the
+  /// The pooled values of `faces` with these constraints and this prediction; see interpolateLocally(). solved: the
   /// result of solve() with more constraints. Returns #faces.
   [[nodiscard]] std::vector<double> valuesAt(std::span<const uint32_t> faces, std::span<const double> constraints,
                                              std::span<const double> predicted, std::span<const double> solved);
-  /// Moves values of solve() to the prediction by InterpolationOptions::pooling.
+  /// Moves `values`, results of solve(), towards the prediction by the share InterpolationOptions::pooling.
   void pool(std::span<const double> predicted, std::vector<double>& values) const;
 
  private:
@@ -58,7 +58,8 @@ class Interpolation {
   const PreparedMesh& prepared_;
   const Options& options_;
   EquationSolver& solver_;
-  std::vector<double> weights_;  ///< One per arc of the dual graph; computed lazily, so that tracing does not hold it.
+  std::vector<double> weights_;  ///< One per arc of the dual graph; computed at first use, so that they take no memory
+                                 ///< while rays are traced.
 };
 
 }  // namespace asdfvk

@@ -21,16 +21,16 @@ struct KeptTracer {
   std::optional<TraceVariant> variant = {};  ///< The variant of the kernels; unset without Vulkan.
 };
 
-/// The tracers of one scene. The last ones used are kept, because making one encodes and uploads the hierarchy.
+/// The tracers of one scene. The tracers used last are kept, because making a tracer encodes and uploads the hierarchy.
 class KeptTracers {
  public:
-  /// Backend and scene must outlive it and all tracers. capacity: number of tracers to keep.
+  /// Backend and scene must outlive this object and all tracers. capacity: number of tracers to keep.
   KeptTracers(Backend& backend, const TraceScene& scene, size_t capacity)
       : backend_(backend), scene_(scene), capacity_(capacity) {}
 
   [[nodiscard]] const Backend& backend() const { return backend_; }
-  /// A tracer for these cones: a kept one that serves the needs, or a new one. Creation is charged to the clock. Throws
-  /// as makeCone(), and Error{Device}.
+  /// A tracer for these cones: a kept tracer that serves the needs, or a new one. The time of creation is charged to
+  /// the clock. Throws the errors of makeCone(), and Error{Device}.
   [[nodiscard]] std::shared_ptr<KeptTracer> get(const ConeOptions& options, const TracerNeeds& needs,
                                                 StageClock& clock);
 
@@ -41,10 +41,10 @@ class KeptTracers {
   Backend& backend_;
   TraceScene scene_;
   size_t capacity_;
-  std::vector<std::shared_ptr<KeptTracer>> kept_;  // The last used first; each has other options.
+  std::vector<std::shared_ptr<KeptTracer>> kept_;  // Ordered by last use, the latest first.
 };
 
-/// Stage of creating and releasing a tracer: without Vulkan nothing is uploaded.
+/// The stage to which creating and releasing a tracer is charged: Stage::Upload with Vulkan, else Stage::Encode.
 [[nodiscard]] Stage setUpStage(const Backend& backend);
 
 }  // namespace asdfvk

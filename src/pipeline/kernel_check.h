@@ -6,9 +6,8 @@
 
 namespace asdfvk {
 
-// Comparisons of compiled kernels with the CPU at their first use, on a
-// generated mesh and with a cone of their own, so that the outcome depends on
-// nothing but the kernel.
+// Comparisons of compiled kernels with the CPU at their first use. They have a generated mesh and a fixed cone, so that
+// the outcome depends on the kernel only.
 
 /// Compares a tracer with the reference.
 [[nodiscard]] TracerCheck checkKernel(const VulkanConeKernel& kernel);

@@ -16,7 +16,7 @@ namespace asdfvk {
 
 /// Data of a mesh that is independent of rays, seeds and devices.
 struct PreparedMesh {
-  Mesh storage;       ///< Arrays of `mesh` that differ from those of the caller: converted, triangulated or reversed.
+  Mesh storage;       ///< Arrays of `mesh` that differ from the caller's: converted, triangulated or reversed.
   TriangleMesh mesh;  ///< Views of `storage` and of the arrays of the caller.
   FaceGeometry geometry;
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
@@ -31,15 +31,16 @@ struct PreparedMesh {
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };
 
-/// The triangles of a caller. storage: receives the arrays that differ from those of the caller; both must outlive the
-/// result. Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange}, Error{MeshTooLarge}.
+/// The triangles of a caller. storage: receives the arrays that differ from the caller's. The arrays of the caller and
+/// `storage` must outlive the result. Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange},
+/// Error{MeshTooLarge}.
 [[nodiscard]] TriangleMesh trianglesOf(const MeshView& view, Mesh& storage);
 
 /// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
-/// result. Throws as trianglesOf(), and Error{FarFromOrigin}.
+/// result. Throws the errors of trianglesOf(), and Error{FarFromOrigin}.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
 
-/// Does not measure times.
+/// As above, without measuring times.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation);
 
 }  // namespace asdfvk

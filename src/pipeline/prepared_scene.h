@@ -7,12 +7,13 @@
 
 namespace asdfvk {
 
-/// A mesh with all that computations on it need but a tracer. At a fixed address: tracers refer to it.
+/// A mesh with everything that computations on it need, except a tracer. It has a fixed address, because tracers refer
+/// to it.
 struct PreparedScene {
   PreparedMesh prepared;
   Bvh bvh;
 
-  /// Throws as prepareMesh(), and Error{Cancelled} between the stages.
+  /// Throws the errors of prepareMesh(), and Error{Cancelled} between the stages.
   PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control)
       : prepared((control.checkpoint(0), prepareMesh(mesh, orientation, clock))) {
     control.checkpoint(0);

@@ -10,12 +10,12 @@
 
 namespace asdfvk {
 
-/// Number of seeds of the (first) round among the faces that can cast rays; at least one where there is any. Throws
+/// Number of seeds of the first round among the faces that can cast rays; at least one if there is such a face. Throws
 /// Error{OptionOutOfRange}.
 [[nodiscard]] uint64_t resolveSeedCount(const Options& options, uint64_t traceableFaceCount);
 
-/// Two kinds of seeds: those of the sampler, and held-out faces. Held-out faces are sampled at random among the other
-/// faces; the error of an interpolation without them is measured there without bias.
+/// The seeds of the sampler, and held-out faces. Held-out faces are sampled at random among the other faces: at these,
+/// the error of an interpolation without them is measured without bias.
 struct SeedChoice {
   std::vector<uint32_t> sampled, heldOut;  ///< Ascending and disjoint.
 };
@@ -23,18 +23,19 @@ struct SeedChoice {
 /// The sampler of completed options.
 [[nodiscard]] const Sampler& samplerOf(const Options& options);
 
-/// How many of the further seeds are of each kind, when the error is estimated.
+/// Numbers of further seeds of each kind, for a computation that estimates the error.
 struct SeedShares {
   uint64_t sampled = 0, heldOut = 0;
   uint64_t extreme = 0;  ///< See extremeSeeds().
 };
 
-/// earlierHeldOutCount: of the rounds before. predicts: a prediction will be available for extreme seeds.
+/// earlierHeldOutCount: number of held-out faces of earlier rounds. predicts: whether a prediction will be available
+/// for extreme seeds.
 [[nodiscard]] SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predicts);
 
-/// Selects further seeds: by the sampler, and held-out faces with equal probability among the others. The number of
-/// held-out faces is 0 if a prediction is available (see sampleHeldOut()). earlier: all earlier seeds. density: #F, for
-/// the second half of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
+/// Selects further seeds: by the sampler, and held-out faces with equal probability among the other faces. The number
+/// of held-out faces is 0 if a prediction is available (see sampleHeldOut()). earlier: all earlier seeds. density: #F,
+/// for the second half of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
 [[nodiscard]] SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, const Options& options,
                                      const SeedShares& shares, const SeedChoice& earlier,
                                      std::span<const double> density = {});

@@ -10,21 +10,21 @@
 
 namespace asdfvk {
 
-/// Predictions of one computation, from the hits of any of its seeds. With a solver of the device, the device predicts,
-/// too. Where the solver is "auto" and the device fails or is too small, the CPU predicts and a warning contains the
+/// Predictions of one computation, from the hits of any of its seeds. The device predicts if the solver runs on the
+/// device. Where the solver is "auto" and the device fails or is too small, the CPU predicts and a warning contains the
 /// reason.
 class SeedPrediction {
  public:
-  /// The computation must outlive it.
+  /// The computation must outlive this object.
   explicit SeedPrediction(const Computation& computation) : computation_(computation) {}
 
-  /// Predicts all faces from the hits of these seeds; where hits are not kept it does nothing. Seeds of an earlier call
-  /// must be at the same indices. Throws Error{Cancelled}.
+  /// Predicts all faces from the hits of these seeds. Does nothing if Computation::keepsHits() is false. Seeds of an
+  /// earlier call must be at the same indices. Throws Error{Cancelled}.
   void predict(const SeedHitsView& hits, const RunControl& control);
-  /// Adds the seeds that have no cell yet to the last prediction. Returns its earlier values; see asdfvk::addSeeds().
-  /// Throws as predict().
+  /// Adds the seeds that have no cell yet to the last prediction. Returns the values that were replaced; see
+  /// asdfvk::addSeeds(). Throws the errors of predict().
   [[nodiscard]] std::vector<ReplacedValue> addSeeds(const SeedHitsView& hits, const RunControl& control);
-  /// Exchanges these values of the last prediction with those in it.
+  /// Swaps the values in `replaced` with the values of the same faces in the last prediction.
   void exchange(std::vector<ReplacedValue>& replaced);
   /// The last prediction; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& last() const { return last_; }

@@ -15,7 +15,7 @@ namespace asdfvk {
 /// nodes of the hierarchy if they are not needed later.
 class SeedTracing {
  public:
-  /// The computation must outlive it. released: the hierarchy whose nodes the destructor releases; null: none.
+  /// The computation must outlive this object. released: the hierarchy whose nodes the destructor releases; null: none.
   SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released);
   ~SeedTracing();
   SeedTracing(const SeedTracing&) = delete;
@@ -25,7 +25,7 @@ class SeedTracing {
   [[nodiscard]] const std::optional<TraceVariant>& traceVariant() const { return tracer_->variant; }
   /// Adds `faces`, none of which may be in `traced`, and their hits.
   void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
-  /// Adds seeds to each component without a value until it has one or no face is left.
+  /// Adds seeds to each component without a value until the component has a value or no face is left.
   void traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control);
 
  private:

@@ -18,16 +18,16 @@ struct SegmentedValues {
   std::vector<uint32_t> segments;  ///< #I, see segmentsOfInputFaces().
 };
 
-/// Post-processes and segments by the values of the triangles (#F, NaN for no value), and adds the results to the
-/// report. sight: for Segmentation::Parts only. A power of two as the unit of the mesh changes no bit. The same bits on
-/// any number of threads. Throws Error{NoValues}, and Error{TooFewValues} where there are fewer different values than
-/// clusters.
+/// Post-processes the values of the triangles (#F, NaN for no value), segments the mesh by them, and adds the results
+/// to the report. sight: for Segmentation::Parts only. Scaling the mesh by a power of two changes no bit. The result
+/// has the same bits on any number of threads. Throws Error{NoValues}, and Error{TooFewValues} where there are fewer
+/// different values than clusters.
 [[nodiscard]] SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const double> values,
                                             const Options& options, const LineOfSight& sight, StageClock& clock,
                                             Report& report, const RunControl& control);
 
-/// Lines of sight in the scene, which must outlive the result with the nodes of its hierarchy: by the tracer of the
-/// CPU, or by the reference. A tracer is made at the first call.
+/// Tests lines of sight in the scene by the tracer of the CPU, or by the reference. The first call of the result makes
+/// the tracer. The scene and the nodes of its hierarchy must outlive the result.
 [[nodiscard]] LineOfSight makeLineOfSight(const TraceScene& scene, bool usesReference, const RunControl& control);
 
 }  // namespace asdfvk

@@ -13,22 +13,23 @@ class SessionState {
  public:
   explicit SessionState(const SessionOptions& options) : named(openBackend(options)), options_(options) {}
 
-  /// Calls compute(control). Where the device fails, is lost or is out of memory, and another backend may be used,
-  /// compute() is called again with that one; the progress never decreases. The session continues with it, unless this
-  /// mesh needed more memory than the device has. mayReplace: whether the computation needs no device.
+  /// Calls compute(control). If the device fails, is lost or is out of memory, and another backend may be used, calls
+  /// compute() again with the other backend; the progress never decreases. The session continues with the other
+  /// backend, unless this mesh needed more memory than the device has. mayReplace: whether the computation needs no
+  /// device.
   template <typename Compute>
   auto compute(bool mayReplace, const RunControl& control, const Compute& compute);
 
-  /// For each computation on a backend that replaces another one.
+  /// Warnings for each computation on a backend that replaces another one.
   [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
   NamedBackend named;
   Solvers solvers;  ///< Destroyed before the device that they use.
 
  private:
-  /// Opens the next backend of "auto". Returns false where there is none, or where the options request this one.
+  /// Opens the next backend of "auto". Returns false if there is none, or if the options request the current backend.
   bool replaceBackend(const Error& failure);
-  /// Ends a replacement for one mesh.
+  /// Ends a replacement that was for one mesh only.
   void returnToDevice();
 
   struct Return {
@@ -39,7 +40,7 @@ class SessionState {
   SessionOptions options_;
   std::vector<Warning> warnings_;
   std::vector<NamedBackend> replaced_;  // Kept: tracers of scenes may refer to them.
-  bool lacksMemory_ = false;            // The last of them did, for this mesh.
+  bool lacksMemory_ = false;            // Whether the last of `replaced_` lacked memory for this mesh.
 };
 
 template <typename Compute>

@@ -13,7 +13,7 @@ namespace asdfvk {
 /// one, so that no time is counted twice.
 class StageClock {
  public:
-  /// began: called whenever another stage begins or goes on; may be empty.
+  /// began: called whenever another stage begins or continues; may be empty.
   explicit StageClock(StageSeconds& seconds, std::function<void(Stage)> began = {})
       : seconds_(seconds), began_(std::move(began)) {}
   StageClock(const StageClock&) = delete;
@@ -39,7 +39,7 @@ class StageClock {
   }
   /// Seconds of a stage. Precondition: no Scope of this stage is open.
   [[nodiscard]] double secondsOf(Stage stage) const { return seconds_[stage]; }
-  /// Since construction.
+  /// Seconds since construction.
   [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
  private:

@@ -14,7 +14,7 @@
 
 namespace asdfvk {
 
-/// Calls take(i, p) with the surface point p nearest to each point i, in parallel; p.face is kNoFace where no triangle
+/// Calls take(i, p) for each point i with the nearest surface point p, in parallel. p.face is kNoFace if no triangle
 /// has an area. points: in the unit of the mesh.
 void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, const RunControl& control,
                        FunctionRef<void(size_t, const SurfacePoint&)> take);
@@ -24,7 +24,7 @@ void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points
 /// in the unit of the mesh, in its bounding box.
 [[nodiscard]] bool isBehindSurface(const PreparedScene& scene, const Vec3d& point, const SurfacePoint& nearest);
 
-/// See Scene::firstHits(). Directions are unit; kNoFace and faces are those of triangles.
+/// See Scene::firstHits(). directions: unit. RayHit::face is a triangle or kNoFace.
 [[nodiscard]] std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Vec3d> origins,
                                                 std::span<const Vec3d> directions, const RunControl& control);
 

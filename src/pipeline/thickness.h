@@ -13,23 +13,23 @@
 
 namespace asdfvk {
 
-/// Thickness of all triangles of the domain; lengths in the unit of the mesh.
+/// Thickness of all triangles of the domain. Lengths are in the unit of the mesh unless stated.
 struct FaceThickness {
   std::vector<double> atBarycentre;  ///< #F; NaN for no value.
   std::vector<double> least;         ///< #F, over all points of the face; 0 at sharp edges.
   std::vector<uint32_t> leastWalls;  ///< #F, the wall that limits `least`; kNoFace where the greatest section does.
   std::vector<uint8_t> isJudged;     ///< #F, 0 where `least` does not count: no value, or a misoriented component.
   SharpEdges sharp;                  ///< Sharp edges of the domain.
-  std::optional<GreatestSection> greatestSection;  ///< The greatest one of all closed solids.
+  std::optional<GreatestSection> greatestSection;  ///< The greatest section of all closed solids.
   UnjudgedFaces unjudged;
   std::vector<ThinPart> thinParts;  ///< Thin parts of faces, in normalised coordinates. Empty without a limit.
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
-/// section of its solid. No value where neither is known: nothing opposes, and the component is open.
+/// section of its solid. A face without a wall that opposes it, in an open component, has no value.
 [[nodiscard]] FaceThickness measureThickness(const Computation& computation, const RunControl& control);
 
-/// The field: for each input face the least value of its triangles; NaN without one. values: #F. Returns #I.
+/// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
 /// Percentiles, sharp edges and, with a limit, the verdict and the thin regions. surface: receives the thin parts.

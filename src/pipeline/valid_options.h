@@ -6,8 +6,9 @@
 
 namespace asdfvk {
 
-/// The options with what they imply (describe/computation_options.h). Throws Error{OptionOutOfRange},
-/// Error{OptionConflict}, Error{UnknownName}; Error{NoDeviceForKernel} for a solver that needs a device without one.
+/// The options together with the settings that they imply (describe/computation_options.h). Throws
+/// Error{OptionOutOfRange}, Error{OptionConflict}, Error{UnknownName}; and Error{NoDeviceForKernel} if the solver needs
+/// a device and hasDevice is false.
 [[nodiscard]] Options completed(const Options& options, bool hasDevice);
 
 /// Whether a solver of solverNames() needs a Vulkan device; false for "auto". Throws Error{UnknownName}.

@@ -13,8 +13,8 @@ namespace asdfvk {
 /// Number of input faces of the domain without a value. field: #I.
 [[nodiscard]] uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field);
 
-/// Adds to the report: the range of the values, the number of missing values of the domain, warnings about values and
-/// solver. sdf: #I. values: #F. keepsMissing: see Computation.
+/// Adds the range of the values, the number of missing values of the domain, and warnings about values and solver to
+/// the report. sdf: #I. values: #F. keepsMissing: see Computation.
 void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
                     const std::vector<double>& sdf, std::span<const double> values, bool keepsMissing);
 

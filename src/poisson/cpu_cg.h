@@ -14,9 +14,9 @@
 
 namespace asdfvk {
 
-/// Conjugate gradients on (I - S) y = b from y = 0 on all cores of the CPU: the iteration of VulkanCg. Two passes over
-/// the vectors per iteration; sums over blocks of fixed size and then over the blocks in order, so that the bits do not
-/// depend on the number of threads. System: ScaledSystem (float32) or an Eigen matrix (double).
+/// Conjugate gradients on (I - S) y = b from y = 0 on all cores of the CPU: the iteration of VulkanCg. Each iteration
+/// makes two passes over the vectors. Sums are over blocks of fixed size, then over the blocks in order, so that the
+/// bits do not depend on the number of threads. System: ScaledSystem (float32) or an Eigen matrix (double precision).
 template <typename System>
 class CpuCg {
  public:
@@ -29,7 +29,7 @@ class CpuCg {
   };
 
   /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`. The
-  /// system must outlive this.
+  /// system must outlive this object.
   CpuCg(const System& system, UnsetVector<Real> rightHandSide, double reduction);
 
   /// Runs up to `iterationCount` iterations; stops at convergence or breakdown.

@@ -18,12 +18,12 @@ namespace asdfvk {
 
 class Device;
 
-/// One interpolation on a dual graph, as buildPoissonSystem() has it. The vectors are the solver's to release.
+/// One interpolation on a dual graph: arguments of buildPoissonSystem(). The solver may release the vectors.
 struct GraphProblem {
   std::span<const double> constraints;  ///< #F, NaN for a face without one.
   std::vector<double> firstGuess;       ///< #F; non-finite entries are replaced by the mean of the constraints.
-  std::span<const double> guide;   ///< #F, or empty: a field, of which the equation has the divergenceOf(). A device
-                                   ///< starts from its finite entries.
+  std::span<const double> guide;   ///< #F, or empty: a field; the equation includes its divergenceOf(). A device starts
+                                   ///< from the finite entries of the field.
   std::vector<double> divergence;  ///< #F, or empty: further divergence; non-finite entries count as 0.
   std::span<const uint32_t> componentOf;  ///< #F
 };
@@ -31,7 +31,7 @@ struct GraphProblem {
 /// The system of the unknown faces.
 [[nodiscard]] PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, GraphProblem problem);
 
-/// Down to this tolerance a device needs no residuals in double.
+/// The least tolerance that a device reaches without residuals in double.
 inline constexpr double kMinDeviceTolerance = 1e-6;
 
 /// A solver on one dual graph with weights, for any constraints.
@@ -39,8 +39,8 @@ class GraphSolver {
  public:
   virtual ~GraphSolver() = default;
 
-  /// values: #F, overwritten with the constraints and the solution; empty before, because a solver of the CPU has the
-  /// most memory of a run at this time. The name in the report is empty. Throws Error{Cancelled}, Error{Device}.
+  /// values: receives the constraints and the solution, #F. It should be empty before the call, because a run uses the
+  /// most memory while the CPU solves. The name in the report is empty. Throws Error{Cancelled}, Error{Device}.
   virtual SolverReport solve(GraphProblem problem, const SolverOptions& options, std::vector<double>& values,
                              const RunControl& control) = 0;
 };
@@ -49,9 +49,9 @@ class PoissonSolver {
  public:
   virtual ~PoissonSolver() = default;
 
-  /// For several interpolations on a graph: a device keeps their matrix, which is the same for all. Solver, graph and
-  /// weights must outlive the result. Throws Error{Device}; Error{EquationLimit} for a graph that exceeds a limit of
-  /// the device.
+  /// A solver of several interpolations on one graph. A device keeps the matrix, which is the same for all of them.
+  /// Solver, graph and weights must outlive the result. Throws Error{Device}; Error{EquationLimit} for a graph that
+  /// exceeds a limit of the device.
   [[nodiscard]] virtual std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph,
                                                              std::span<const double> weights) = 0;
 };
@@ -74,7 +74,7 @@ using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 /// Jacobi-preconditioned conjugate gradients in float32 on the device. Below kMinDeviceTolerance, and where float32
 /// stagnates, solveByEigen() continues on the CPU.
 [[nodiscard]] MakeSolver makeVulkanCgSolver;
-/// Jacobi iterations in the same place: slow, for comparison.
+/// Like makeVulkanCgSolver with Jacobi iterations instead of conjugate gradients: slow, for comparison.
 [[nodiscard]] MakeSolver makeVulkanJacobiSolver;
 /// Solvers that build the system and call solveByCpuCg() or solveByEigen().
 [[nodiscard]] MakeSolver makeCpuCgSolver, makeEigenSolver;
@@ -82,7 +82,7 @@ using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 struct Solver {
   const char* name;
   bool needsDevice;
-  uint32_t storageBufferCount;  ///< Storage buffers that a kernel binds. The minimum of Vulkan is four.
+  uint32_t storageBufferCount;  ///< Storage buffers that a kernel binds. Vulkan guarantees four.
   MakeSolver* make;
 };
 
@@ -91,11 +91,11 @@ inline constexpr const char* kAutomaticSolver = "auto";  ///< Stands for default
 [[nodiscard]] std::span<const Solver> solverTable();
 /// Throws Error{UnknownName}.
 [[nodiscard]] const Solver& findSolver(std::string_view name);
-/// The default solver on a device, or the one on the CPU.
+/// The default solver on a device if needsDevice, else the default solver on the CPU.
 [[nodiscard]] const Solver& defaultSolver(bool needsDevice);
-/// Throws Error{NoDeviceForKernel} for a solver that needs a device without one.
+/// Throws Error{NoDeviceForKernel} if the solver needs a device and there is none.
 void requireUsable(const Solver& solver, bool hasDevice);
-/// Throws Error{UnknownName}; the error of requireUsable() where `device` is null.
+/// device: may be null. Throws Error{UnknownName} and the error of requireUsable().
 [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device);
 
 }  // namespace asdfvk

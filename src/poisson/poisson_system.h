@@ -21,7 +21,7 @@ inline constexpr double kConvexScaleDegrees = 8;
 ///   Feature:  1 / (1 + (a / s)^2), a: dihedral angle, s: kConcaveScaleDegrees or kConvexScaleDegrees
 /// One weight per arc, in the order of graph.neighbours: positive, finite, and with the same bits in both directions.
 /// Unit: 1 / length for Distance, none for Feature. Distances below 1e-9 of the diagonal of the bounding box are
-/// replaced by that, which keeps the matrix finite for coincident barycentres.
+/// replaced by this bound, which keeps the matrix finite for coincident barycentres.
 [[nodiscard]] std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry);
 
 /// A u = b for the unknown faces of an interpolation. A is symmetric, positive definite and an M-matrix: its
@@ -81,8 +81,8 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
   return residualNorm(system, system.rightHandSide);
 }
 
-/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and for a residual of 0, infinite where only b is
-/// 0.
+/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and for a residual of 0; infinite where b is 0 and
+/// the residual is not.
 [[nodiscard]] double relativeResidual(const PoissonSystem& system, std::span<const double> solution);
 
 }  // namespace asdfvk

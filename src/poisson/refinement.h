@@ -36,10 +36,10 @@ struct CorrectionRequest {
   double norm = 0;                   ///< residualNorm() of `residual`, > 0.
   double reduction = 0;              ///< The pass may end when the norm is at or below this share of `norm`.
   uint32_t maxIterations = 0;
-  std::span<double> correction;  ///< #U: e, overwritten. In the place of the residual.
+  std::span<double> correction;  ///< #U: receives e. Views the same memory as `residual`.
 };
 
-/// The share of the norm of the residual that a pass is to reach.
+/// CorrectionRequest::reduction of a pass. targetNorm: norm of the residual at which the refinement ends.
 [[nodiscard]] double passReduction(double targetNorm, double norm, double minReduction);
 /// Whether a pass has reached the limit of its precision.
 [[nodiscard]] bool passStagnates(double newNorm, double norm);
@@ -53,10 +53,10 @@ struct Corrector {
   CorrectionSolver correct;
 };
 
-/// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`, from the
-/// first guess until the true relative residual is within the tolerance or the iteration limit is reached. When a pass
-/// stagnates, the next corrector is used; after the last one the refinement ends. A correction that is not finite or
-/// increases the residual is discarded. solution: #U, overwritten.
+/// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`. It starts
+/// at the first guess and ends when the true relative residual is within the tolerance, or at the iteration limit. When
+/// a pass stagnates, the next corrector is used; when the last corrector stagnates, the refinement ends. A correction
+/// that is not finite or increases the residual is discarded. solution: #U, overwritten.
 [[nodiscard]] SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options,
                                              std::span<double> solution, const std::vector<Corrector>& correctors);
 

@@ -18,7 +18,7 @@ class DiagonalScaling {
   /// diagonal: #U, above 0, must outlive this object.
   explicit DiagonalScaling(std::span<const double> diagonal);
 
-  /// #U: weights w for which sum w_i r_i^2, r = b - (I - S) y, is the square of residualNorm() of the corresponding
+  /// #U: weights w. For r = b - (I - S) y, the sum of w_i r_i^2 is the square of residualNorm() of the corresponding
   /// residual of A e = residual.
   [[nodiscard]] const UnsetVector<Real>& residualWeights() const { return residualWeights_; }
 
@@ -37,8 +37,8 @@ class DiagonalScaling {
   UnsetVector<Real> residualWeights_;
 };
 
-/// A Poisson system in scaled form and float32, for CpuCg and the twins of the kernels. Rows correspond to those of the
-/// system, which must outlive this object.
+/// A Poisson system in scaled form and float32, for CpuCg and for tests of the kernels. Row i belongs to unknown i of
+/// the system. The system must outlive this object.
 class ScaledSystem : public DiagonalScaling<float> {
  public:
   using Real = float;

@@ -12,7 +12,7 @@ namespace asdfvk {
 /// The hit points of seeds in the layout of PredictionKernel.
 class HitPoints {
  public:
-  /// Scene, cone and arrays must outlive it.
+  /// Scene, cone and arrays must outlive this object.
   HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits);
 
   void clear();

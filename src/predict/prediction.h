@@ -8,10 +8,10 @@
 #include "trace/seed_hits.h"
 
 /// Prediction of the shape diameter of faces that cast no rays, from the hits of the seeds around them. The hit points
-/// are on the opposite side of the shape, and most of them are visible from the face too: from its barycentre each has
-/// a distance and an angle to the axis of the face's cone. The points in that cone, weighted by the solid angle that
-/// they represent there, replace the hits of the face in the definition of the value (cone/cone.h). No ray is cast, and
-/// occlusion between the face and a point is not tested.
+/// are on the opposite side of the shape, and most of them are visible from the face too. Each point has a distance
+/// from the barycentre of the face and an angle to the axis of the face's cone. The points in this cone, weighted by
+/// the solid angle that they represent as seen from the face, replace the hits of the face in the definition of the
+/// value (cone/cone.h). No ray is cast, and occlusion between the face and a point is not tested.
 ///
 /// Source: reprojection of cached rays in global illumination (Ward and Heckbert 1992, "Irradiance gradients"; Bekaert,
 /// Sbert and Halton 2002, "Accelerating path tracing by re-using paths"). The gradient of the prediction is a guidance
@@ -40,11 +40,12 @@ struct PredictionInput {
   const SeedCells& cells;  ///< The cells of the faces that are to be predicted.
   const NearestCells& nearest;
   const PredictionOptions& options;
-  std::span<const uint32_t> order;  ///< The cells that are not empty; neighbours in space are close to each other.
-  const Prediction& earlier;        ///< See predictValues().
+  /// The cells that are not empty, in an order in which neighbours in space are close to each other.
+  std::span<const uint32_t> order;
+  const Prediction& earlier;  ///< See predictValues().
 
-  /// Whether the same seeds as in the earlier prediction contribute to the faces of a cell. The faces that are in it
-  /// again have the same values.
+  /// Whether the same seeds as in the earlier prediction contribute to the faces of a cell. Faces that were in the cell
+  /// in the earlier prediction then keep their values.
   [[nodiscard]] bool hasEarlierSeeds(uint32_t cell) const;
 };
 
@@ -54,14 +55,15 @@ class DevicePredictor {
   virtual ~DevicePredictor() = default;
 
   /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
-  /// Throws Error{Cancelled} between submissions, and Error of kind Device, also for more neighbours than the device
-  /// supports.
+  /// Throws Error{Cancelled} between submissions, and Error of kind Device, for example if there are more neighbours
+  /// than the device supports.
   virtual void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) = 0;
 };
 
-/// The result does not depend on the number of threads. earlier: empty, or a prediction of the same scene, cone and
-/// options; seeds that still exist have the same indices in `hits`. Values that did not change are copied from
-/// `earlier`. device: null predicts on the CPU, which cannot be cancelled. Throws as the device.
+/// Predicts the values of all faces. The result does not depend on the number of threads. earlier: empty, or a
+/// prediction of the same scene, cone and options; seeds that still exist have the same indices in `hits`. Values that
+/// did not change are copied from `earlier`. device: null predicts on the CPU, which cannot be cancelled. Throws the
+/// errors of the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                        const SeedHitsView& hits, const PredictionOptions& options,
                                        Prediction earlier = {}, DevicePredictor* device = nullptr,
@@ -73,10 +75,10 @@ struct ReplacedValue {
   double value;
 };
 
-/// Adds seeds to a prediction: those in `hits` that have no cell in it yet. The cell of such a seed is made of the
-/// faces around it that are nearer to it than to the seed of their cell, and only these are predicted again. The other
-/// faces keep their values, although a new seed may be near. Arguments and errors as of predictValues(). Returns the
-/// earlier values, by ascending faces.
+/// Adds the seeds in `hits` that have no cell in the prediction yet. The cell of such a seed is made of the faces
+/// around it that are nearer to it than to the seed of their cell, and only these faces are predicted again. The other
+/// faces keep their values, although a new seed may be near. Arguments and errors as in predictValues(). Returns the
+/// values that were replaced, by ascending face.
 [[nodiscard]] std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                                   const SeedHitsView& hits, const PredictionOptions& options,
                                                   Prediction& prediction, DevicePredictor* device = nullptr,

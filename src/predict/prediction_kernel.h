@@ -12,7 +12,7 @@
 
 namespace asdfvk {
 
-/// Group size of points and seeds: the lane count of the widest vector.
+/// Number of points or seeds in a group: the lane count of the widest vector.
 inline constexpr size_t kPointGroupSize = kLaneCount<Float16>;
 
 /// Hit points of rays, in normalised units. All arrays have one entry per point.
@@ -40,7 +40,7 @@ struct WeightedRange {
 /// The cone of a face that casts no rays, in normalised units.
 struct VirtualCone {
   Vec3d origin, normal;
-  uint32_t face = 0;  ///< The face or the representative of its copies; points on it are ignored.
+  uint32_t face = 0;  ///< The face or, if it has copies, their representative. Points on it are ignored.
 };
 
 /// Seeds around a face, in normalised units. All arrays have one entry per seed.
@@ -49,7 +49,7 @@ struct SeedGroup {
   float nx[kPointGroupSize] = {}, ny[kPointGroupSize] = {}, nz[kPointGroupSize] = {};  ///< Unit normals.
 };
 
-/// The weight of a seed is a Gaussian of its distance and of the angle between its normal and the face's.
+/// The weight of a seed is a Gaussian of its distance and of the angle between its normal and the normal of the face.
 struct SeedWeighting {
   float inverseVariance = 0;       ///< 1 / square of the standard deviation of the distance.
   float inverseAngleVariance = 0;  ///< 1 / square of the standard deviation of the angle in radians.
@@ -62,13 +62,13 @@ class PredictionKernel {
   /// Precondition: this machine has the instruction set.
   explicit PredictionKernel(const Cone& cone, InstructionSet instructionSet = widestInstructionSet());
 
-  /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. ranges: of
+  /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. ranges: ranges of
   /// `groups`. medianLength: the approximate median distance of the points; sums are over differences from it, which
   /// reduces rounding errors.
   [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
                              const VirtualCone& at, float medianLength);
 
-  /// weights: kPointGroupSize, each at least kMinSeedWeight.
+  /// Computes the weights of the seeds. weights: kPointGroupSize entries; each becomes at least kMinSeedWeight.
   void weigh(const SeedGroup& seeds, const SeedWeighting& weighting, const VirtualCone& at, float* weights) const;
 
   /// The rules of the cone, in float32.

@@ -14,12 +14,12 @@ namespace asdfvk {
 
 inline constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
 
-/// The squared length to 24 bits: equal distances of regular meshes remain equal, so that neither rounding nor the unit
-/// of the mesh decides their order.
+/// The squared length, rounded to 24 bits. Equal distances in regular meshes remain equal, so that neither rounding nor
+/// the unit of the mesh decides their order.
 [[nodiscard]] inline double comparableSquare(const Vec3d& between) {
   constexpr uint64_t kLast = uint64_t{1} << 29;  // The last of the 24 bits.
   const double square = dot(between, between);
-  if (square < std::numeric_limits<double>::min()) return square;  // It has few bits already.
+  if (square < std::numeric_limits<double>::min()) return square;  // A subnormal number has few bits already.
   return std::bit_cast<double>((std::bit_cast<uint64_t>(square) + kLast / 2) & ~(kLast - 1));
 }
 
@@ -42,7 +42,8 @@ class NearestCells {
   NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                std::span<const uint32_t> seeds, size_t neighbourCount);
 
-  /// Adds or replaces the rows of some cells. cells: the faces of these cells. cellOf: #F, of all cells.
+  /// Adds or replaces the rows of the `changed` cells. cells: for each changed cell its faces. cellOf: #F, for the
+  /// faces of all cells.
   void update(std::span<const uint32_t> changed, const Buckets<uint32_t>& cells, std::span<const uint32_t> cellOf,
               const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds);
 

@@ -22,7 +22,7 @@ class ComponentSeeds {
                  std::span<const uint32_t> untriedFaces, uint64_t randomSeed);
 
   /// The next batch, ascending; a face occurs in one batch only. Empty if each component has a value or no faces left.
-  /// values: #F, with those of the last batch.
+  /// values: #F, including the values of the last batch.
   [[nodiscard]] std::vector<uint32_t> next(std::span<const double> values);
 
  private:
@@ -32,7 +32,8 @@ class ComponentSeeds {
   };
 
   std::vector<uint32_t> order_;
-  std::vector<Queue> queues_;  ///< One for each of the components without a value and with untried faces, by component.
+  /// One per component that has no value and has untried faces, in the order of the components.
+  std::vector<Queue> queues_;
   size_t batchSize_ = 1;
 };
 

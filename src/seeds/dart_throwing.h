@@ -13,7 +13,8 @@ inline constexpr uint32_t kRadiiPerOctave = 64;
 
 struct ThrownDarts {
   std::vector<uint32_t> faces;  ///< The seeds, in the order of their selection.
-  /// Whether all darts were found at the start radius, where more would fit: a part of the surface may have no dart.
+  /// Whether all darts were found at the start radius. More darts would then fit, and a part of the surface may have
+  /// none.
   bool leaveGaps = false;
 };
 
@@ -24,7 +25,7 @@ struct ThrownDarts {
 ///
 /// waiting: the candidate faces, in order. count: at most their number.
 /// startRadius: kMinArcLength or more; infinity gives farthest-point sampling.
-/// distances: from the existing seeds, exact up to the start radius; unspecified afterwards.
+/// distances: the distances to the existing seeds, exact up to the start radius; unspecified after the call.
 [[nodiscard]] ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float startRadius,
                                      SurfaceDistances& distances);
 

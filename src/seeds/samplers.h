@@ -25,9 +25,9 @@ struct SeedDomain {
 /// not in the graph.
 [[nodiscard]] std::vector<uint32_t> remainingCandidates(const SeedDomain& domain, std::span<const uint32_t> existing);
 
-/// Selects exactly `count` of the candidates that are not in `existing`, or all of them. existing: faces selected
-/// before, in any order. Returns the new seeds, ascending. The result depends on the input and randomSeed only, not on
-/// the number of threads. A connected component may remain without a seed.
+/// Selects exactly `count` of the candidates that are not in `existing`, or all of them if there are fewer. existing:
+/// faces selected before, in any order. Returns the new seeds, ascending. The result depends on the input and
+/// randomSeed only, not on the number of threads. A connected component may remain without a seed.
 using SampleSeeds = std::vector<uint32_t>(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
                                           uint64_t randomSeed);
 
@@ -59,13 +59,14 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 /// Farthest-point sampling (Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985) in the
 /// distances of arcLengths(). Each seed is, within a tolerance of 1/64, the candidate that is farthest from all seeds
 /// before it; the tolerance makes its search constant time (see throwDarts()). The covering radius is at most
-/// 2 (1 + 1/64) times the smallest. A component without a seed is infinitely far away. The first face and the choice
+/// 2 (1 + 1/64) times the smallest. A component without a seed is infinitely far away. The first seed and the choice
 /// between equal distances are random. Takes about log(count) times as long as blue noise.
 [[nodiscard]] SampleSeeds farthestPointSeeds;
 
 /// Normal-space sampling (Rusinkiewicz and Levoy, "Efficient variants of the ICP algorithm", 2001; future work of the
-/// ASDF paper): the same number of seeds from each bin of normals, existing ones counted, while the bin has candidates;
-/// random within a bin. Interpolation from these seeds has larger errors than from a random selection.
+/// ASDF paper): each bin of normals has the same number of seeds, existing seeds included, as long as it has
+/// candidates. The choice within a bin is random. Interpolation from these seeds has larger errors than from a random
+/// selection.
 [[nodiscard]] SampleSeeds normalSpaceSeeds;
 
 /// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side a bin is 10
@@ -79,10 +80,10 @@ inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
 struct Sampler {
   const char* name;
   SampleSeeds* sample;
-  /// Null but for adaptive samplers: there `sample` selects half of the seeds, and `refine` the other half, which is
-  /// denser where the prediction from the first half has a large error indicator.
+  /// Null except for adaptive samplers. Of those, `sample` selects half of the seeds and `refine` the other half, which
+  /// is denser where the prediction from the first half has a large error indicator.
   SampleSeedsByDensity* refine = nullptr;
-  /// All sets of candidates are equally likely, so that any of the seeds can be held out without bias.
+  /// Whether all sets of candidates are equally likely, so that any of the seeds can be held out without bias.
   bool isUniform = false;
 };
 

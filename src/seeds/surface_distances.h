@@ -18,19 +18,19 @@ namespace asdfvk {
 inline constexpr double kConcaveAngleDegrees = 10;
 inline constexpr double kConvexAngleDegrees = 20;
 
-/// Limits of an arc length on any mesh; distances are float.
+/// Limits of the length of an arc on any mesh.
 inline constexpr float kMinArcLength = 0x1p-20f;
 inline constexpr float kMaxArcLength = 0x1p+20f;
 
-/// The length of each arc, aligned with graph.neighbours, the same in both directions: sqrt(1 + (a / s)^2) for the
-/// dihedral angle a of the edge, s: the constants above. No unit; 1 between coplanar faces. The angles are those of
-/// signedDihedralAngle(): a degenerate face counts as coplanar with its neighbour, and the angle between faces of
-/// opposite winding is that of their normals.
+/// The length of each arc, aligned with graph.neighbours, the same in both directions: sqrt(1 + (a / s)^2), where a is
+/// the dihedral angle of the edge and s one of the constants above. Lengths have no unit; the length is 1 between
+/// coplanar faces. The angles are those of signedDihedralAngle(): a degenerate face counts as coplanar with its
+/// neighbour, and the angle between faces of opposite winding is the angle between their normals.
 [[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry);
 
-/// The distance of each face to the nearest of a growing set of seeds: shortest paths from each new seed, pruned at
-/// faces with an older seed at most as far. The time of a new seed is proportional to the number of faces to which it
-/// is the nearest. The graph and the lengths must outlive it.
+/// The distance of each face to the nearest of a growing set of seeds. The search for shortest paths from a new seed
+/// does not enter faces that are at least as near to an older seed. The time of a new seed is proportional to the
+/// number of faces to which it is the nearest seed. The graph and the lengths must outlive this object.
 class SurfaceDistances {
  public:
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
@@ -42,17 +42,17 @@ class SurfaceDistances {
   /// Precondition: limits do not grow from call to call until clear().
   void add(std::span<const uint32_t> seeds, float limit);
 
-  /// 0 for a seed.
+  /// The distance of a face; 0 for a seed.
   [[nodiscard]] float at(uint32_t face) const { return distances_[face]; }
 
-  /// Recommended number of faces to prefetch before they are used, where they are in random order in memory.
+  /// Recommended number of faces between the prefetch and the use of a face, for faces in random order in memory.
   static constexpr size_t kPrefetchDistance = 16;
   /// Prefetches the memory that at(face) and the addition of the face access first.
   void prefetch(uint32_t face) const {
     prefetchMemory(&distances_[face]);
     prefetchMemory(&graph_.offsets[face]);
   }
-  /// Prefetches the memory that the addition of the face accesses next. Some time after prefetch().
+  /// Prefetches the memory that the addition of the face accesses next. Call it some time after prefetch().
   void prefetchArcs(uint32_t face) const {
     prefetchMemory(graph_.neighbours.data() + graph_.offsets[face]);
     prefetchMemory(arcLengths_.data() + graph_.offsets[face]);
@@ -65,7 +65,7 @@ class SurfaceDistances {
   struct Pending {
     float distance = 0;
     uint32_t face = 0;
-    uint32_t parent = 0;  ///< The face before it on the path, or itself.
+    uint32_t parent = 0;  ///< The face before `face` on the path, or `face` itself.
   };
 
   /// Calls put(Pending) for the neighbours whose distance the path over this face lowers to less than `limit`.
@@ -79,7 +79,7 @@ class SurfaceDistances {
 };
 
 /// The faces around a face by ascending distance (Dijkstra's algorithm), for one centre after another; the memory is
-/// reused. The graph and the lengths must outlive it.
+/// reused. The graph and the lengths must outlive this object.
 class SurfaceBall {
  public:
   /// arcLengths: aligned with graph.neighbours, positive.
@@ -92,8 +92,8 @@ class SurfaceBall {
 
   /// Starts again around `centre`, which is the first member.
   void startAt(uint32_t centre);
-  /// The next nearest face; false after the last one of the centre's component. The order of equal distances is
-  /// unspecified but deterministic.
+  /// Sets `member` to the next nearest face. Returns false after the last face of the centre's component. The order of
+  /// equal distances is unspecified but deterministic.
   [[nodiscard]] bool next(Member& member);
 
  private:

@@ -13,7 +13,7 @@ namespace asdfvk {
 /// Two faces that prefer equal labels.
 struct LabelEdge {
   uint32_t f, g;  ///< Different faces.
-  double cost;    ///< Not negative; paid where their labels differ.
+  double cost;    ///< Not negative; part of the energy if the labels of f and g differ.
 };
 
 /// The energy of a labelling is the sum of the data costs of the faces and of the costs of cut edges (Potts model).
@@ -46,33 +46,34 @@ struct LabelProblem {
 [[nodiscard]] double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels);
 
 /// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
-/// Expanding a label gives it to the set of faces that lowers the energy most; of several such sets to the one with the
-/// fewest faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What
-/// Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face that may not have the label has no
+/// Expanding a label gives it to the set of faces that lowers the energy most; among several such sets, to the one with
+/// the fewest faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih:
+/// What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face that may not have the label has no
 /// node: it is visited once while the graph is built. Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {
-    uint32_t expandedLabelCount = std::numeric_limits<uint32_t>::max();  ///< Only lower labels are expanded.
+    /// Only labels below this number are expanded.
+    uint32_t expandedLabelCount = std::numeric_limits<uint32_t>::max();
     uint32_t maxRoundCount = std::numeric_limits<uint32_t>::max();
   };
 
-  /// Expands the labels in order, in rounds, until a round changes nothing. An expansion that does not lower the energy
-  /// by more than 1e-10 of it is not kept, so that rounding errors do not repeat for ever. labels: #F, below
-  /// problem.labelCount and allowed; they are improved in place. Returns their energy. Throws Error{Cancelled} between
-  /// expansions.
+  /// Expands the labels in order, in rounds, until a round changes nothing. An expansion that lowers the energy by at
+  /// most 1e-10 of the energy is discarded, so that rounding errors cannot cause an endless loop. labels: #F, below
+  /// problem.labelCount and allowed; they are improved in place. Returns the energy of the improved labels. Throws
+  /// Error{Cancelled} between expansions.
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits,
                   const RunControl& control = {});
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:
-  /// Writes the labels after the best expansion to expanded_. False where no face changes.
+  /// Writes the labels after the best expansion to expanded_. Returns false if no face changes.
   bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label);
 
   MaxFlow flow_;
   std::vector<uint32_t> nodeOf_;  ///< #F
-  std::vector<double> gains_;  ///< Per node: decrease of the energy if this face alone changes and no edge has a node
-                               ///< at both ends.
+  /// Per node: decrease of the energy if only this face changes, without the edges between two nodes.
+  std::vector<double> gains_;
   std::vector<uint32_t> expanded_;
 };
 

@@ -9,12 +9,12 @@
 
 namespace asdfvk {
 
-/// All faces, such that consecutive faces are close to each other on the surface: each block of `blockSize` faces is
-/// found by breadth-first search from a face beside the blocks before.
+/// All faces in an order in which consecutive faces are close to each other on the surface. Each block of `blockSize`
+/// faces is found by breadth-first search from a face beside the earlier blocks.
 [[nodiscard]] std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blockSize);
 
-/// The faces within some rings of neighbours around faces of a block. A breadth-first search from each of them visits
-/// only copies of the neighbours in a small table. Needs 4 bytes per face of the mesh.
+/// The faces within some rings of neighbours around faces of a block. The breadth-first search from each face of the
+/// block reads copies of the neighbours in a small table only. Needs 4 bytes per face of the mesh.
 class FaceWindows {
  public:
   explicit FaceWindows(const FaceNeighbours& neighbours)
@@ -38,7 +38,7 @@ class FaceWindows {
   const FaceNeighbours& neighbours_;
   std::vector<uint32_t> localOf_;  ///< #F, index into faces_.
   std::vector<uint32_t> faces_;
-  std::vector<uint32_t> rows_;       ///< Three neighbours of each face within fewer than all rings of the block.
+  std::vector<uint32_t> rows_;       ///< Three neighbours of each face within fewer than ringCount rings of the block.
   std::vector<uint32_t> visitedBy_;  ///< The last search that visited the face.
   uint32_t searchCount_ = 0;
 };

@@ -9,34 +9,35 @@ namespace asdfvk {
 
 /// Maximum flow and minimum cut between two terminals, source and sink, by the method of Y. Boykov and V. Kolmogorov:
 /// An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search
-/// trees grow from the terminals; where they touch, flow is augmented; cut-off subtrees are adopted by other parents
-/// of their tree, the nearest to the terminal first, or become free. Before the search, flow is routed along the trees
-/// of a forest, which halves the time of graphs of meshes.
+/// trees grow from the terminals; where they touch, flow is augmented; subtrees that are cut off are adopted by other
+/// parents of their tree, the nearest to the terminal first, or become free. Before the search, flow is routed along
+/// the trees of a forest, which halves the time of graphs of meshes.
 ///
-/// Ranges of consecutive nodes are solved first, in parallel and without the edges between them, then ranges of ranges,
-/// which continue from the trees of their parts: J. Liu, J. Sun: Parallel Graph-cuts by Adaptive Bottom-up Merging,
-/// CVPR 2010. A range fits a cache. Nodes near each other should have near numbers.
+/// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then pairs of ranges
+/// are solved, which continue from the trees of their parts, and so on (J. Liu, J. Sun: Parallel Graph-cuts by Adaptive
+/// Bottom-up Merging, CVPR 2010). A first range fits a cache. Nodes near each other should have near numbers.
 ///
 /// Usage: reset(), then capacities, then solve(), then the sides. The arrays are reused: an object that has solved a
-/// problem allocates nothing for another that is no larger, but for the lists of orphans. The result does not depend on
-/// the number of threads. 36 bytes per node and 32 per edge.
+/// problem allocates nothing for another problem of at most this size, except lists of orphans. The result does not
+/// depend on the number of threads. Memory: 36 bytes per node and 32 bytes per edge.
 class MaxFlow {
  public:
-  /// Nodes without capacities.
+  /// Starts a problem of nodes without capacities and edges.
   void reset(uint32_t nodeCount);
 
-  /// Adds `capacity` from the source to the node; negative: -capacity from the node to the sink. Capacities of one node
-  /// to both terminals cancel out: the flow through the node alone is not part of the value of solve(). Finite.
+  /// Adds `capacity`, which is finite, from the source to the node; if it is negative, adds -capacity from the node to
+  /// the sink. Capacities of one node to both terminals cancel out: the flow through this node alone is not part of the
+  /// value of solve().
   void addTerminal(uint32_t node, double capacity);
 
   /// Adds an edge with a capacity in both directions, finite and not negative. Precondition: a != b.
   void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity);
 
-  /// The value of the maximum flow; an empty graph has 0. Once per reset().
+  /// Returns the value of the maximum flow; 0 for an empty graph. Precondition: it is called once after each reset().
   double solve();
 
   /// Whether the node is on the source's side of the minimum cut: reachable from the source in the residual graph. Of
-  /// all minimum cuts this one has the fewest nodes on that side; nodes between the cuts are not source.
+  /// all minimum cuts, this one has the fewest nodes on the source's side.
   [[nodiscard]] bool isSource(uint32_t node) const { return nodes_[node].tree == Tree::Source; }
 
   [[nodiscard]] uint32_t nodeCount() const { return static_cast<uint32_t>(nodes_.size()); }
@@ -52,10 +53,11 @@ class MaxFlow {
     uint32_t firstArc = kNone;
     uint32_t parent = kNone;     ///< Arc to the parent, kTerminal, kOrphan, or kNone for a free node.
     uint32_t checkedAt = 0;      ///< Time at which `distance` was valid.
-    uint32_t distance : 29 = 0;  ///< Arcs to the terminal, as far as known.
+    uint32_t distance : 29 = 0;  ///< Number of arcs to the terminal when `checkedAt` was set.
     Tree tree : 2 = Tree::Free;
     bool isActive : 1 = false;  ///< Whether the node is in the queue.
-    double terminal = 0;        ///< Positive: residual capacity from the source. Negative: minus that to the sink.
+    /// Positive: residual capacity from the source. Negative: minus the residual capacity to the sink.
+    double terminal = 0;
   };
 
   /// Arc 2 e is edge e from a to b, arc 2 e + 1 its reverse.
@@ -69,7 +71,7 @@ class MaxFlow {
 
   std::vector<Node> nodes_;
   std::vector<Arc> arcs_;
-  std::vector<uint32_t> queue_;  ///< A place for each node.
+  std::vector<uint32_t> queue_;  ///< Has room for each node.
   double flow_ = 0;
 };
 

@@ -11,10 +11,12 @@ namespace asdfvk {
 
 /// Weights of the cost of merging two regions (docs/segmentation.md has the formula).
 struct MergeWeights {
-  double localSight, sight;      ///< Weights of the share of blocked lines of sight, near and in all.
-  double step, borderStep;       ///< Weights of differences of the log value, between the means and across the border.
-  double concave, bend, convex;  ///< Weights of angles at the border: of edges, of concave and of convex patches.
-  double neck;                   ///< Weight of smaller values at the border than in both regions.
+  double localSight, sight;  ///< Weights of the shares of blocked lines of sight: of near patches, and of all patches.
+  double step, borderStep;   ///< Weights of the difference of the log values: of the means of the regions, and of the
+                             ///< patches at the border.
+  double concave, bend, convex;  ///< Weights of angles at the border: between faces at concave edges, and between
+                                 ///< patches that form a concave or a convex bend.
+  double neck;  ///< Weight of a neck: log values at the border that are below the means of both regions.
   double stepLimit, angleLimit;  ///< Upper limits of the differences, and of the angles in radians.
   double areaExponent, borderExponent;
   double threshold;  ///< Merging stops where the next cost is above this.
@@ -41,11 +43,10 @@ class SightMatrix {
   std::vector<float> entries_;
 };
 
-/// Regions of patches, which are merged pair by pair, the cheapest pair first. Each state is a level of a hierarchy. A
-/// copy continues on its own. Deterministic.
+/// Regions of patches, which are merged pair by pair, the cheapest pair first. Copies are independent. Deterministic.
 class PartMerging {
  public:
-  /// sight(i, j): whether patches i and j of `data` see each other.
+  /// sight: visibility of each pair of patches of `data`.
   PartMerging(const PatchData& data, const SightMatrix& sight, const MergeWeights& weights);
 
   [[nodiscard]] uint32_t regionCount() const { return regionCount_; }
@@ -58,7 +59,8 @@ class PartMerging {
   void mergeUpTo(double threshold);
   /// Merges until there are at most `count` regions, or none are adjacent.
   void mergeToCount(uint32_t count);
-  /// Merges the smallest region with the neighbour of the least cost, while one with a neighbour has less area.
+  /// While regions with neighbours have less than this area: merges the smallest of them with its neighbour of the
+  /// least cost.
   void mergeSmallerThan(double area);
 
   /// The costs of the merges so far, in their order.
@@ -75,14 +77,16 @@ class PartMerging {
   /// Sums over the borders between the patches of two regions.
   struct Border {
     uint32_t a, b;
-    double length, crease, bend, step, mean;  ///< crease: concave minus convex. Others: length times quantity.
+    /// Except for `length`: sums of length times quantity. crease: concave minus convex angles of edges. mean: mean log
+    /// value of the two patches.
+    double length, crease, bend, step, mean;
     double cost = 0;
     bool isAlive = true;
 
     [[nodiscard]] uint32_t other(uint32_t region) const { return region == a ? b : a; }
   };
-  /// Sums over pairs of patches of two regions: products of areas, seen ones only, and both with the kernel of
-  /// nearness.
+  /// Sums over the pairs of patches of two regions. seen: product of the areas, times the visibility. near: product of
+  /// the areas, times a weight that decreases with the distance. nearSeen: product of all three.
   struct PairSums {
     float seen = 0, nearSeen = 0, near = 0;
   };
@@ -90,7 +94,7 @@ class PartMerging {
   [[nodiscard]] double costOf(const Border& border) const;
   /// `border` if it is alive and has less cost than `cheapest`, which may be kNoBorder; otherwise `cheapest`.
   [[nodiscard]] uint32_t cheaperOf(uint32_t cheapest, uint32_t border) const;
-  /// The one of the least cost, the first of equal ones.
+  /// The border of the least cost; of several, the first.
   [[nodiscard]] uint32_t cheapestBorder() const;
   void merge(uint32_t border);
   [[nodiscard]] PairSums& pairSums(uint32_t i, uint32_t j) { return pairs_[size_t{i} * regions_.size() + j]; }

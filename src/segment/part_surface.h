@@ -10,9 +10,9 @@
 
 namespace asdfvk {
 
-/// What the segmentation into parts reads of a mesh and its values. Lengths are in units of the square root of the
-/// area of the mesh, areas in units of that area: nothing depends on the unit of the mesh, and a power of two as the
-/// unit changes no bit.
+/// The data of a mesh and its values that the segmentation into parts reads. Lengths are in units of the square root of
+/// the area of the mesh, areas in units of the area of the mesh. The data do not depend on the unit of the mesh;
+/// scaling the mesh by a power of two changes no bit.
 struct PartSurface {
   struct Arc {
     uint32_t face;  ///< Neighbour.
@@ -21,7 +21,7 @@ struct PartSurface {
   std::span<const uint32_t> offsets;  ///< #F+1, of the dual graph; views the caller's graph.
   /// #arcs, aligned with DualGraph::neighbours, with the length of the path between the barycentres across the edge.
   std::vector<Arc> arcs;
-  /// #arcs: that length plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
+  /// #arcs: the length of `arcs` plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
   std::vector<Arc> creasedArcs;
   std::vector<float> edgeLengths;  ///< #arcs
   std::vector<float> angles;       ///< #arcs: dihedral angle in radians, positive on a concave edge.
@@ -33,13 +33,13 @@ struct PartSurface {
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(areas.size()); }
 };
 
-/// Length of a concave crease of 1/3 radian, in units of length.
+/// The length that a concave crease of 1/3 radian adds to an arc, in units of length.
 inline constexpr double kCreaseLength = 0.00704;
 
 /// graph: of the mesh; it must outlive the result. values: #F, not negative, NaN for no value. A missing value becomes
-/// the value of the face that is nearest by the number of edges between; in a component without values it becomes the
-/// mean logarithm of all values. Values below 1e-4 of the largest are raised to that. Throws Error{NoValues} where no
-/// face has a value.
+/// the value of the face with the fewest edges between the two; in a component without values it becomes the mean
+/// logarithm of all values. Values below 1e-4 of the largest value are raised to this bound. Throws Error{NoValues}
+/// where no face has a value.
 [[nodiscard]] PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                           const DualGraph& graph, std::span<const double> values);
 

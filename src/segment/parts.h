@@ -15,12 +15,12 @@
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
-/// Segmentation into parts without a number of parts: patches, lines of sight between them, merging of the pair that
-/// costs least, the most typical of several such divisions, and a graph cut. docs/segmentation.md has the definition
-/// and its sources.
+/// Segmentation into parts whose number is not given. Steps: patches, lines of sight between them, merging of the pair
+/// that costs least, the most typical of several such divisions, and a graph cut. docs/segmentation.md has the
+/// definition and its sources.
 namespace asdfvk {
 
-/// Whether no face lies between the ends of each segment (in the unit of the mesh, ends excluded): 1, else 0.
+/// Returns 1 for each segment (in the unit of the mesh) that no face intersects between its ends, else 0.
 using LineOfSight = std::function<std::vector<uint8_t>(std::span<const LineSegment>)>;
 
 /// A mesh and its values.
@@ -35,10 +35,11 @@ struct PartsInput {
 struct Parts {
   std::vector<uint32_t> partOf;  ///< #F, numbered by ascending mean value.
   uint32_t partCount = 0;
-  std::vector<double> areas;      ///< #F, shares of the area of the mesh.
-  uint32_t fewest = 0, most = 0;  ///< Numbers of parts at kPartStabilityFactor times the threshold, and at 1 over that.
-  /// Mean Rand index of the chosen division with the other ones, weighted by area, before small parts are merged and
-  /// boundaries cut. Unset where no component has kMinPartArea: nothing is compared.
+  std::vector<double> areas;  ///< #F, shares of the area of the mesh.
+  /// Numbers of parts at the threshold times kPartStabilityFactor, and at the threshold divided by it.
+  uint32_t fewest = 0, most = 0;
+  /// Mean Rand index, weighted by area, of the chosen division with the other divisions, before small parts are merged
+  /// and boundaries cut. Unset where no component has kMinPartArea, because no divisions are compared.
   std::optional<double> agreement;
   bool isThinShell = false;  ///< A closed thin wall around a cavity; lines of sight were not used.
   double meanSight = 1;      ///< Mean over pairs of patches of a component, weighted by the product of their areas.
@@ -47,12 +48,13 @@ struct Parts {
 /// Share of the area below which a component is not divided, and a part is merged.
 inline constexpr double kMinPartArea = 0.01;
 
-/// Components below kMinPartArea take the part that is nearest in space if they have at most 5 % of the area together.
-/// If they have more, each is a part, except those below kMinPartArea times the largest component, which take the
-/// nearest part; if no component has kMinPartArea, each is a part. Other parts never extend over several components.
-/// With options.partCount there are that many parts: more where there are more components, fewer where there are fewer
-/// faces; none of them is merged for its size. The result does not depend on the number of threads. Throws
-/// Error{NoValues} where no face has a value, what `sight` throws, and Error{Cancelled} between steps.
+/// Divides a mesh into parts. Small components, below kMinPartArea, take the part that is nearest in space if they have
+/// at most 5 % of the area together. If they have more, each small component is a part, except those below kMinPartArea
+/// times the largest component, which take the nearest part. If all components are small, each is a part. Other parts
+/// never extend over several components. With options.partCount there are this many parts: more where there are more
+/// components, fewer where there are fewer faces; none of them is merged for its size. The result does not depend on
+/// the number of threads. Throws Error{NoValues} where no face has a value, the errors of `sight`, and Error{Cancelled}
+/// between steps.
 [[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
                                      const RunControl& control = {});
 

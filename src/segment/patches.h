@@ -18,14 +18,14 @@ struct Patches {
 };
 
 /// Patches around the farthest points of the surface, improved by two rounds of Lloyd's method: the new seed of a patch
-/// is its face farthest from its border. Distances are those over PartSurface::creasedArcs. firstSeeds: one face of
-/// each component that is divided, at least one in all. counts: ascending; the result has the patches for each count.
-/// There are fewer patches where there are fewer faces, and at least one per first seed. Deterministic, parallel over
-/// the counts; the farthest points of a count begin with those of a smaller one.
+/// is its face farthest from its border. Distances are along PartSurface::creasedArcs. firstSeeds: one face of each
+/// component that is divided, at least one in all. counts: ascending; the result has the patches for each count. There
+/// are fewer patches where there are fewer faces, and at least one per first seed. Deterministic, parallel over the
+/// counts; the farthest points of a count begin with the farthest points of each smaller count.
 [[nodiscard]] std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
                                                std::span<const uint32_t> counts);
 
-/// What the merging reads of patches. Lengths and areas as in PartSurface.
+/// The data of patches that the merging reads. Lengths and areas as in PartSurface.
 struct PatchData {
   struct Patch {
     double area = 0;

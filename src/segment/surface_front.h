@@ -12,8 +12,8 @@
 namespace asdfvk {
 
 /// The distance of each face to the nearest source along arcs, and the label of that source. Dijkstra's algorithm with
-/// buckets instead of a heap: faces within a bucket come in the order in which they were put there, and a face whose
-/// distance decreases later comes again. Deterministic. An object reuses its memory.
+/// buckets instead of a heap: faces within a bucket are processed in the order in which they were added, and a face
+/// whose distance decreases later is processed again. Deterministic. An object reuses its memory.
 class SurfaceFront {
  public:
   using Arc = PartSurface::Arc;
@@ -32,8 +32,8 @@ class SurfaceFront {
     perWidth_ = static_cast<float>(1 / width);
   }
 
-  /// Makes a face a source at this distance, unless it is as near to another one. Distances apply after advance(). NaN
-  /// and infinity reach nothing.
+  /// Makes a face a source at this distance, unless its distance to another source is at most as large. Other distances
+  /// are computed by advance(). A distance of NaN or infinity is ignored.
   void add(uint32_t face, float distance, uint32_t label) {
     if (!(distance < distances_[face])) return;
     if (distances_[face] == kUnreached) touched_.push_back(face);
@@ -77,9 +77,10 @@ class SurfaceFront {
     touched_.clear();
   }
 
-  [[nodiscard]] std::span<const float> distances() const { return distances_; }  ///< #F, kUnreached if there is none.
-  [[nodiscard]] std::span<const uint32_t> labels() const { return labels_; }     ///< #F, meaningless where unreached.
-  [[nodiscard]] std::span<const uint32_t> reached() const { return touched_; }   ///< Each face once.
+  /// #F, kUnreached where no source reaches.
+  [[nodiscard]] std::span<const float> distances() const { return distances_; }
+  [[nodiscard]] std::span<const uint32_t> labels() const { return labels_; }    ///< #F, meaningless where unreached.
+  [[nodiscard]] std::span<const uint32_t> reached() const { return touched_; }  ///< Each face once.
 
  private:
   struct Entry {
@@ -102,7 +103,7 @@ class SurfaceFront {
   std::span<const Arc> arcs_;
   std::vector<float> distances_;
   std::vector<uint32_t> labels_, touched_;
-  std::vector<std::vector<Entry>> buckets_;  ///< A ring: those from current_ on.
+  std::vector<std::vector<Entry>> buckets_;  ///< A ring buffer of the buckets from current_ on.
   size_t current_ = 0, entryCount_ = 0;
   float perWidth_ = 1;
 };

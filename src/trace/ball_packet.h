@@ -16,14 +16,14 @@
 
 namespace asdfvk {
 
-/// Cover the rounding in float32: of distances to boxes at coordinates up to 8, of distances to planes and of cosines
-/// at coordinates up to 2.
+/// Margins for the rounding in float32: of distances to boxes at coordinates up to 8, and of distances to planes and of
+/// cosines at coordinates up to 2.
 inline constexpr float kWallBoxMargin = 0x1p-19F;
 inline constexpr float kWallPlaneMargin = 0x1p-19F, kWallCosineMargin = 0x1p-20F;
-/// Every box is near to larger balls.
+/// Larger balls count as near to every box.
 inline constexpr float kMaxBoxedDiameter = 8;
 inline constexpr float kUnlimitedDiameter = 0x1p60F;
-/// Depths in float32 that are exact enough for limits.
+/// The least depth in float32 that is exact enough to compute a limit.
 inline constexpr float kMinLimitDepth = 0x1p-17F;
 
 template <typename Floats>
@@ -47,9 +47,9 @@ ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Ve
   return x * x + y * y + z * z;
 }
 
-/// The balls of some queries, one in each lane. A walk through the hierarchy lowers an upper limit of each diameter by
-/// a point of each wall, and collects the walls whose planes are within the limits. At the end it measures those that
-/// are still within the limits.
+/// The balls of some queries, one in each lane. A walk through the hierarchy has an upper limit of each diameter, which
+/// a point of each wall lowers. It collects the walls whose planes are within the limits. At the end it measures the
+/// collected walls that are still within the limits.
 template <typename Floats>
 class BallPacket {
  public:
@@ -70,7 +70,7 @@ class BallPacket {
       setLane(boxMax_, lane, box.max);
       double reach = 0;
       for (const Vec3d& corner : query.triangle.corners) reach = std::max(reach, length(corner - query.point));
-      reach_[lane] = static_cast<float>(1 + reach);  // The dot products with the corners round, too.
+      reach_[lane] = static_cast<float>(1 + reach);  // 1 is for the rounding of the dot products with the corners.
       isUsed_[lane] = lane < queries.size() ? -1 : 0;
       bodies_[lane] = static_cast<int32_t>(query.body);
       leastLimit_[lane] = asFloat(query.least.ball.diameter);
@@ -101,7 +101,7 @@ class BallPacket {
     for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
   }
 
-  /// A wall that is probably near.
+  /// Lowers the limits by a wall that is probably near.
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
     const Mask opposing =
         lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
@@ -112,12 +112,12 @@ class BallPacket {
   using Mask = IntsOf<Floats>;
   using Lanes = Vec3Lanes<Floats>;
 
-  /// The balls at the points through the middle of a wall.
+  /// The balls that touch the triangles at BallQuery::point and pass through the middle of a wall.
   struct Middle {
     Floats diameter;  ///< Upper bound that covers rounding; unlimited where it is unknown.
     Floats lowest;    ///< Lower bound; 0 where it is unknown.
-    Lanes slope;      ///< Gradient of the diameter by the point of the wall.
-    Floats doubt;     ///< Error of the slope by rounding.
+    Lanes slope;      ///< Gradient of the diameter with respect to the point of the wall.
+    Floats doubt;     ///< Rounding error of the slope.
   };
 
   /// A wall with the least diameters of the balls that touch its plane.
@@ -135,8 +135,8 @@ class BallPacket {
     lanes.y[lane] = static_cast<float>(v.y);
     lanes.z[lane] = static_cast<float>(v.z);
   }
-  /// Sets bounds of both kinds of balls: at each point of the triangle the larger ball contains the smaller one, so
-  /// that the greater limit is enough.
+  /// Computes the bounds of the balls from the greater of the two limits: at each point of the triangle, a larger ball
+  /// contains the smaller ones.
   ASDFVK_ALWAYS_INLINE void placeBalls() {
     const Floats limit = asdfvk::max(leastLimit_, atPointLimit_);
     const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
@@ -152,7 +152,7 @@ class BallPacket {
   ASDFVK_ALWAYS_INLINE Mask reach(const auto& box) const {
     return lessEqual(squaredDistance(box.min, box.max, low_, high_), squaredRadius_);
   }
-  /// Diameter of the ball of the first query through a point; great where the point is behind.
+  /// Diameter of the ball of the first query through a point; great where the point is behind the face.
   [[nodiscard]] float diameterAt(const Vec3f& q) const {
     const Vec3f v = q - first_;
     return asdfvk::dot(v, v) / std::max(asdfvk::dot(v, axis_), kMinLimitDepth);
@@ -161,7 +161,7 @@ class BallPacket {
     return broadcast<Floats>(static_cast<float>(tree_.opposing().cosine) + margin);
   }
 
-  /// Lanes with mayBeOfOneBody().
+  /// Lanes whose face may bound one body with the wall, see Solids::mayBoundOneBody().
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayBound(const Wall& wall) const {
     if (wall.body == kNoBody) return ~Mask{};
     const auto differs = [&](uint32_t body) ASDFVK_ALWAYS_INLINE {
@@ -180,12 +180,12 @@ class BallPacket {
     return lessEqual(cosine, cosineLimit(kWallCosineMargin));
   }
 
-  /// Lanes whose balls may reach the disc in which the node is.
+  /// Lanes whose balls may reach the cylinder that contains the node (WallNode::axis).
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
     const Middle middle = middleOf(node.middle, lanes);
     const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope);
     const Floats across = asdfvk::max(square - along * along, Floats{}) + kWallBoxMargin * (1 + square);
-    // Without the radius; the square root of `across` is compared by its square.
+    // The lower bound without the term sqrt(across) * radius; the comparison below squares this term.
     const Floats atPoint =
         middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) - middle.doubt * node.reach;
     const Floats change = across * (node.radius * node.radius * (1 + kWallBoxMargin));
@@ -196,8 +196,8 @@ class BallPacket {
     return lanes & (reaches(leastBound(middle, atPoint), leastLimit_) | reaches(atPoint, atPointLimit_));
   }
 
-  /// The diameter is a convex function of both points: no less than its tangent at the point and the middle.
-  /// atPoint: the least at the point. Returns the least at the triangle.
+  /// Lower bound of the diameters at all points of the triangle. The diameter is a convex function of both points, and
+  /// so no less than its tangent at BallQuery::point and the middle. atPoint: lower bound at BallQuery::point.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Middle& middle, const Floats& atPoint) const {
     const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], middle.slope), dot(corners_[1], middle.slope)),
                                         dot(corners_[2], middle.slope));
@@ -261,7 +261,7 @@ class BallPacket {
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
-  /// Lowers the limits to the balls through the middle of a wall; returns whether one is lower.
+  /// Lowers the limits to the balls through the middle of a wall. Returns whether a limit became lower.
   ASDFVK_ALWAYS_INLINE bool shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
     const Floats diameter = orUnlimited(lanes, middle.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
@@ -298,7 +298,7 @@ class BallPacket {
   }
   static float withMargin(double diameter) { return asFloat(diameter * (1 + kWallBoxMargin)); }
 
-  /// Shrinks the balls of a query by its candidates, the nearest planes first.
+  /// Shrinks the balls of a query by its candidates, in ascending order of their bounds.
   void measure(size_t lane) {
     const std::span<Candidate> found(candidates_[lane].data(), std::exchange(counts_[lane], 0));
     BallQuery& query = queries_[lane];
@@ -332,7 +332,7 @@ class BallPacket {
   Lanes normal_, boxMin_, boxMax_;
   std::array<Lanes, 4> corners_;      ///< Corners of the triangle, and the point.
   Floats leastLimit_, atPointLimit_;  ///< Limits of the diameters.
-  Lanes low_, high_;                  ///< Box of the centres of the greater balls.
+  Lanes low_, high_;                  ///< Box of the centres of the balls of the greater limit.
   Floats squaredRadius_;
   Floats reach_;  ///< 1 + the length from the point to the corners.
   Mask isUsed_, bodies_;

@@ -22,7 +22,8 @@ class ChunkSize {
       : size_(std::min(first, largest)), largest_(largest), targetSeconds_(targetSeconds) {}
 
   [[nodiscard]] uint64_t current() const { return size_; }
-  /// A chunk of `count` took `seconds`. The size changes at most fourfold, which bounds the effect of one outlier.
+  /// Adapts the size after a chunk of `count` took `seconds`. The size changes at most fourfold, which bounds the
+  /// effect of one outlier.
   void adapt(uint64_t count, double seconds) {
     const double ideal = static_cast<double>(count) * targetSeconds_ / std::max(seconds, 1e-6);
     const double bounded = std::clamp(ideal, static_cast<double>(size_) / 4, static_cast<double>(size_) * 4);
@@ -48,7 +49,7 @@ void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const
   control.checkpoint(1);
 }
 
-/// forEachChunk() for ranges that a device processes while the host goes on: start(slot, begin, end) submits a range,
+/// forEachChunk() for ranges that a device processes while the host continues: start(slot, begin, end) submits a range,
 /// wait(slot) waits for it, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight, so the
 /// host reads one and prepares another while the device works. After an exception ranges may still be in flight.
 template <size_t kSlotCount, typename Start, typename Wait, typename Read>

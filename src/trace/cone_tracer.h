@@ -15,7 +15,7 @@
 
 namespace asdfvk {
 
-/// The frame of the rays of a face, by the definition of the cone. Precondition: the face is not degenerate.
+/// The frame of the rays of a face, as Cone::definition selects it. Precondition: the face is not degenerate.
 [[nodiscard]] ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face);
 
 /// Place and frame of the rays of one cone.
@@ -26,18 +26,21 @@ struct ConeStart {
   uint32_t skippedFace = kNoFace;  ///< Hits on this representative are ignored.
 };
 
-/// The cone of a face: from its barycentre, without hits on the face and its copies. Precondition: not degenerate.
+/// The cone of a face: from its barycentre, without hits on the face and its copies. Precondition: the face is not
+/// degenerate.
 [[nodiscard]] inline ConeStart coneStartOfFace(const TraceScene& scene, const Cone& cone, uint32_t face) {
   return {scene.originOf(face), scene.geometry.normals[face], seedConeFrame(scene, cone, face),
           scene.representatives[face]};
 }
 
-/// A cone anywhere; it may hit every face. normal: unit. ConeRotation::Hashed turns it by a hash of the origin.
+/// A cone from any origin; its rays may hit every face. normal: unit. ConeRotation::Hashed turns it by a hash of the
+/// origin.
 [[nodiscard]] ConeStart coneStartAt(const Cone& cone, const Vec3d& origin, const Vec3d& normal);
 
 struct TraceStatistics {
   uint64_t rayCount = 0;
-  /// Cones traced by the reference instead: iteration limit of the device reached, or too small for float32.
+  /// Cones that the reference traced instead, because the device reached its iteration limit or the cone is too small
+  /// for float32.
   uint64_t redoneConeCount = 0;
 };
 
@@ -69,8 +72,8 @@ class ConeTracer {
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
-  /// trace() for cones anywhere; origins are finite. A cone of coneStartOfFace() has the value that trace() gives its
-  /// face, up to rounding.
+  /// Like trace() for cones from any origins. Precondition: the origins are finite. A cone of coneStartOfFace() has the
+  /// value that trace() gives its face, up to rounding.
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;
 
@@ -82,14 +85,15 @@ class ConeTracer {
 /// on the number of threads.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone);
 
-/// float32 in lanes (trace/cpu/ray_walk.h), on all cores of the CPU; lengths are recomputed in double. Values do not
-/// depend on the number of threads, nor on the instruction set. Cones too small for float32 are traced by the
-/// reference. The nodes of the hierarchy are not used after the call; the rest of the scene and the cone must outlive
-/// the tracer.
+/// Traces in float32, in lanes (trace/cpu/ray_walk.h), on all cores of the CPU; lengths are recomputed in double.
+/// Values do not depend on the number of threads, nor on the instruction set. Cones too small for float32 are traced by
+/// the reference. The nodes of the hierarchy are not used after the call; the rest of the scene and the cone must
+/// outlive the tracer.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeCpuTracer(const TraceScene& scene, const Cone& cone);
 
-// In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate cones of smaller
-// faces, or with a smaller diameter, to the reference.
+// In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate two kinds of cones
+// to the reference: those of faces whose area is below kMinFloatFace^2, and those whose value is below
+// kMinFloatDiameter.
 inline constexpr double kMinFloatFace = 0x1p-16;
 inline constexpr double kMinFloatDiameter = 0x1p-14;
 
@@ -98,8 +102,8 @@ inline constexpr double kMinFloatDiameter = 0x1p-14;
   return scene.geometry.areas[seedFace] * scale * scale < kMinFloatFace * kMinFloatFace;
 }
 
-/// Whether a point is in the normalised box [-1, 1]^3 or near it. The traversals require that; rays of other cones
-/// start where they enter the box, and are traced by the reference.
+/// Whether a point is in the normalised box [-1, 1]^3 or near it. The traversals require this of the origins of rays.
+/// The reference traces the other cones, from the points where their rays enter the box.
 [[nodiscard]] inline bool isNearBox(const Vec3d& origin) {
   constexpr double kNearBox = 1 + 0x1p-6;
   return std::abs(origin.x) <= kNearBox && std::abs(origin.y) <= kNearBox && std::abs(origin.z) <= kNearBox;

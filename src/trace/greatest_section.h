@@ -14,17 +14,18 @@ namespace asdfvk {
 struct GreatestSection {
   Vec3d centre;
   double diameter = std::numeric_limits<double>::infinity();
-  /// No ball inside is larger: at most (1 + kSectionTolerance) diameter, unless the search was too long.
+  /// Upper bound of the diameters of all balls inside: at most (1 + kSectionTolerance) diameter, unless the search
+  /// reached its limit.
   double bound = std::numeric_limits<double>::infinity();
 };
 
 inline constexpr double kSectionTolerance = 1e-3;
 
-/// The greatest section of each wanted solid; infinite for the others. By branch and bound over cubes in the box of the
-/// solid. The distance from the surface at the centre of a cube, plus its half diagonal, bounds the radii of all balls
-/// whose centres are in the cube; so do two points of opposite walls, as no ball contains them, and the planes of flat
-/// walls. Precondition: the faces of a wanted solid are closed and consistently wound. solidOf: #F, the solid of each
-/// face. Throws Error{Cancelled}.
+/// The greatest section of each wanted solid; infinite for the others. The method is branch and bound over cubes in the
+/// box of the solid. Three bounds limit the radii of the balls whose centres are in a cube: the distance from the
+/// centre of the cube to the surface plus half the diagonal of the cube; two points of opposite walls, because no ball
+/// contains them; and the planes of flat walls. Precondition: the faces of a wanted solid are closed and consistently
+/// wound. solidOf: #F, the solid of each face. isWanted: one entry per solid. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<GreatestSection> findGreatestSections(const TraceScene& scene,
                                                                 std::span<const uint32_t> solidOf,
                                                                 std::span<const uint8_t> isWanted,

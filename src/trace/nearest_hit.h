@@ -20,7 +20,8 @@ struct RayFrame {
 
   RayFrame(const Vec3d& rayOrigin, const Vec3d& direction) : origin(rayOrigin), frame(coneFrame(direction)) {}
 
-  /// Depends on the vertex and the ray only: triangles that share a vertex get the same coordinates.
+  /// Coordinates of a vertex in the frame. They depend on the vertex and the ray only, so that triangles that share a
+  /// vertex get the same coordinates.
   [[nodiscard]] Vec3d toRay(const Vec3d& p) const {
     const Vec3d d = p - origin;
     return {dot(d, frame.tangent), dot(d, frame.bitangent), dot(d, frame.axis)};
@@ -29,12 +30,12 @@ struct RayFrame {
 
 struct TriangleHit {
   double distance = kNoHit;  ///< Along the ray.
-  bool isOuterSide = false;  ///< The side from which the corners are counterclockwise.
+  bool isOuterSide = false;  ///< Whether the ray hits the side from which the corners are counterclockwise.
 };
 
-/// The hit on either side of the triangle. Watertight, after Woop, Benthin and Wald 2013, with a rotation instead of
-/// their shear. Rounding is monotone: it can change a number to zero but not invert its sign. Zero counts as inside, so
-/// that a ray between two triangles hits at least one of them.
+/// The hit of a ray, which may be on either side of the triangle. Watertight, after Woop, Benthin and Wald 2013, with a
+/// rotation instead of their shear. Rounding is monotone: it can change a number to zero but not invert its sign. Zero
+/// counts as inside, so that a ray between two triangles hits at least one of them.
 [[nodiscard]] inline TriangleHit hitTriangle(const RayFrame& ray, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
   const Vec3d a = ray.toRay(v0), b = ray.toRay(v1), c = ray.toRay(v2);
   const double u = c.x * b.y - c.y * b.x;
@@ -63,7 +64,7 @@ struct RayHit {
                                      const Vec3d& direction, FunctionRef<bool(uint32_t face)> counts);
 
 /// Whether the ray hits a triangle at a distance from `begin` to `end`. Origin and direction as in nearestHit(), but
-/// the origin may be anywhere in normalised coordinates of a length of at most 4.
+/// the origin may be up to 4 from the centre of the normalised box.
 [[nodiscard]] bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 double begin, double end);
 

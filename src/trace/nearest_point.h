@@ -14,7 +14,8 @@ struct SurfacePoint {
   double distance = std::numeric_limits<double>::infinity();
   Vec3d point;
   uint32_t face = kNoFace;
-  double side = 0;  ///< Cosine between the normal and the way from the surface; above 0 outside.
+  double side = 0;  ///< Cosine of the angle between the normal and the direction from the surface to the query point;
+                    ///< above 0 outside.
 };
 
 [[nodiscard]] Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p);
@@ -22,9 +23,9 @@ struct SurfacePoint {
 /// Squared distance between a point and the box of a node; 0 inside.
 [[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);
 
-/// faceOf(primitive face): the face that counts in its place, kNoFace for none. The search ends at the first point less
-/// than `enough` away. Where the point lies on an edge or a vertex, the face is the one with the greatest abs(side); of
-/// equal ones it is the first in the hierarchy.
+/// The point of the surface nearest to p. faceOf(primitive face): the face that replaces the primitive face, or kNoFace
+/// to ignore it. The search ends at the first point less than `enough` away. Where the point lies on an edge or a
+/// vertex, the face is the one with the greatest abs(side); of equal ones it is the first in the hierarchy.
 [[nodiscard]] SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
                                                FunctionRef<uint32_t(uint32_t)> faceOf);
 

@@ -5,7 +5,7 @@
 
 namespace asdfvk {
 
-/// nearestHit() from any origin; none from 2^32 normalised units.
+/// nearestHit() from any origin. A ray from an origin with a coordinate above 2^32 normalised units has no hit.
 [[nodiscard]] RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction,
                                             uint32_t skippedFace, double contactDistance);
 

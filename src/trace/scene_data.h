@@ -8,7 +8,7 @@ namespace asdfvk {
 
 /// A mesh with its geometry and hierarchy. Result::scene of the public interface.
 struct SceneData {
-  std::shared_ptr<const void> owner;  ///< Owner of all that `scene` views but the arrays of the caller.
+  std::shared_ptr<const void> owner;  ///< Owns everything that `scene` views, except the arrays of the caller.
   TraceScene scene;
 };
 

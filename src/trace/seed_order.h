@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Order of the seeds by their triangles in the hierarchy: neighbouring cones traverse the same nodes.
+/// Orders seeds by their triangles in the hierarchy, because neighbouring cones traverse the same nodes.
 class SeedOrder {
  public:
   /// The order is that of the primitives in the hierarchy of the scene.
@@ -32,7 +32,7 @@ class SeedOrder {
   std::vector<uint32_t> primitiveOfFace_;  // #F
 };
 
-/// A permutation of the indices into `starts` that puts neighbours in space next to each other (Morton 1966):
+/// A permutation of the indices into `starts` that puts neighbours in space next to each other (Morton 1966), because
 /// neighbouring cones traverse the same nodes. Origins beyond the normalised box are ordered as their nearest points in
 /// it.
 [[nodiscard]] std::vector<uint32_t> spatialOrder(std::span<const ConeStart> starts);

@@ -10,10 +10,11 @@
 
 namespace asdfvk {
 
-/// Edges, connected over points, at which opposing walls meet; or one point at which they meet without an edge.
+/// Edges at which opposing walls meet, connected over their points; or a tip, which is one point at which opposing
+/// walls meet without an edge.
 struct SharpLine {
   double cosine = -1;  ///< Cosine of the least inner angle between the walls.
-  double length = 0;   ///< Sum over all edges; 0 at a tip.
+  double length = 0;   ///< Sum of the lengths of all edges; 0 for a tip.
   uint64_t edgeCount = 0;
   Vec3d place;  ///< The middle of the edge with the least angle, or the tip.
   uint32_t face = 0;
@@ -21,7 +22,8 @@ struct SharpLine {
 
 struct SharpEdges {
   std::vector<SharpLine> lines;  ///< By ascending angle.
-  /// #F, bits: k, the face is thin at its corner k; 3 + k, it is sharp along the edge from corner k to the next one.
+  /// #F. Bit k: the face is sharp at its corner k. Bit 3 + k: it is sharp along the edge from corner k to the next
+  /// corner.
   std::vector<uint8_t> faceBits;
 
   [[nodiscard]] bool hasCorner(uint32_t face, size_t k) const { return (faceBits[face] >> k & 1) != 0; }
@@ -29,9 +31,10 @@ struct SharpEdges {
 };
 
 /// Two faces of one body that share a point meet sharply under two conditions: the cosine between their normals is at
-/// most maxCosine, and their least ball is as small as minDepth allows, at most kSharpDepths of it. solids: the bodies,
-/// or null if all faces may bound one body. In fans of more than kMaxComparedFaces each face is compared with so many
-/// others and with those that share an edge with it.
+/// most maxCosine, and the least ball between them, with points of the wall deeper than minDepth only, has a diameter
+/// of at most kSharpDepths * minDepth. solids: the bodies, or null if all faces may bound one body. In a fan of more
+/// than kMaxComparedFaces faces, each face is compared with kMaxComparedFaces others and with the faces that share an
+/// edge with it.
 [[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
                                         double maxCosine, double minDepth, const Solids* solids = nullptr);
 

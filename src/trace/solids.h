@@ -13,11 +13,13 @@ inline constexpr uint32_t kNoBody = 0xffffffff;
 /// Components that bound one body: the outer surface and its cavities. A solid has the index of its outer component;
 /// a component that bounds no body is a solid of its own.
 struct Solids {
-  std::vector<uint32_t> solidOf;       ///< #F
-  std::vector<uint8_t> isClosed;       ///< Per component: an outer surface, closed, wound consistently and outwards.
-  std::vector<uint8_t> isMisoriented;  ///< Per component: closed, but wound inconsistently, or to the wrong side.
+  std::vector<uint32_t> solidOf;  ///< #F
+  /// Per component: whether it is an outer surface, closed and wound consistently outwards.
+  std::vector<uint8_t> isClosed;
+  /// Per component: whether it is closed, but wound inconsistently or to the wrong side.
+  std::vector<uint8_t> isMisoriented;
 
-  /// The solid of the face where it is closed, else kNoBody.
+  /// The solid of the face if the solid is closed, else kNoBody.
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return isClosed[solidOf[face]] != 0 ? solidOf[face] : kNoBody; }
 
   /// Whether faces may bound the same body. Parts that touch, or are sunk into each other, are not walls of each other.
@@ -27,7 +29,7 @@ struct Solids {
   }
 };
 
-/// A cavity belongs to the innermost body around it (findCavities()), where that is closed and wound outwards.
+/// A cavity belongs to the innermost body around it (findCavities()) if this body is closed and wound outwards.
 [[nodiscard]] Solids findSolids(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

@@ -16,15 +16,17 @@ namespace asdfvk {
 struct ThinPart {
   uint32_t face = 0;
   std::array<Vec3d, 3> corners;
-  InscribedBall least;  ///< The least ball over the part. It has no wall where the greatest section is the limit.
+  /// The least ball over the part. It has no wall where the greatest section limits the diameter.
+  InscribedBall least;
   bool isThinAtMiddle = false;
-  bool isSharp = false;  ///< Has a point of a sharp edge or tip of its face.
-  uint32_t region = 0;   ///< One number for parts that are connected over edges; ascending by their first parts.
+  bool isSharp = false;  ///< Whether it contains a point of a sharp edge or tip of its face.
+  uint32_t region = 0;   ///< Number of the region: parts connected over edges are one region. Regions are numbered by
+                         ///< their first parts.
 };
 
 /// The parts of thin faces that have a point below the limit. Faces are halved at their longest edges down to pieces no
-/// longer than maxLength, but not where one wall shows that a piece is thin everywhere. faces: with their balls, of
-/// which at least one is below the limit. Throws Error{Cancelled}.
+/// longer than maxLength, but not where one wall shows that a piece is thin everywhere. faces: thin faces with their
+/// balls; at least one ball of each face is below the limit. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ThinPart> findThinParts(const WallTree& tree, const PointFans& fans, const SharpEdges& sharp,
                                                   std::span<const FaceBalls> faces, double limit, double maxLength,
                                                   const RunControl& control);

@@ -11,10 +11,11 @@ namespace asdfvk {
 
 /// Comparison of a tracer with the reference on up to 64 faces of a scene.
 struct TracerCheck {
-  uint32_t comparedCount = 0;   ///< Faces with a value in one or both computations.
-  uint32_t differingCount = 0;  ///< Compared faces that differ by more than kAgreementTolerance bounding-box diagonals.
+  uint32_t comparedCount = 0;  ///< Faces with a value in one or both computations.
+  /// Compared faces whose values differ by more than kAgreementTolerance bounding-box diagonals.
+  uint32_t differingCount = 0;
 
-  /// Whether so many faces differ that the tracer is wrong: rays that graze edges make few of them differ.
+  /// Whether the tracer is wrong. A few faces may differ because of rays that graze edges.
   [[nodiscard]] bool isRefuted() const { return differingCount > 4 && 4 * differingCount > comparedCount; }
   /// Whether the faces suffice to refute a tracer.
   [[nodiscard]] bool isConclusive() const { return comparedCount >= 16; }
@@ -22,8 +23,8 @@ struct TracerCheck {
 
 [[nodiscard]] TracerCheck checkTracer(ConeTracer& tracer, const TraceScene& scene, const Cone& cone);
 
-/// Counts values, of equal arrays, that differ by more than kAgreementTolerance of the diagonal; those missing on both
-/// sides are not compared.
+/// Counts the entries that differ by more than kAgreementTolerance of the diagonal. Entries that are missing in both
+/// arrays are not compared. Precondition: the arrays have the same size.
 [[nodiscard]] TracerCheck compareValues(std::span<const double> values, std::span<const double> expected,
                                         double diagonal);
 

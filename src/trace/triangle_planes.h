@@ -6,7 +6,8 @@
 
 namespace asdfvk {
 
-/// Plane of a triangle: normal * p = offset. 32 bytes; no other data of a hit triangle is needed.
+/// Plane of a triangle: normal * p = offset. 32 bytes. The length of a ray needs no other data of the triangle that it
+/// hits.
 struct TrianglePlane {
   Vec3d normal;  ///< Unit.
   double offset = 0;

@@ -20,7 +20,8 @@ struct InscribedBall {
   uint32_t wall = kNoFace;  ///< The face that determines the diameter; kNoFace for none.
 };
 
-/// Balls that shrink until no opposing wall is inside. Their diameters on entry are upper bounds.
+/// A query of WallTree::shrink(): two balls that shrink until no opposing wall is inside. The diameters on entry are
+/// upper bounds.
 struct BallQuery {
   PlaneTriangle triangle;   ///< A face or a part of it.
   Vec3d point;              ///< A point of the triangle.
@@ -29,12 +30,13 @@ struct BallQuery {
   uint32_t body = kNoBody;  ///< Body of the triangle, see Solids::bodyOf.
 };
 
-/// A face, coincident copies included: those of touching parts have opposite normals.
+/// A face. Each of several coincident faces is a wall, because coincident faces of touching parts have opposite
+/// normals.
 struct Wall {
   Vec3f normal;
   float offset = 0;  ///< Offset of the plane along the normal.
   Vec3f min, max, middle;
-  std::array<Vec3f, 3> spokes{};  ///< The corners, from the middle.
+  std::array<Vec3f, 3> spokes{};  ///< The corners relative to the middle.
   float reach = 0;                ///< Length of the longest spoke.
   uint32_t face = kNoFace, body = kNoBody;
 };
@@ -43,8 +45,9 @@ struct Wall {
 struct WallNode {
   Vec3f min, max, normalMin, normalMax;
   Vec3f middle;  ///< Middle of one of the walls.
-  /// The corners are within `radius` of the line through the middle along the axis, a mean of the normals, and from
-  /// `lowest` to `highest` along it; at most `reach` from the middle.
+  /// A mean of the normals. The line through `middle` along the axis is the centre line of a cylinder that contains the
+  /// corners: they are within `radius` of the line, at positions from `lowest` to `highest` along it. They are at most
+  /// `reach` from `middle`.
   Vec3f axis{};
   float lowest = 0, highest = 0, radius = 0, reach = 0;
   uint32_t first = 0;      ///< Inner: index of the left child, the right one follows it. Leaf: first wall.
@@ -52,16 +55,17 @@ struct WallNode {
 };
 
 /// The faces as walls, with the hierarchy in which balls find them. Neighbouring queries are answered together, one in
-/// each lane of a vector: nodes and triangles are culled in float32, and decided in double. The shrinking ball of Ma,
-/// Bae and Choi 2012, but in one traversal instead of a query per step: the balls of one diameter at all points of a
-/// face fill a convex set that contains those of smaller balls, so that a wall that was outside once remains outside.
+/// each lane of a vector: nodes and walls are culled in float32, and walls are measured in double. The method is the
+/// shrinking ball of Ma, Bae and Choi 2012, but in one traversal instead of a query per step. One traversal suffices,
+/// because the balls of one diameter at all points of a face fill a convex set, which contains the sets of smaller
+/// diameters: a wall that was outside once remains outside.
 class WallTree {
  public:
-  /// solids: those of the scene, or null if all faces may bound one body.
+  /// solids: the solids of the scene, or null if all faces may bound one body.
   WallTree(const TraceScene& scene, const OpposingWalls& walls, const Solids* solids = nullptr);
 
-  /// Shrinks the balls. Queries that follow each other should be neighbours in space. Diameters are bits that do not
-  /// depend on the order or on the instruction set; of walls of equal diameter the lowest face is taken.
+  /// Shrinks the balls. Consecutive queries should be neighbours in space. The bits of the diameters depend neither on
+  /// the order nor on the instruction set. Of walls with equal diameters, the one with the lowest face index is taken.
   void shrink(std::span<BallQuery> queries, InstructionSet instructionSet = widestInstructionSet()) const;
 
   [[nodiscard]] const TraceScene& scene() const { return scene_; }

@@ -28,18 +28,19 @@ struct VulkanEquationKernels {
 
 /// A dual graph with weights, and the matrix of all its equations.
 struct VulkanGraph {
-  /// weights: one per arc, see arcWeights(). Throws Error{EquationLimit} as requireSystemFits().
+  /// weights: one per arc, see arcWeights(). Throws Error{EquationLimit}, see requireSystemFits().
   VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
               std::span<const double> weights);
 
   uint32_t faceCount;
   double weightScale;  ///< Factor of the weights on the device.
   Buffer arcOffsets, weights;
-  VulkanMatrix matrix;  ///< tailColumns are the neighbours. Each VulkanEquation sets the residual weights.
+  VulkanMatrix matrix;  ///< Its tailColumns are the neighbours. Each VulkanEquation sets its residual weights.
 };
 
-/// One equation, and a solution in float32 as differences from a base: the guide, or the first guess without one. Norms
-/// are those of residualNorm(), in a unit of the equation. The arguments must outlive it.
+/// One equation and its solution. The solution is stored in float32 as differences from a base: from the guide or,
+/// without a guide, from the first guess. Norms are those of asdfvk::residualNorm() with values multiplied by
+/// valueScale_. The arguments must outlive this object.
 class VulkanEquation {
  public:
   VulkanEquation(const Device& device, const VulkanEquationKernels& kernels, const VulkanGraph& graph,
@@ -51,7 +52,8 @@ class VulkanEquation {
   /// The vector b of (I - S) y = b, made from the residual of the solution and scaled to the weighted norm 1.
   /// Overwritten by tryCorrection().
   [[nodiscard]] const Buffer& scaledResidual();
-  /// Adds the correction that y represents, and returns the norm of the residual. The solution stays until accept().
+  /// Adds the correction that y represents to a copy of the solution, and returns the norm of the residual of the copy.
+  /// accept() makes the copy the solution.
   [[nodiscard]] double tryCorrection(const Buffer& y);
   void accept();
 
@@ -83,7 +85,7 @@ class VulkanEquation {
   std::vector<uint8_t> isReachable_;
   double constraintMean_ = 0, valueScale_ = 1;  ///< valueScale_: factor of the values on the device.
   Buffer sources_, scaledResidual_, sums_, sumsOnHost_;
-  std::array<Buffer, 2> differences_;  ///< The solution and a corrected one.
+  std::array<Buffer, 2> differences_;  ///< The solution and its corrected copy.
   uint32_t current_ = 0;               ///< The solution.
   std::array<std::optional<BindingSet>, 2> residualBindings_;
   CommandList commands_;

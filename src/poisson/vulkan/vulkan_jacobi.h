@@ -16,7 +16,7 @@ struct VulkanJacobiKernel {
   ComputePipeline sweep;
 };
 
-/// Jacobi iterations on (I - S) y = b from y = 0. The arguments must outlive it.
+/// Jacobi iterations on (I - S) y = b from y = 0. The arguments must outlive this object.
 class VulkanJacobi {
  public:
   /// rightHandSide: #U, of weighted norm 1.
@@ -24,11 +24,11 @@ class VulkanJacobi {
                const Buffer& rightHandSide);
 
   /// Runs `iterationCount` > 0 iterations in one submission. Returns the weighted norm of the residual before the last
-  /// one.
+  /// iteration.
   double advance(uint32_t iterationCount);
 
   [[nodiscard]] std::vector<float> solution() const;
-  /// The vector on the device; afterwards there is no other call.
+  /// Moves the solution out, on the device. Precondition: no other call follows.
   [[nodiscard]] Buffer takeSolution() { return std::move(iterates_[current_]); }
 
  private:

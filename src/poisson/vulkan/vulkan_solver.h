@@ -12,7 +12,7 @@ namespace asdfvk {
 /// A solver whose passes run on a device. A subclass has the kernels of its iteration.
 class VulkanSolver : public PoissonSolver {
  public:
-  /// The device must outlive it.
+  /// The device must outlive this object.
   explicit VulkanSolver(const Device& device) : device_(device) {}
 
   std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) final;

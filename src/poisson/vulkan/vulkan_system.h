@@ -27,7 +27,7 @@ struct PoissonGrid {
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
 /// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} when an array exceeds the binding size
-/// of the device, or when a lane might exceed the loop iterations of DeviceFacts::endsLongLoops.
+/// of the device, or when a lane might need more loop iterations than a device with DeviceFacts::endsLongLoops allows.
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
 
 /// Usage of vectors that kernels write and the host reads.
@@ -37,9 +37,10 @@ inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
 [[nodiscard]] Buffer makePoissonVector(const Device& device, uint64_t count);
 [[nodiscard]] std::vector<float> downloadPoissonVector(const Device& device, const Buffer& vector, size_t count);
 
-/// Submits the commands, which write the sums, and waits for them. onHost: HostVisible.
+/// Adds a copy of `sums` to `onHost`, a HostVisible buffer, to the commands. Submits the commands, waits, and returns
+/// the sums.
 [[nodiscard]] PoissonSums submitAndRead(CommandList& commands, const Buffer& sums, const Buffer& onHost);
-/// The root of one of the PoissonSums over the workgroups.
+/// The square root of the sum of `ofWorkgroups`, one of the arrays of PoissonSums, over the workgroups of the grid.
 [[nodiscard]] double rootOfSum(std::span<const float> ofWorkgroups, const PoissonGrid& grid);
 
 /// uploadBuffer() of a vector.
@@ -69,7 +70,7 @@ struct VulkanMatrix {
 /// A reduction of the residual by an iteration in float32.
 struct DevicePass {
   const VulkanMatrix& matrix;
-  const Buffer& rightHandSide;  ///< #U, of weighted norm 1; stands for a residual of norm `norm`.
+  const Buffer& rightHandSide;  ///< #U, of weighted norm 1. It represents a residual of norm `norm`.
   double norm;
   double reduction;  ///< The pass may end when the norm is at or below this share of `norm`.
   uint32_t maxIterations;

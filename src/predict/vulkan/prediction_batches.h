@@ -9,16 +9,16 @@
 
 namespace asdfvk {
 
-/// Memory of a device for one batch. For tests.
+/// Largest numbers of seeds and faces in one batch.
 struct PredictionBatchSize {
-  size_t maxSeedCount = 0, maxFaceCount = 0;  ///< At least kMaxContributingSeedCount and 1.
+  size_t maxSeedCount = 0, maxFaceCount = 0;  ///< At least kMaxContributingSeedCount seeds and 1 face.
 };
 
-/// The faces of an input without those whose earlier values are kept, in batches of cells that are close in space, with
-/// the seeds that contribute to them.
+/// Divides the faces of an input into batches. A batch has cells that are close in space and the seeds that contribute
+/// to them. Faces whose earlier values are kept are left out.
 class PredictionBatches {
  public:
-  /// The input must outlive it.
+  /// The input must outlive this object.
   explicit PredictionBatches(const PredictionInput& input);
 
   /// Whether the earlier value of a face in a cell is kept.
@@ -26,18 +26,18 @@ class PredictionBatches {
     const uint32_t cell = input_.cells.cellOf[face];
     return hasEarlierSeeds_[cell] && input_.earlier.cellOf[face] == cell;
   }
-  /// Share of the faces that were in batches.
+  /// Share of the faces that were in batches so far, 0 to 1.
   [[nodiscard]] double progress() const {
     return doneCount_ < faceCount_ ? static_cast<double>(doneCount_) / static_cast<double>(faceCount_) : 1;
   }
 
-  /// Takes the next faces. Returns false where none are left.
+  /// Makes the next batch. Returns false if no face is left.
   bool next(const PredictionBatchSize& size);
-  /// Counts and seeds of the batch.
+  /// Counts and seeds of the current batch.
   [[nodiscard]] size_t faceCount() const { return batchFaceCount_; }
   [[nodiscard]] size_t cellCount() const { return parts_.size(); }
   [[nodiscard]] std::span<const uint32_t> seeds() const { return seeds_; }
-  /// Writes faces and cells of the batch as described at PredictionPush.
+  /// Writes faces and cells of the current batch in the layout that is described at PredictionPush.
   void write(std::span<uint32_t> work) const;
 
  private:

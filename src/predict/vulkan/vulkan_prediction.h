@@ -20,9 +20,9 @@ class VulkanPredictionKernels {
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] Definition definition() const { return definition_; }
   [[nodiscard]] uint32_t rayCount() const { return rayCount_; }
-  /// Binds faces, table, hits, points. A workgroup per seed.
+  /// Computes hit points. Bindings: faces, table, hits, points. A workgroup per seed.
   [[nodiscard]] const ComputePipeline& points() const { return points_; }
-  /// Binds faces, points, work, values. A workgroup per kFaceLaneCount items.
+  /// Predicts values. Bindings: faces, points, work, values. A workgroup per kFaceLaneCount items.
   [[nodiscard]] const ComputePipeline& faces() const { return faces_; }
   static constexpr uint32_t kFaceLaneCount = 64;
 
@@ -37,8 +37,8 @@ class VulkanPredictionKernels {
 /// submission short.
 [[nodiscard]] PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels);
 
-/// Uploads the faces of the scene. Scene, cone and kernels must outlive it. Values differ from those of the CPU by
-/// rounding, which moves a few points across the rim of a cone or the bound of an outlier. batchSize: default
+/// Uploads the faces of the scene. Scene, cone and kernels must outlive the result. Values differ from those of the CPU
+/// by rounding, which moves a few points across the rim of a cone or the bound of the outlier rule. batchSize: default
 /// predictionBatchSize(). Throws Error of kind Device, also where the mesh exceeds a limit of the device.
 [[nodiscard]] std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels,
                                                                    const TraceScene& scene, const Cone& cone);

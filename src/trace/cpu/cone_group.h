@@ -20,13 +20,13 @@ struct CpuCones {
 /// A cone to trace, and the output array of its hits.
 struct CpuSeed {
   ConeStart start;
-  uint32_t primitive = kNoFace;  ///< The face that the origin lies on; kNoFace: none.
-  bool fitsFloat = true;         ///< Otherwise the cone is not cast, and isDoubtful().
+  uint32_t primitive = kNoFace;  ///< The primitive that the origin lies on; kNoFace: none.
+  bool fitsFloat = true;         ///< False: no ray is cast, and isDoubtful() is true.
   std::span<ConeHit> hits;       ///< One per ray, or empty.
 };
 
-/// Traces up to eight neighbouring cones together, the same ray of all of them at a time. Lengths are in normalised
-/// units. Keeps its memory from call to call.
+/// Traces up to eight neighbouring cones together: the first ray of all cones, then the second, and so on. Lengths are
+/// in normalised units. Keeps its memory from call to call.
 class ConeGroup {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
@@ -43,10 +43,10 @@ class ConeGroup {
   void trace();
   void clear();
 
-  /// In normalised units, or kNoValue. Meaningless when isDoubtful().
+  /// The value in normalised units, or kNoValue. Meaningless if isDoubtful() is true.
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
-  /// Whether float32 may be too coarse for the cone, so that the reference must trace it: without CpuSeed::fitsFloat,
-  /// or if the value is too small.
+  /// Whether float32 may be too coarse for the cone, so that the reference must trace it: CpuSeed::fitsFloat is false,
+  /// or the value is below kMinFloatDiameter.
   [[nodiscard]] bool isDoubtful(size_t lane) const {
     return !seeds_[lane].fitsFloat || values_[lane] < kMinFloatDiameter;
   }

@@ -15,7 +15,7 @@
 // Coordinates are normalised.
 namespace asdfvk {
 
-/// Hits of the same ray of eight cones.
+/// The hits of one ray of each of eight cones; the ray has the same index in all cones.
 struct LaneHits {
   static constexpr size_t kWidth = 8;
 
@@ -23,7 +23,8 @@ struct LaneHits {
   std::array<float, kWidth> distances;
 };
 
-/// Frames of eight cones, and barycentres and normals of their seed faces: the x of all lanes, then the y, then the z.
+/// Frames of eight cones, and barycentres and normals of their seed faces. Rows: x of all lanes, y of all lanes, z of
+/// all lanes.
 struct LaneFrames {
   using Rows = std::array<std::array<double, LaneHits::kWidth>, 3>;
 

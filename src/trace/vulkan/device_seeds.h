@@ -16,15 +16,15 @@ struct DeviceCone {
   uint32_t index;
 };
 
-/// What a device requires of each face that may cast rays, 4 bytes a face: one random access per seed instead of one
-/// each in the triangles, representatives, areas and normals of the mesh.
+/// DeviceCone::seed of every face, 4 bytes per face. Reading it costs one random memory access per seed; computing it
+/// would cost one in each of the triangles, representatives, areas and normals of the mesh.
 class DeviceSeeds {
  public:
-  /// triangles: of the hierarchy on the device.
+  /// triangles: the triangles of the hierarchy on the device.
   DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle> triangles);
 
-  /// The cones of these faces in the order of their triangles: neighbouring cones traverse the same nodes. Cones that
-  /// the device cannot trace come last, in any order.
+  /// The cones of these faces in the order of their triangles, because neighbouring cones traverse the same nodes.
+  /// Cones that the device cannot trace come last, in any order.
   [[nodiscard]] UnsetVector<DeviceCone> inDeviceOrder(std::span<const uint32_t> faces) const;
 
  private:

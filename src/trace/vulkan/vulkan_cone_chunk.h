@@ -13,23 +13,24 @@
 namespace asdfvk {
 
 /// Memory and commands for one submission of cones: the host writes seeds() or starts(), submits, waits, and reads
-/// results() and hits(). Its buffers come from Device::pool(); the destructor waits and gives them back.
+/// results() and hits(). Its buffers come from Device::pool(); the destructor waits for the device and returns them to
+/// the pool.
 class ConeChunk {
  public:
-  /// capacity: number of cones, at most largestConeChunk(). All arguments must outlive it.
+  /// capacity: number of cones, at most largestConeChunk(). All arguments must outlive this object.
   ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity);
   ~ConeChunk() { commands_.finish(); }
   ConeChunk(const ConeChunk&) = delete;
   ConeChunk& operator=(const ConeChunk&) = delete;
 
   [[nodiscard]] uint64_t capacity() const { return capacity_; }
-  /// Starts of seed faces, if the kernel has origins().
+  /// The cones to trace with Input::Seeds. Precondition: the kernel has origins().
   [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
-  /// Starts of cones anywhere.
+  /// The cones to trace with Input::Starts.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
 
   enum class Input { Seeds, Starts };
-  /// readsHits: whether hits() are read.
+  /// readsHits: whether the caller will read hits().
   void submit(const ConePush& push, Input input, bool readsHits);
   void wait() { commands_.wait(); }
 
@@ -43,13 +44,13 @@ class ConeChunk {
   uint64_t capacity_;
   PooledBuffer seeds_;    // Mapped: kernels read each entry once. Exists if the kernel has origins().
   SharedBuffer origins_;  // A ConeOrigin per cone.
-  PooledBuffer lengths_;  // Bits of a float per ray and cone.
+  PooledBuffer lengths_;  // The bits of a float for each ray of each cone.
   SharedBuffer results_;
-  std::optional<SharedBuffer> hits_;  // If the kernel writes them.
+  std::optional<SharedBuffer> hits_;  // Exists if the kernel writes hits.
   TexelView originTexels_;
   BindingSet rayBindings_, reductionBindings_;
   std::optional<BindingSet> originBindings_;
-  CommandList commands_;  // Destroyed first: waits.
+  CommandList commands_;  // The last member is destroyed first; its destructor waits.
 };
 
 }  // namespace asdfvk

@@ -31,19 +31,19 @@ struct ConeKernelRequest {
 class VulkanConeKernel {
  public:
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request);
-  /// Takes shapes instead of those of the device; for tests.
+  /// With given shapes instead of those chosen for the device; for tests.
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape);
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape,
                    const VulkanWalkShape& walk);
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
-  /// Traces rays. Binds nodes and triangles (texels, then storage), rays, origins, lengths, hits.
+  /// Traces rays. Bindings: nodes and triangles (as texels, then as storage), rays, origins, lengths, hits.
   [[nodiscard]] const ComputePipeline& rays() const { return rays_; }
-  /// Makes the starts of cones from their seeds; null unless the definition is the paper's, because the frames of
-  /// CGAL's depend on corners in double precision. Binds nodes and triangles as rays(), seeds, starts.
+  /// Makes the starts of cones from their seeds; null for Definition::Cgal, whose frames depend on corners in double
+  /// precision. Bindings: nodes and triangles like rays(), seeds, starts.
   [[nodiscard]] const ComputePipeline* origins() const { return origins_ ? &*origins_ : nullptr; }
-  /// Computes results from lengths, one per ray and cone. Binds rays, lengths, results.
+  /// Computes results from lengths, one per ray and cone. Bindings: rays, lengths, results.
   [[nodiscard]] const ComputePipeline& reduction() const { return reduction_; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
   [[nodiscard]] Definition definition() const { return request_.definition; }

@@ -16,7 +16,7 @@ namespace asdfvk {
 
 /// Assignment of rays to the lanes of a device.
 enum class TraceKernel {
-  Packet,  ///< shaders/trace_packet.comp: as Ray, but the lanes of a subgroup traverse the hierarchy together.
+  Packet,  ///< shaders/trace_packet.comp: like Ray, but the lanes of a subgroup traverse the hierarchy together.
   Ray,     ///< shaders/trace_rays.comp: neighbouring lanes trace the rays of one seed.
   Seed,    ///< shaders/trace_rays.comp: neighbouring lanes trace the same ray of neighbouring seeds.
 };
@@ -24,7 +24,7 @@ enum class TraceKernel {
 /// How kernels read the hierarchy.
 enum class BvhFetch {
   Storage,  ///< Storage buffers.
-  Texel,    ///< Storage texel buffers: much faster on llvmpipe. Many devices allow 65,536 texels of 16 bytes only.
+  Texel,    ///< Storage texel buffers: much faster on llvmpipe. Many devices allow at most 65,536 texels (of 16 bytes).
 };
 
 /// Variant of the kernels; all variants compute the same values.
@@ -46,8 +46,8 @@ struct VulkanTraceRequest {
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
 /// The default with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
-/// The variant for one hierarchy: where the default fetch was not requested and the hierarchy may exceed its limit, the
-/// other fetch if the hierarchy fits that one.
+/// The variant for one hierarchy. If the request has no fetch, and the hierarchy may exceed the limit of the default
+/// fetch but fits the other fetch, it has the other fetch.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request,
                                                const Bvh& bvh);
 
@@ -70,18 +70,18 @@ struct VulkanWorkgroupShape {
 
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel);
 
-/// Traversal of the hierarchy by single lanes (shaders/wide_walk.glsl). Values are the same with every shape, up to
-/// ties of equally near triangles.
+/// Traversal of the hierarchy by single lanes (shaders/wide_walk.glsl). Values do not depend on the shape, except where
+/// a ray hits equally near triangles.
 struct VulkanWalkShape {
   uint32_t stackSize = kMaxBvhDepth;  ///< Entries, at least kMaxBvhDepth.
-  /// Triangles of up to three nodes are postponed, and two are tested at a time. Otherwise those of one node are tested
-  /// one by one once each lane has some or has no node left (Aila and Laine 2009).
+  /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one
+  /// node are tested one by one, as soon as each lane has triangles or has no node left (Aila and Laine 2009).
   bool postponesTriangles = true;
 };
 
-/// CPU devices postpone triangles; GPUs do not, which saves registers. Stacks of a lane exceed 256 bytes on AMD GPUs:
-/// Mesa's compiler puts such arrays into memory, shorter ones into registers. Packets, whose lanes share a stack, are
-/// not affected.
+/// CPU devices postpone triangles; GPUs do not, which saves registers. On AMD GPUs the stack of a lane is larger than
+/// 256 bytes: Mesa's compiler puts such arrays into memory, and smaller arrays into registers. Packets, whose lanes
+/// share a stack, are not affected.
 [[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk
