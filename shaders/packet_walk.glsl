@@ -1,6 +1,6 @@
 // Nearest hits of all rays of a subgroup. The lanes share the stack and the node. A node is entered if a ray of any
-// lane enters it. Children are entered in the order of distance of the first lane. All loops are uniform over the
-// subgroup.
+// lane enters it. Children are entered in the order of their distance along the ray of the first lane. All loops are
+// uniform over the subgroup.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -20,7 +20,7 @@ Hit findNearestHitTogether(Query query) {
       ++stackSize;
     }
     const DeviceWideNode node = loadWideNode(index);
-    // The mask bounds the references of a lane at another node, should the subgroup have diverged.
+    // If the subgroup has diverged, a lane may be at another node. The mask keeps its references within range.
     const uint children = subgroupOr(enterChildren(node, query, hit.distance)) & node.childBits;
     const uint leaves = node.childBits & ~kWideInnerBits;
     uint triangles = children & leaves;

@@ -22,10 +22,11 @@ vec2 acrossRay(RayFrame frame, vec3 v) {
   return p;
 }
 
-// The distance along the ray to the triangle (relative to the origin of the ray), or a negative number where the ray
-// misses it or touches it within the contact distance (Cone in src/cone/cone.h), which is added on the outer side. Rays
-// hit both sides and the edges of the triangle. The distance is that to the plane of the face, from its normal of any
-// length: weights of the corners by the edge functions would be inexact in a triangle that is long and narrow.
+// The distance along the ray to the triangle. Corners are relative to the origin of the ray. The distance is negative
+// where the ray misses the triangle or hits it within the contact distance (Cone in src/cone/cone.h). For a hit on the
+// outer side, kOuterSideFactor contact distances are added. Rays hit both sides and the edges of the triangle. The
+// distance is computed from the plane with `normal`, which may have any length: weights of the corners by the edge
+// functions would be inexact in a triangle that is long and narrow.
 float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float contactDistance) {
   const vec2 a = acrossRay(frame, v0);
   const vec2 b = acrossRay(frame, v1);
@@ -34,7 +35,7 @@ float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, vec3 normal, 
   precise const float edgeB = a.x * c.y - a.y * c.x;
   precise const float edgeC = b.x * a.y - b.y * a.x;
   const float det = edgeA + edgeB + edgeC;
-  // Inside if each of the three is 0 or has the sign of their sum.
+  // Inside if each edge function is 0 or has the sign of their sum.
   const uvec3 turned = floatBitsToUint(vec3(edgeA, edgeB, edgeC)) ^ (floatBitsToUint(det) & 0x80000000u);
   const bool inside = all(greaterThanEqual(uintBitsToFloat(turned), vec3(0.0))) && det != 0.0;
   const float slope = dot(normal, frame.direction);

@@ -11,7 +11,7 @@ struct Hit {
   bool isComplete;  // False: the iteration limit ended the traversal.
 };
 
-// Replaces `hit` by the triangle in `primitive` if that is nearer. distance: negative where the ray misses the
+// Replaces `hit` by the triangle in `primitive` if the triangle is nearer. distance: negative where the ray misses the
 // triangle.
 void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
   if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
@@ -23,7 +23,7 @@ void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFa
 struct Query {
   RayFrame frame;
   vec3 origin, inverseDirection;
-  bvec3 isNegative;  // Whether a component of the direction is.
+  bvec3 isNegative;  // Whether each component of the direction is negative.
   uint excludedFace;
 };
 
@@ -56,13 +56,13 @@ void testTriangles(Query query, uint slot0, uint slot1, inout Hit hit) {
 }
 
 // Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted; the scale corrects for
-// that. Signed conversions are faster than unsigned ones.
+// the missing shift. Signed conversions are faster than unsigned ones.
 vec4 distancesTo(uint bytes, float perByte, float start) {
   const vec4 planes = vec4(int(bytes & 0xffu), int(bytes & 0xff00u), int(bytes & 0xff0000u), int(bytes >> 24));
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// Sizes of a step of the bytes of a node.
+// Per axis the size of one step of the bytes of a node.
 vec3 stepsOf(DeviceWideNode node) {
   return uintBitsToFloat(uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u);
 }

@@ -1,21 +1,21 @@
 // The lengths of the rays of cones, which trace_reduce.comp reduces to values. Workgroup (x, y) traces kLanesPerCone
-// rays, from ray y kLanesPerCone on, of kConesPerWorkgroup cones: with one lane per cone, neighbouring lanes have the
-// same ray of neighbouring seeds, which visit nearly the same nodes.
+// rays, from ray y kLanesPerCone on, of kConesPerWorkgroup cones: with one lane per cone, neighbouring lanes trace the
+// same ray of neighbouring seeds. These rays visit nearly the same nodes.
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
 
-layout(local_size_x_id = 6) in;  // kLanesPerCone * kConesPerWorkgroup: an id is used once only.
+layout(local_size_x_id = 6) in;  // Equal to kLanesPerCone * kConesPerWorkgroup.
 layout(constant_id = 0) const uint kLanesPerCone = 1;
 layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
 layout(constant_id = 2) const uint kRayCount = 30;
 layout(constant_id = 3) const uint kIterationLimit = 8000;
 layout(constant_id = 4) const bool kWritesHits = false;
-layout(constant_id = 7) const bool kIsCgal = false;  // The definition of the shape diameter; otherwise the paper's.
+layout(constant_id = 7) const bool kIsCgal = false;  // Definition::Cgal; otherwise Definition::Paper.
 
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
-layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };  // Bits, coneCount per ray.
+layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };  // Bits of the lengths, coneCount per ray.
 layout(set = 0, binding = 7) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
 layout(push_constant) uniform Push { ConePush push; };
 
@@ -33,13 +33,14 @@ ConeOrigin loadOrigin(uint cone) {
   return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
 }
 
-// Without what intersectTriangle() adds on the outer side.
+// The distance of a hit without the addition of intersectTriangle() on the outer side.
 float distanceOf(Hit hit, vec3 normal, vec3 direction) {
   return dot(normal, direction) < 0.0 ? hit.distance - kOuterSideFactor * push.contactDistance : hit.distance;
 }
 
-// The length of a ray; kDropped where it hits nothing, or where the hit is false: by the angle between the normal of
-// the face and that of the seed (minus the axis), or between the normal of the face and the ray.
+// The length of a ray; kDropped for a miss and for a false hit. A false hit is recognised by the angle between the
+// normal of the hit face and the normal of the seed face (minus the axis) or, for CGAL, between the normal of the hit
+// face and the ray.
 float validLength(Hit hit, vec3 axis, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.primitive);

@@ -1,6 +1,6 @@
 #version 450
 // The shape diameter of one cone per lane, from the lengths of its rays (the twin of coneValue() in src/cone/cone.h).
-// Lengths are compared by their bits, whose order is that of the lengths: only invalid rays are negative.
+// Lengths are compared by their bits, which have the same order as the lengths, because only invalid rays are negative.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
@@ -105,7 +105,7 @@ void main() {
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const uint bits = lengths[ray * push.coneCount + cone];
     const bool isIncomplete = bits == kIterationLimitBits;
-    // By its bits, because a device may assume that there are no NaNs such as kIterationLimitBits.
+    // Tested by the bits, because a device may assume that there are no NaNs such as kIterationLimitBits.
     const bool isValid = bits <= kInfinityBits || bits == 0x80000000u;
     incompleteCount += isIncomplete ? 1u : 0u;
     validCount += isValid ? 1u : 0u;

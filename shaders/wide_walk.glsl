@@ -1,7 +1,7 @@
 // Nearest hit of one ray in the hierarchy of shared/bvh_layout.h (Ylitie, Karras and Laine 2017).
 #extension GL_KHR_shader_subgroup_vote : require
 
-// See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The defaults suffice too.
+// See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The default values also work.
 layout(constant_id = 8) const uint kStackSize = kMaxBvhDepth;
 layout(constant_id = 9) const bool kPostponesTriangles = true;
 
@@ -55,8 +55,8 @@ struct Leaves {
 
 const Leaves kNoLeaves = Leaves(0u, 0u, 0u);
 
-// Postponed triangles; an empty entry is followed by empty ones only. Only the first is used unless
-// kPostponesTriangles.
+// Postponed triangles; an empty entry is followed by empty ones only. Without kPostponesTriangles only the first entry
+// is used.
 struct LeafQueue {
   Leaves first, second, third;
 };
@@ -87,8 +87,8 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
 
 // With kPostponesTriangles, tests of triangles are postponed until a lane of the subgroup has triangles of three nodes:
 // with tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
-// time, which hides the latency of loading them. Otherwise a lane with triangles waits until each lane of the subgroup
-// has some or has no node left (Aila and Laine 2009), which needs fewer registers.
+// time, which hides the latency of loading them. Without kPostponesTriangles, a lane with triangles waits until each
+// lane of the subgroup has triangles or has no node left (Aila and Laine 2009), which needs fewer registers.
 Hit findNearestHit(Query query) {
   uint stackBases[kStackSize];
   uint stackBits[kStackSize];

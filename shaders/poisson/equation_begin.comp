@@ -1,6 +1,6 @@
 #version 450
-// Begins an equation: its constant terms, the residual weights (0 for a face that is not unknown), the differences at
-// the start, and the partial sums of two squared norms: of the right-hand side, as directionSquared, and of the
+// Computes the start of an equation: its constant terms, the residual weights (0 for a face that is not unknown), the
+// differences, and the partial sums of two squared norms: of the right-hand side (as directionSquared) and of the
 // residual.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"

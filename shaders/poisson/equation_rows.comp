@@ -1,6 +1,6 @@
 #version 450
-// The rows of S for a graph (shared/poisson_layout.h): an entry per arc, the first three in the row itself, and the
-// couplings of all arcs, of which rows with more arcs use those beyond the third.
+// The rows of S for a graph (shared/poisson_layout.h): an entry per arc, the first three in the row itself. The
+// couplings of all arcs are written too; rows with more than three arcs use the couplings beyond the third.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"

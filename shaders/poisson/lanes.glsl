@@ -1,9 +1,9 @@
-// Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include first. PUSH_STRUCT: of the
-// push constants, if not PoissonPush.
+// Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include this file first.
+// PUSH_STRUCT: type of the push constants, by default PoissonPush.
 #ifndef PUSH_STRUCT
 #define PUSH_STRUCT PoissonPush
 #endif
-layout(local_size_x_id = 1) in;                      // kLaneCount: an id is used once only.
+layout(local_size_x_id = 1) in;                      // Equal to kLaneCount, which needs an id of its own.
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
 layout(push_constant) uniform Push { PUSH_STRUCT push; };

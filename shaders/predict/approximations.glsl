@@ -16,7 +16,8 @@ float expNegative(float x) {
   return powerOfRest * uintBitsToFloat(uint(whole) << 23);
 }
 
-// The square of the angle with this cosine, by its series: 0.3 % off at 90 degrees; beyond, weights are almost 0.
+// The square of the angle with this cosine, by its series. The error is 0.3 % at 90 degrees; at larger angles weights
+// are almost 0.
 float squaredAngle(float cosine) {
   const float u = max(1.0 - cosine, 0.0);
   return u * (2.0 + u * (1.0 / 3.0 + u * (4.0 / 45.0 + u * (1.0 / 35.0 + u * (16.0 / 1575.0)))));

@@ -6,11 +6,11 @@
 #include "shared/cone_rules.h"
 #include "shared/prediction_layout.h"
 
-layout(local_size_x_id = 3) in;  // kLanesPerCone: an id is used once only.
+layout(local_size_x_id = 3) in;  // Equal to kLanesPerCone, which needs an id of its own.
 layout(constant_id = 0) const uint kLanesPerCone = 32u;
 layout(constant_id = 1) const uint kRayCount = 30u;
-layout(constant_id = 2) const bool kIsCgal = false;     // The definition of the shape diameter; otherwise the paper's.
-layout(constant_id = 4) const uint kLengthCount = 30u;  // kRayCount.
+layout(constant_id = 2) const bool kIsCgal = false;     // Definition::Cgal; otherwise Definition::Paper.
+layout(constant_id = 4) const uint kLengthCount = 30u;  // Equal to kRayCount.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer Table { uvec4 tableBlocks[]; };  // The rays, then the seeds.
@@ -62,8 +62,8 @@ void findMiddleDeviations(uint lane, uint validCount, float median) {
   }
 }
 
-// The largest difference from the median of a length that is kept. Called after a barrier, which follows
-// findMiddleDeviations() if kIsCgal.
+// The largest difference from the median of a length that is kept. Precondition: a barrier after the lengths are
+// written and, if kIsCgal, after findMiddleDeviations().
 float outlierBound(uint validCount, float mean, float median) {
   if (kIsCgal) return push.outlierDeviations * medianOfMiddles();
   float variance = 0.0;
@@ -105,7 +105,7 @@ void main() {
     }
     lengths[ray] = validLength;
   }
-  if (lane == 0u) {  // Without a valid ray no lane writes them.
+  if (lane == 0u) {  // Without a valid ray, findMiddles() does not write them.
     middles[0] = 0.0;
     middles[1] = 0.0;
   }

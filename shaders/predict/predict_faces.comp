@@ -1,6 +1,6 @@
 #version 450
 // The prediction of faces from the hit points of the seeds of their cells, a face per lane. Each pass projects the
-// points again, so that any number of rays needs no memory, and each lane adds in the order of its points, so that the
+// points again, which needs no memory for any number of rays. Each lane adds in the order of its points, so that the
 // bits are the same in every run. The twin of src/predict/prediction.cpp and prediction_kernel.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_hit.h"
@@ -8,7 +8,7 @@
 #include "shared/prediction_layout.h"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const bool kIsCgal = false;  // The definition of the shape diameter; otherwise the paper's.
+layout(constant_id = 1) const bool kIsCgal = false;  // Definition::Cgal; otherwise Definition::Paper.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer Points { uvec4 pointBlocks[]; };
@@ -20,7 +20,7 @@ const float kMinSquaredLength = 1e-37;  // The inverse of its root is finite.
 
 // The seeds of the current face.
 uint seeds[kMaxContributingSeedCount];
-float seedWeights[kMaxContributingSeedCount];  // Negative where there is none.
+float seedWeights[kMaxContributingSeedCount];  // Negative for an absent seed.
 
 #include "approximations.glsl"
 
@@ -31,8 +31,8 @@ PredictionPoint loadPoint(uint index) {
 
 PredictionPoint loadSeed(uint seed) { return loadPoint(seed * (push.rayCount + 1u)); }
 
-// The weight of a seed is a Gaussian of its distance and of the angle between its normal and the face's. Returns the
-// total weight.
+// The weight of a seed is a Gaussian of its distance and of the angle between its normal and the normal of the face.
+// Returns the total weight.
 float weighSeeds(PredictionFace at, uint cell) {
   const uint firstSeed = 2u * push.itemCount + cell * kMaxContributingSeedCount;
   float distanceSum = 0.0;
@@ -64,7 +64,8 @@ float weighSeeds(PredictionFace at, uint cell) {
 // A point seen from the virtual cone.
 struct ConePoint {
   float distance;
-  float mass;  // The number of rays that it represents there, up to a factor; 0 where it is not in the cone.
+  // The number of rays of the virtual cone that the point represents, up to a factor; 0 outside of the cone.
+  float mass;
   float weight;
   bool isInlier;
 };
@@ -76,7 +77,7 @@ ConePoint project(PredictionFace at, PredictionPoint point, float seedWeight) {
   const float cosine = -dot(offset, at.normal) * inverse;
   const float versine = max(1.0 - cosine, push.minVersine);
   float ratio = abs(point.solidAngleRatio) * (inverse * inverse);
-  // Rays per solid angle at this angle t to the axis: 1 / (sin t cos^2 t).
+  // The density of rays per solid angle at this angle t to the axis is proportional to 1 / (sin t cos^2 t).
   if (kIsCgal) ratio *= inversesqrt(max(versine * (2.0 - versine), kMinSquaredLength)) / (cosine * cosine);
   const float normalCosine = kIsCgal ? -dot(point.normal, offset) : dot(point.normal, at.normal);
   const bool isInCone = cosine >= push.minCosine && normalCosine <= push.maxNormalCosine && point.face != kNoFace &&
@@ -91,7 +92,7 @@ ConePoint project(PredictionFace at, PredictionPoint point, float seedWeight) {
 
 uint firstPointOf(uint i) { return seeds[i] * (push.rayCount + 1u) + 1u; }
 
-// 0 for a seed that is ignored.
+// End of the points of a seed; 0 for a seed that is ignored.
 uint endOf(uint i, float minWeight) { return seedWeights[i] >= minWeight ? firstPointOf(i) + push.rayCount : 0u; }
 
 // Each block of points has its own sum, and these sums are added: rounding errors are smaller with many rays.
@@ -128,13 +129,13 @@ ConeSums sumUp(PredictionFace at, float minWeight, float medianLength) {
   return sums;
 }
 
-// The median is between two lengths; massToLow and massToHigh: the mass of the points up to each of them.
+// The median is between the lengths `low` and `high`. massToLow, massToHigh: mass of the points up to each of the two.
 struct MedianBounds {
   float low, high, massToLow, massToHigh;
 };
 
-// The quarter of the interval where the mass reaches `halfMass`. ofDeviations: of the absolute differences from
-// `centre`.
+// The quarter of the interval where the mass reaches `halfMass`. ofDeviations: whether the median is that of the
+// absolute differences of the lengths from `centre`.
 MedianBounds quarterOf(PredictionFace at, float minWeight, MedianBounds bounds, float halfMass, bool ofDeviations,
                        float centre) {
   const float quarter = 0.25 * (bounds.high - bounds.low);
@@ -203,7 +204,7 @@ uint predict(PredictionFace at, uint cell) {
   const float median =
       medianBetween(at, minWeight, mean - deviation, mean + deviation, sums.mass, kMedianPassCount, false, 0.0);
   float spread = deviation;
-  if (kIsCgal)  // At most twice the deviation, by Chebyshev's inequality.
+  if (kIsCgal)  // The spread is at most twice the deviation, by Chebyshev's inequality.
     spread = medianBetween(at, minWeight, 0.0, 2.0 * deviation, sums.mass, kSpreadPassCount, true, median);
   const float bound = push.outlierDeviations * spread + push.outlierSlack * median;
   const vec2 pooled = poolWithin(at, minWeight, median - bound, median + bound);
