@@ -18,10 +18,11 @@ namespace {
 // Faces per task.
 constexpr size_t kBlockFaceCount = 4096;
 
-// A float at or below d, and at or below d rounded to nearest. Branch-free: lowered by a bound on the rounding error.
+// A float that is at or below d, and at or below d rounded to nearest. Branch-free: subtracts a bound of the rounding
+// error.
 float roundedDown(double d) { return static_cast<float>(d - std::abs(d) * 0x1p-23 - 0x1p-149); }
 
-// Contains the corners in double and rounded to float.
+// The box contains the corners both in double and rounded to float.
 SplitBox outerBox(const TriangleMesh& mesh, const Face& face, const Normalization& normalization) {
   const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
   const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
@@ -69,11 +70,12 @@ UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const Face
 
 /// A part of the hierarchy under construction: either an inner node with two children, or a finished run of nodes.
 struct Subtree {
-  std::unique_ptr<Subtree> left, right;  ///< Both are set, or none is.
+  std::unique_ptr<Subtree> left, right;  ///< Both are set or both are null.
   SplitBox box;
-  std::vector<BvhNode> nodes;  ///< Without children: root first; child indices are relative to this run.
-  uint32_t depth = 0;          ///< Levels below its root.
-  size_t nodeCount = 0;        ///< All nodes of the subtree, root included.
+  /// Set if there are no children. The root is first; child indices are relative to this run.
+  std::vector<BvhNode> nodes;
+  uint32_t depth = 0;    ///< Levels below the root of the subtree.
+  size_t nodeCount = 0;  ///< All nodes of the subtree, root included.
 };
 
 // Parts up to this size are built by one thread, into one run of nodes.
@@ -149,9 +151,9 @@ class RunBuilder {
   Subtree& run_;
 };
 
-/// Builds over `triangles`, which it reorders. primitiveFaces: of all primitives; those from `firstPrimitive` on are
-/// written, one per triangle. level: the number of levels above. Large parts are separate tasks; the result does not
-/// depend on the number of threads.
+/// Builds over `triangles`, which it reorders. primitiveFaces: the array of all primitives; its entries from
+/// `firstPrimitive` on are written, one per triangle. level: number of levels above this part. Large parts are separate
+/// tasks; the result does not depend on the number of threads.
 std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, std::span<uint32_t> primitiveFaces,
                                       uint32_t firstPrimitive, uint32_t level, const BvhOptions& options) {
   auto subtree = std::make_unique<Subtree>();

@@ -20,7 +20,8 @@ struct OctahedralNormal {
   float u, v;
 };
 
-// Branch-free: the side of the sphere is unpredictable. -0 has the code of 0, as normals of reversed faces have.
+// Branch-free: the side of the sphere is unpredictable. -0, which occurs in the normals of reversed faces, has the code
+// of 0.
 OctahedralNormal encodeNormal(const Vec3d& n) {
   const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
   const double u = n.x * scale, v = n.y * scale;

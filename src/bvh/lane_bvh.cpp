@@ -10,7 +10,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr float kBeyondAll = 4;  // Of the normalised box, which ends at 1.
+constexpr float kBeyondAll = 4;  // Outside of the normalised box, which ends at 1.
 
 constexpr uint32_t kNoNode = ~0u;
 

@@ -9,7 +9,8 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxBinCount = 32;
-// Size of the sample, taken at a constant stride. Its best split is nearly as good as that of all triangles.
+// Number of triangles in the sample, which has a constant stride. The best split of the sample is nearly as good as the
+// best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
 struct Bin {

@@ -11,7 +11,7 @@ namespace {
 
 using Nearest = std::array<int32_t, kMaxSmallTreeCount>;
 
-// Clusters that are not part of another one.
+// Clusters that are not part of another cluster.
 struct Clusters {
   uint32_t count = 0;
   std::array<uint8_t, kMaxSmallTreeCount> nodes;

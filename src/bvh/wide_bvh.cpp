@@ -17,14 +17,14 @@ constexpr uint32_t kParallelSearchLevelCount = 10;
 
 float halfAreaOf(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
 
-// Entry [i - 1]: the least cost of i children from both sides, and the number of them from the left side.
+// Entry [i - 1]: the least cost of i children from both sides, and how many of these are from the left side.
 struct Sharing {
   std::array<float, kWideChildCount> costs;
   std::array<int32_t, kWideChildCount> leftCounts;
 };
 
 // Vectorised over i; loops over the number k of children from the left side. Ties go to the least k. More than
-// maxLeftCount are never cheaper.
+// maxLeftCount children from the left side are never cheaper.
 Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
                       const std::array<float, kWideChildCount>& right) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -50,7 +50,7 @@ Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t m
 constexpr int kExponentBias = 127;
 constexpr uint32_t kMaxByte = 255;
 
-// Exponent bits of normal doubles: library calls would dominate the time of quantizeBoxes().
+// Exponents of normal doubles, from their bits: library calls would dominate the time of quantizeBoxes().
 int exponentOf(double positive) { return static_cast<int>(std::bit_cast<uint64_t>(positive) >> 52) - 1023; }
 double powerOfTwo(int e) { return std::bit_cast<double>(static_cast<uint64_t>(e + 1023) << 52); }
 
@@ -276,7 +276,7 @@ DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<u
     const int e = exponentFor(static_cast<double>(all.max[axis]) + margin - start);
     node.exponents |= static_cast<uint32_t>(e + kExponentBias) << 8 * axis;
     const double perUnit = powerOfTwo(-e);
-    uint64_t lowers = emptySlots, uppers = 0;  // an empty slot's box has its lower corner above its upper one
+    uint64_t lowers = emptySlots, uppers = 0;  // The box of an empty slot has its lower corner above its upper corner.
     for (size_t i = 0; i < children.size(); ++i) {
       const double lower = static_cast<double>(children[i].min[axis]) - margin - start;
       const double upper = static_cast<double>(children[i].max[axis]) + margin - start;

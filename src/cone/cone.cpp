@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-// Rays that a device traces side by side, so they should be neighbours.
+// Number of consecutive rays that a device traces side by side. They should be neighbours.
 constexpr size_t kRunLength = 8;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -58,9 +58,9 @@ std::vector<Ray> paperRays(uint32_t count, double halfAngle) {
   return rays;
 }
 
-// Ray i passes the disk that closes the cone at i / count of its radius.
+// Ray i passes through the disk that closes the cone, at i / count of the radius of the disk.
 std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
-  // The axis ray represents the inner half of a step; this is the mean radius there, in steps.
+  // The ray on the axis represents radii from 0 to half a step. This is their mean, in steps.
   constexpr double kAxisRadius = 0.25;
   std::vector<Ray> rays(count);
   for (size_t i = 0; i < rays.size(); ++i) {
@@ -72,7 +72,7 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
     rays[i].direction = direction / length(direction);
     rays[i].angle = std::atan(std::tan(halfAngle) * (step / count));
     rays[i].weight = 1;
-    // Rays per solid angle: 1 / (sin t cos^2 t).
+    // The density of rays per solid angle is proportional to 1 / (sin t cos^2 t).
     const double t = std::atan(std::tan(halfAngle) * (std::max(step, kAxisRadius) / count));
     rays[i].solidAngle = std::sin(t) * std::cos(t) * std::cos(t);
   }
@@ -81,7 +81,8 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
 
 }  // namespace
 
-/// Distance in float32 of a point on a face from the plane of that face: rays at the rim of the cone cross it last.
+/// Distance, by rounding to float32, of a point on a face from the plane of the face. Rays at the rim of the cone have
+/// the longest way through this distance.
 constexpr double kFloatPlaneError = 0x1p-22;
 constexpr double kMaxContactDistance = 0x1p-16;
 

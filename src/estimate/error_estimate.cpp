@@ -13,11 +13,11 @@ namespace {
 
 constexpr size_t kWorstFaceCount = 5;
 
-// Held-out faces are seeds of the result, which lowers its error by about these powers of the number of seeds. The
-// powers differ between meshes by as much again (docs/experiments.md).
+// The held-out faces are seeds of the result. This lowers the error of the result by about these powers of the number
+// of seeds. The powers differ between meshes (docs/experiments.md).
 constexpr double kGainExponent = 0.12, kGainExponentWithoutPrediction = 0.5;
 
-/// Range of the traced values. That of the function is wider where its extremes were not traced.
+/// Range of the traced values. The range of the function is wider where its extremes were not traced.
 double tracedRange(const EstimateInput& input) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   for (const uint32_t face : input.traced.faces)
@@ -28,7 +28,7 @@ double tracedRange(const EstimateInput& input) {
   return high > low ? high - low : 0;
 }
 
-/// From the 1st to the 99th percentile of the values. Precondition: a face has one.
+/// From the 1st to the 99th percentile of the values. Precondition: a face has a value.
 double robustRange(std::span<const double> values) {
   std::vector<double> present;
   std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
@@ -83,8 +83,8 @@ std::vector<WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement
 /// 0 / 0 is 0: a value without an error.
 double relativeError(double error, double value) { return error == 0 ? 0 : error / std::abs(value); }
 
-/// Quantiles of the relative errors: of seeds, which are known, and of held-out faces, each of which stands for
-/// interpolated faces by its sampling weight. interpolatedCount: those with a value.
+/// Estimates quantiles of the relative errors. The errors of seeds are known. A held-out face represents interpolated
+/// faces, in proportion to its sampling weight. interpolatedCount: number of interpolated faces with a value.
 void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measurement>& measured, double gain,
                             size_t interpolatedCount, ErrorEstimate& estimate) {
   WeightedSample errors;

@@ -9,10 +9,10 @@
 namespace asdfvk {
 namespace {
 
-// Added to each entry, relative to the mean: the indicator of a face whose surroundings agree exactly.
+// Added to each entry, in units of the mean. A face whose seeds agree exactly has no other indicator.
 constexpr double kFloor = 0.5;
 
-/// #S: mean absolute difference between the value of a seed and those of its neighbours; NaN for a seed without a
+/// #S: mean absolute difference between the value of a seed and the values of its neighbours; NaN for a seed without a
 /// value.
 std::vector<double> neighbourDeviation(const NearestCells& nearest, std::span<const uint32_t> seeds,
                                        std::span<const double> values) {

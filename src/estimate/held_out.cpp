@@ -10,7 +10,7 @@ namespace {
 /// Inclusion probabilities: in proportion to the indicator, at most 1.
 class InclusionProbabilities {
  public:
-  /// Their sum is `count`, which is below the number of candidates.
+  /// The sum of the probabilities is `count`. Precondition: it is below the number of candidates.
   InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count)
       : indicator_(indicator) {
     for (bool grows = true; grows;) {  // Until no further probability reaches 1.
@@ -35,7 +35,7 @@ std::vector<uint32_t> samplePivotally(std::span<const uint32_t> candidates, cons
                                       Random random) {
   std::vector<uint32_t> sample;
   uint32_t holder = 0;
-  double held = 0;  // Inclusion probability of the holder, given the decisions on all faces before it.
+  double held = 0;  // Inclusion probability of the holder, given the decisions on all earlier faces.
   for (const uint32_t face : candidates) {
     const double own = probabilities.of(face), sum = held + own, number = random.real();
     if (sum < 1) {  // One of the two receives the probability of the other.

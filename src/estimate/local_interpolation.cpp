@@ -11,8 +11,8 @@
 namespace asdfvk {
 namespace {
 
-// The residual at the end, relative to that of the start. The start differs from the solution as much as the error that
-// is measured, so that this is the precision of the error.
+// Residual at which the iteration ends, relative to the residual of the start. The difference between start and
+// solution is the error that is measured; this is therefore the relative precision of the error.
 constexpr double kLocalReduction = 3e-3;
 constexpr uint32_t kMaxLocalIterations = 1000;
 constexpr uint32_t kConstrainedRow = std::numeric_limits<uint32_t>::max();
@@ -24,7 +24,7 @@ class PatchRows {
     entries_.assign(entries_.size(), {});
     count_ = 0;
   }
-  /// False where the face has a row already, which it keeps.
+  /// Returns false if the face already has a row, which then remains.
   bool add(uint32_t face, uint32_t row) {
     if (2 * (count_ + 1) > entries_.size()) grow();
     Entry& entry = entryOf(face);
@@ -33,7 +33,7 @@ class PatchRows {
     ++count_;
     return true;
   }
-  /// Precondition: the face has one.
+  /// The row of a face. Precondition: the face has a row.
   [[nodiscard]] uint32_t of(uint32_t face) { return entryOf(face).row; }
 
  private:
@@ -54,11 +54,11 @@ class PatchRows {
       if (entry.face != kNoFace) entryOf(entry.face) = entry;
   }
 
-  std::vector<Entry> entries_ = std::vector<Entry>(256);  // Their number is a power of two.
+  std::vector<Entry> entries_ = std::vector<Entry>(256);  // The size is a power of two.
   size_t count_ = 0;
 };
 
-/// The equation around one face after another.
+/// Solves the equation around one face after another.
 class Patch {
  public:
   explicit Patch(const SolvedInterpolation& solved) : solved_(solved) {}
@@ -88,12 +88,12 @@ class Patch {
   size_t unknownCount_ = 0;
   std::vector<uint32_t> offsets_;
   std::vector<Column> columns_;
-  std::vector<double> diagonal_, residual_, solution_;  // The residual of the start first.
+  std::vector<double> diagonal_, residual_, solution_;  // residual_ begins with the residual of the start.
   std::vector<double> preconditioned_, direction_, product_;
   bool isDetermined_ = false;  // Whether a boundary value was found.
 };
 
-/// Breadth-first between the constraints, until there are enough of them.
+/// Collects faces breadth-first, not beyond constraints, until there are kLocalConstraintCount constraints.
 void Patch::collect(uint32_t centre) {
   faces_.assign(1, centre);
   rows_.clear();
@@ -167,7 +167,7 @@ double Patch::multiply() {
   return curvature;
 }
 
-/// Goes along the direction. Returns the square of the preconditioned norm of the residual.
+/// Moves the solution along the direction. Returns the square of the preconditioned norm of the residual.
 double Patch::step(double length) {
   double squared = 0;
   for (size_t row = 0; row < unknownCount_; ++row) {

@@ -24,7 +24,7 @@ class References {
     makeReferenceTracer(scene, cone)->trace(faces_, {values_}, control);
   }
 
-  /// Precondition: the face is among them.
+  /// Precondition: the face is one of these faces.
   [[nodiscard]] double operator[](uint32_t face) const {
     return values_[static_cast<size_t>(std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin())];
   }

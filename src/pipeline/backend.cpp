@@ -49,7 +49,7 @@ std::unique_ptr<Backend> makeOnCpu(const SessionOptions&) {
   return std::make_unique<T>();
 }
 
-/// make() throws Error of kind Device where the backend is not available.
+/// make() throws Error of kind Device if the backend is not available.
 struct BackendRow {
   const char* name;
   bool usesVulkan;
@@ -80,7 +80,7 @@ NamedBackend open(const BackendRow& row, const SessionOptions& options) {
   return named;
 }
 
-/// The first of the rows that is available.
+/// Opens the first of these backends that is available.
 NamedBackend openFirst(std::span<const BackendRow> rows, const SessionOptions& options) {
   std::vector<std::string> rejected;
   for (const BackendRow& row : rows) {

@@ -16,7 +16,8 @@
 namespace asdfvk {
 namespace {
 
-/// #F, from values of input faces. isValid(value) is required of each; allowed: a phrase for the message.
+/// Values of triangles (#F) from values of input faces. Throws Error{ValueOutOfRange} for a value for which
+/// isValid(value) is false. allowed: the allowed values, for the message.
 template <typename IsValid>
 std::vector<double> valuesOfTriangles(const TriangleMesh& mesh, std::span<const double> values, const char* allowed,
                                       const IsValid& isValid) {

@@ -126,7 +126,7 @@ std::vector<double> finalValues(const FaceDomain& domain, const std::vector<doub
                            smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
 }
 
-/// releasedBvh: as for SeedTracing.
+/// releasedBvh: see SeedTracing.
 void measureDiameter(Result& result, const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
                      const RunControl& control) {
   const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
@@ -160,7 +160,7 @@ std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>&
   return std::make_shared<SceneData>(SceneData{scene, scene->view()});
 }
 
-/// The limit in the unit of the mesh.
+/// Converts the limit to the unit of the mesh.
 ThicknessOptions inUnitOfMesh(ThicknessOptions thickness, const std::string& unit) {
   const LengthUnitRow *const from = findLengthUnit(thickness.limitUnit), *const to = findLengthUnit(unit);
   if (!thickness.thinnerThan || from == nullptr) return thickness;
@@ -174,7 +174,7 @@ ThicknessOptions inUnitOfMesh(ThicknessOptions thickness, const std::string& uni
   return thickness;
 }
 
-/// Where every face becomes a seed nothing is interpolated, and no hit has to be kept.
+/// Sets SeedCount::all() if every face becomes a seed: then nothing is interpolated, and no hit has to be kept.
 Options withAllSeeds(Options options, const FaceDomain& domain) {
   const uint64_t faceCount = domain.traceableFaces.size();
   if (faceCount > 0 && resolveSeedCount(options, faceCount) == faceCount) options.seeds = SeedCount::all();
@@ -193,7 +193,7 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const auto& [session, sharedScene, domain, tracers, isLast] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
-  if (session.named.backend->device() == nullptr) (void)completed(session, requested);  // Another backend than before.
+  if (session.named.backend->device() == nullptr) (void)completed(session, requested);  // The backend may have changed.
   Options options = withAllSeeds(requested, domain);
   options.thickness = inUnitOfMesh(options.thickness, prepared.unit);
   const Cone cone = makeCone(options.cone);

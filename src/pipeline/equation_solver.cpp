@@ -21,7 +21,7 @@ SolverReport EquationSolver::solve(const DualGraph& graph, std::span<const doubl
   if (!isReplaceable_ || !findSolver(name_).needsDevice)
     return solveWithChosen(graph, weights, std::move(problem), values, control);
   try {
-    // A copy of the problem, which the CPU receives if the device fails.
+    // Passes a copy of the problem, because the CPU receives the problem if the device fails.
     return solveWithChosen(graph, weights, problem, values, control);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Device) throw;

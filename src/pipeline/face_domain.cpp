@@ -44,7 +44,7 @@ void Region::connect(const PreparedMesh& prepared) {
   });
 }
 
-/// By lowest face; faces outside get the label after the last.
+/// Numbers the components by their lowest faces. Faces outside of the region get the number after the last component.
 void Region::labelComponents() {
   constexpr uint32_t kUnlabelled = 0xffffffff;
   componentOf_.assign(isInside_.size(), kUnlabelled);

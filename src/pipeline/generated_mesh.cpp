@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-/// radiusAt(u, v): of the section at angle u around the z axis, at angle v in the section.
+/// radiusAt(u, v): radius at angle v in the section that is at angle u around the z axis.
 template <typename RadiusAt>
 Mesh ringWith(uint32_t longCount, uint32_t shortCount, const RadiusAt& radiusAt) {
   Mesh mesh;

@@ -27,7 +27,7 @@ std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span
   return values;
 }
 
-/// Start of the solvers: the prediction, or the mean of the seeds of the component where there is none.
+/// Start of the solvers: the prediction or, where there is none, the mean of the seeds of the component.
 std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
   std::vector<double> guess(domain.componentOf.size(), kNoValue);
@@ -39,9 +39,9 @@ std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<Compo
   return guess;
 }
 
-/// Limits a value of a component, which guidance, and rounding of the solvers, move beyond those of the seeds: below to
-/// the smaller of the lowest seed value and the prediction of the face, if any, above to the highest seed value, since
-/// the faces with the greatest predictions are seeds (extremeSeeds()).
+/// Limits a value of a component, because guidance and rounding in the solvers can move it beyond the values of the
+/// seeds. Lower limit: the lowest seed value or, if smaller, the prediction of the face. Upper limit: the highest seed
+/// value, because the faces with the greatest predictions are seeds (extremeSeeds()).
 double limited(const ComponentValues& component, double prediction, double value) {
   if (component.count == 0 || !std::isfinite(value)) return value;
   const double low = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
@@ -65,7 +65,7 @@ Interpolated Interpolation::solve(std::span<const double> constraints, std::span
                                   const RunControl& control) {
   Interpolated result;
   result.solver.name = "none";
-  // By the definition of CGAL only traced faces have values.
+  // In CGAL's definition only traced faces have values.
   const bool needsNone = options_.cone.definition == Definition::Cgal && options_.seeds.kind == SeedCount::Kind::All;
   const bool hasAll =
       needsNone || std::all_of(constraints.begin(), constraints.end(), [](double v) { return std::isfinite(v); });
@@ -129,7 +129,7 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
   return problem;
 }
 
-/// values: #F, those of the constraints and the solution; empty before.
+/// values: receives the constraints and the solution, #F; empty before the call.
 SolverReport Interpolation::solveEquation(std::span<const double> constraints, std::span<const double> predicted,
                                           const std::vector<ComponentValues>& traced, std::vector<double>& values,
                                           const RunControl& control) {

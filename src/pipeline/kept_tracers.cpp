@@ -13,7 +13,7 @@ std::shared_ptr<KeptTracer> KeptTracers::get(const ConeOptions& options, const T
       std::rotate(kept_.begin(), found, found + 1);
       return kept_.front();
     }
-    kept_.erase(found);  // Before the new one is made: less memory at the peak.
+    kept_.erase(found);  // Erased before the new tracer is made, which lowers the peak of memory.
   }
   if (capacity_ == 0) return make(options, needs, clock);
   if (kept_.size() == capacity_) kept_.pop_back();

@@ -59,8 +59,8 @@ TriangleMesh trianglesOf(const MeshView& view, Mesh& storage) {
 
 namespace {
 
-// Resolution of doubles at the greatest coordinate, in bounding-box diagonals: barycentres are rounded by about as
-// much, and the backends agree within ten times as much.
+// Largest allowed spacing of doubles at the greatest coordinate, in bounding-box diagonals. The spacing is about the
+// rounding error of barycentres; the backends agree within ten times this error.
 constexpr double kMaxSpacing = kAgreementTolerance / 10;
 
 /// Copies arrays of the caller, so that faces can be reversed.
@@ -76,7 +76,7 @@ void ownArrays(PreparedMesh& prepared) {
   copy(prepared.storage.polygons.inputFaceOf, mesh.polygons.inputFaceOf);
 }
 
-/// reverse: changes prepared.storage.
+/// reverse(): reverses faces of prepared.storage.
 template <typename Reverse>
 void reverseFaces(PreparedMesh& prepared, const Reverse& reverse) {
   ownArrays(prepared);
@@ -108,7 +108,8 @@ void orient(PreparedMesh& prepared, Orientation orientation) {
   }
 }
 
-/// Far from the origin, neighbouring doubles are so far apart that barycentres and normals are wrong.
+/// Throws Error{FarFromOrigin} if neighbouring doubles are so far apart at the coordinates that barycentres and normals
+/// would be wrong.
 void requireResolved(const Box3d& bounds) {
   double largest = 0;
   for (size_t axis = 0; axis < 3; ++axis)

@@ -36,7 +36,7 @@ std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
   return faces;
 }
 
-/// Hides the values of some faces during its life.
+/// Hides the values of some faces while the object exists.
 class HiddenValues {
  public:
   HiddenValues(std::vector<double>& values, std::vector<uint32_t> faces) : values_(values), faces_(std::move(faces)) {
@@ -108,13 +108,13 @@ class Rounds {
   EquationSolver solver_;
   Interpolation interpolation_;
 
-  SeedChoice sampled_;  ///< All seeds: those of the sampler and of extremes, and held-out faces.
+  SeedChoice sampled_;  ///< All seeds. `sampled` includes extreme seeds.
   TracedSeeds traced_;
   HeldOutFaces heldOut_;
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
-  double hiddenSampleSeconds_ = 0;   ///< Time of choosing the first seeds, as far as it is no part of Stage::Sample.
-  double interpolationSeconds_ = 0;  ///< Time of the last round, all but its rays.
+  double hiddenSampleSeconds_ = 0;   ///< Time of the choice of the first seeds that Stage::Sample does not include.
+  double interpolationSeconds_ = 0;  ///< Time of the last round without its rays.
   uint32_t roundCount_ = 0;
 };
 
@@ -152,10 +152,10 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);
 }
 
-/// The result, and its errors where they are estimated. extremes: of this round.
+/// Computes the result and, if `estimates`, its errors. extremes: the extreme seeds of this round.
 void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const double> indicator, bool estimates,
                          const RunControl& control) {
-  const bool hasPrediction = estimates && computation_.predicts();  // Without the held-out faces.
+  const bool hasPrediction = estimates && computation_.predicts();  // The prediction is made without held-out faces.
   std::vector<ReplacedValue> replaced;
   {
     const auto scope = clock_.time(hasPrediction ? Stage::Estimate : Stage::Predict);
@@ -165,7 +165,7 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const dou
     else
       prediction_.predict({traced_.faces, traced_.hits}, predicting);
   }
-  if (!tracing_) traced_.hits = {};  // The equation needs memory; there are no further rounds.
+  if (!tracing_) traced_.hits = {};  // Releases memory for the equation, because no further round follows.
   control.checkpoint(kPredictedProgress);
   {
     const auto scope = clock_.time(Stage::Solve);
@@ -197,8 +197,8 @@ SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double>
   return choose(shares, density);
 }
 
-/// The first seeds are chosen in the background while this thread makes the tracer. Stage::Sample is the time after
-/// that until the choice ends.
+/// The first seeds are chosen in the background while this thread makes the tracer. Stage::Sample is charged with the
+/// time from then until the choice ends.
 SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
   SeedChoice choice;
   double seconds = 0;
@@ -243,7 +243,8 @@ void Rounds::sortSampled() {
                       std::back_inserter(sampled_.sampled));
 }
 
-/// Returns the seeds that contributed, #S as traced, kNoFace for held-out faces.
+/// Predicts from all seeds except held-out faces. Returns these seeds: #S as in traced_.faces, kNoFace for held-out
+/// faces.
 std::vector<uint32_t> Rounds::predictWithoutHeldOut(Stage stage, const RunControl& control) {
   const auto scope = clock_.time(stage);
   std::vector<uint32_t> faces = traced_.faces;
@@ -253,13 +254,15 @@ std::vector<uint32_t> Rounds::predictWithoutHeldOut(Stage stage, const RunContro
   return faces;
 }
 
-/// The error indicator, #F, from the last prediction. stage: to be charged.
+/// The error indicator, #F, from the last prediction. predictedFrom: the seeds of this prediction. stage: the stage to
+/// charge.
 std::vector<double> Rounds::indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom) {
   const auto scope = clock_.time(stage);
   return errorIndicator(prediction_.last(), predictedFrom, traced_.values);
 }
 
-/// Traces the faces with the greatest predictions, which are returned, and held-out faces sampled by the indicator.
+/// Traces extreme seeds, the faces with the greatest predictions, and held-out faces that are sampled by the indicator.
+/// Returns the extreme seeds.
 std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                                 const RunControl& control) {
   std::vector<uint32_t> extremes, faces;
@@ -299,7 +302,7 @@ uint64_t Rounds::remainingCount() const {
   return computation_.domain.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
 }
 
-/// Seeds of the next round; 0 if the conditions of the rounds are fulfilled.
+/// Number of seeds of the next round; 0 if the conditions of the rounds are fulfilled.
 uint64_t Rounds::furtherCount() const {
   if (!options_.rounds.areSet() || remainingCount() == 0) return 0;
   return std::min({countForError(), countForTime(), remainingCount()});
@@ -315,13 +318,15 @@ uint64_t Rounds::countForError() const {
       countForTarget(rounds.maxRelativeError, estimate.relativeMedian, estimate.relativeMedianStandardError));
 }
 
-/// Seeds until an error, now with this estimate and standard error, is bounded by the target; 0 without one.
+/// Number of further seeds until the bound of an error is at most `maximum`; 0 without a maximum. estimate,
+/// standardError: of the error now.
 uint64_t Rounds::countForTarget(std::optional<double> maximum, double estimate, double standardError) const {
   if (!maximum) return 0;
   const auto seedCount = static_cast<double>(traced_.faces.size());
   const double target = *maximum, bound = estimate + kStandardErrors * standardError;
   if (bound <= target) return 0;
-  // The number of interpolated faces falls with the seeds, and the error of each with a power of their number.
+  // The number of interpolated faces falls with the number of seeds. The error of an interpolated face falls with a
+  // power of the number of seeds.
   const auto candidateCount = static_cast<double>(computation_.domain.traceableFaces.size());
   const double perFace = bound / (1 - seedCount / candidateCount);
   double growth = kMinGrowth;

@@ -19,7 +19,7 @@
 namespace asdfvk {
 namespace {
 
-/// Points traced at a time: their starts take 9 MB.
+/// Number of points that are traced at a time. Their starts take 9 MB.
 constexpr size_t kPointChunkSize = 1u << 16;
 
 Vec3d vectorAt(std::span<const double> numbers, size_t i) {
@@ -57,7 +57,7 @@ void requirePoints(std::span<const double> points, std::span<const double> norma
   }
 }
 
-/// At any length above 0: squares neither overflow nor underflow.
+/// v may have any length above 0: squares neither overflow nor underflow.
 Vec3d unitVector(const Vec3d& v) {
   const Vec3d scaled = v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return scaled / length(scaled);
@@ -74,7 +74,7 @@ void requireNoConflict(const Options& options, Orientation orientation, bool has
     throw Error(ErrorCode::OptionConflict, "a region is not post-processed; post-process the whole mesh");
 }
 
-/// In the unit of the mesh. From very far, where squares overflow, the mesh is a point.
+/// The distance in the unit of the mesh. For very distant points, where squares overflow, the mesh counts as a point.
 double distanceOf(const SurfacePoint& found, const Normalization& unit, const Vec3d& p) {
   constexpr double kFar = 1e100;
   if (found.distance < kFar) return unit.toMeshLength(found.distance);
@@ -121,7 +121,7 @@ struct Scene::State {
     return *tracers_;
   }
 
-  /// findNearestPoints(). Throws Error{NoValues} where there is no surface.
+  /// Calls findNearestPoints(). Throws Error{NoValues} if no face has an area.
   void takeNearest(std::span<const double> points, const RunControl& control,
                    FunctionRef<void(size_t, const SurfacePoint&)> take) const {
     if (!points.empty() && scene->bvh.nodes.empty())

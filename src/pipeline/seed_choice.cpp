@@ -69,7 +69,8 @@ SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, co
   const Sampler& sampler = samplerOf(options);
   SeedChoice choice;
   if (sampler.isUniform) {
-    // All are sampled at random, so any of them can be held out, and the seeds are the same without an estimate.
+    // All seeds are sampled at random, so that any of them can be held out. The seeds are then the same with and
+    // without an estimate.
     const std::vector<uint32_t> all =
         sampler.sample(domain, shares.sampled + shares.heldOut, earlier.sampled, options.randomSeed);
     choice.heldOut = randomPermutationSeeds(all, shares.heldOut, heldOutSeed(options.randomSeed, 0));

@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// A CPU device needs more time than the CPU for the same predictions (docs/experiments.md). Fewer storage buffers
-/// suffice than for the solvers.
+/// A CPU device needs more time than the CPU for the same predictions (docs/experiments.md). The number of storage
+/// buffers is not tested, because the prediction needs fewer than any solver.
 bool SeedPrediction::predictsOnDevice() const {
   const std::string& solver = computation_.options.solver;
   return computation_.keepsHits() && computation_.backend.device() != nullptr && !hasFailed_ &&
@@ -32,7 +32,8 @@ DevicePredictor* SeedPrediction::devicePredictor() {
 
 /// Called in the handler of the failure.
 void SeedPrediction::continueOnCpu(const Error& failure) {
-  // A limit is no failure of the device, and a named solver does not request where values are predicted.
+  // With a named solver a failure of the device is an error. A limit is not a failure: naming a solver does not request
+  // that the device predicts.
   if (failure.kind() != ErrorKind::Device ||
       (computation_.options.solver != kAutomaticSolver && failure.code() != ErrorCode::DeviceLimit))
     throw;

@@ -19,7 +19,7 @@ constexpr double kMinAgreement = 0.9;    // PartsReport::agreement.
 constexpr double kMaxFaceSize = 0.5;     // In shape diameters.
 constexpr double kMaxCoarseShare = 0.1;  // Of the area.
 
-/// Sums of the areas of the triangles (#F), by the segment of their input face; divided by the sum of all.
+/// The share of the area that each segment has, from areas of triangles (#F) and segments of input faces.
 std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const double> areas,
                                  std::span<const uint32_t> segments, uint32_t count) {
   std::vector<double> shares(count, 0);
@@ -37,7 +37,7 @@ double coarseShareOf(const PreparedMesh& prepared, std::span<const double> value
   double share = 0;
   for (uint32_t face = 0; face < values.size(); ++face) {
     const double size = std::sqrt(4 / std::sqrt(3.0) * prepared.geometry.areas[face]);
-    if (size > kMaxFaceSize * values[face]) share += areas[face];  // Not without a value.
+    if (size > kMaxFaceSize * values[face]) share += areas[face];  // False without a value.
   }
   return share;
 }

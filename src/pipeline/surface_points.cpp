@@ -17,7 +17,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkSize = 4096, kBlockSize = 256;
-// Normalised: farther points are on no surface.
+// Points with a greater normalised coordinate are not on the surface.
 constexpr double kMaxCoordinate = 2;
 // Normalised: the nearest point is a vertex, up to rounding.
 constexpr double kVertexReach = 1e-12;
@@ -97,7 +97,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
       const Vec3d p = unit.toNormalized(points[block[i]]);
       queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}, solids.bodyOf(nearest[block[i]])};
       queries[i].atPoint.ball.diameter = sections[solids.solidOf[nearest[block[i]]]].bound;
-      queries[i].least.ball.diameter = 0;  // Not asked for.
+      queries[i].least.ball.diameter = 0;  // Not needed.
     }
     tree.shrink(queries);
     for (size_t i = 0; i < block.size(); ++i) {

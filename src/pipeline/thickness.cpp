@@ -11,11 +11,12 @@ namespace asdfvk {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-// Faces whose balls are shrunk at a time: they need 9 MiB.
+// Number of faces whose balls are shrunk at a time. They need 9 MiB.
 constexpr size_t kBlockFaceCount = size_t{1} << 16;
 // Progress after the greatest sections, and after the balls of all faces.
 constexpr double kSectionsProgress = 0.2, kBallsProgress = 0.9;
-// Large thin faces are divided down to this share of the limit, or of normalised units.
+// Large thin faces are divided into parts with sides of at most limit / kPartsPerLimit, but at least kMinPartLength in
+// normalised units.
 constexpr double kPartsPerLimit = 4, kMinPartLength = 0x1p-10;
 
 /// Measures the faces of one computation.
@@ -29,7 +30,7 @@ class Measurement {
         opposing_(makeOpposingWalls(computation.options.thickness)),
         solids_(findSolids(scene_.mesh, computation.prepared.components)),
         fans_(mesh_) {
-    // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
+    // Coordinates in float32 do not resolve whether a wall is thinner than the limit by less than kContactDistance.
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
       limit_ = std::max(*limit * unit_.scale - kContactDistance, kContactDistance);
   }
@@ -113,7 +114,7 @@ class Measurement {
     return thin;
   }
 
-  /// Stores the values of a face; returns the least.
+  /// Stores the values of a face and returns its least thickness.
   double take(FaceBalls& balls, double greatest) {
     const auto lengthOf = [&](InscribedBall& ball) {
       if (ball.wall == kNoFace) ball.ball.diameter = greatest;
@@ -127,7 +128,7 @@ class Measurement {
     return thickness_.least[face];
   }
 
-  /// Counts input faces of the domain.
+  /// Counts the input faces of the domain that have a triangle for which holds(triangle) is true.
   template <typename Holds>
   [[nodiscard]] uint64_t countInputFaces(const Holds& holds) const {
     uint64_t count = 0, last = mesh_.inputFaceCount();

@@ -46,7 +46,8 @@ class Description {
 
   [[nodiscard]] Vec3d toMesh(const Vec3d& p) const { return p / unit_.scale + unit_.centre; }
 
-  /// The greatest section is only known to its tolerance: a wall of the same thickness comes first.
+  /// Upper bound of a least thickness. The greatest section is known only up to its tolerance; by this bound, a wall of
+  /// the same thickness comes first.
   static double surelyBelow(double least, uint32_t wall) {
     return wall == kNoFace ? least * (1 + kSectionTolerance) : least;
   }
@@ -71,7 +72,7 @@ class Description {
                                     line.edgeCount, line.place, prepared_.mesh.inputFaceOf(line.face)});
   }
 
-  /// For a face or a part of it: where its least ball touches it and the wall.
+  /// Where the least ball of a face, or of a part of it, touches the face and the wall.
   [[nodiscard]] Place placeOf(uint32_t face, const std::array<Vec3d, 3>& corners, uint32_t wall) const {
     const Vec3d& normal = prepared_.geometry.normals[face];
     if (wall != kNoFace) {
@@ -83,7 +84,7 @@ class Description {
     return {middle, middle - thickness_.least[face] * normal};
   }
 
-  /// At the sharp corner or edge of a face.
+  /// A point of the sharp edge of a face, or its sharp corner.
   [[nodiscard]] Vec3d sharpPlaceOf(uint32_t face) const {
     const auto corner = [&](size_t k) { return prepared_.mesh.vertices[prepared_.mesh.faces[face][k % 3]]; };
     for (size_t k = 0; k < 3; ++k)
@@ -130,7 +131,7 @@ class Description {
     return std::any_of(ofRegion.begin(), ofRegion.end(), [&](uint32_t i) { return thickness_.thinParts[i].isSharp; });
   }
 
-  /// The part with the least ball, the sharp ones first.
+  /// The part with the least ball. Sharp parts come first.
   [[nodiscard]] uint32_t thinnestOf(std::span<const uint32_t> ofRegion) const {
     const auto rank = [&](uint32_t i) {
       const ThinPart& part = thickness_.thinParts[i];
@@ -140,7 +141,7 @@ class Description {
                              [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
   }
 
-  /// The region of the part of the wall that the least ball of a part touches; unset where that is not thin.
+  /// The region of the place on the wall that the least ball of a part touches; unset if this place is not thin.
   [[nodiscard]] std::optional<uint32_t> regionOpposite(const ThinPart& part) const {
     const std::vector<ThinPart>& parts = thickness_.thinParts;
     if (part.least.wall == kNoFace) return std::nullopt;
@@ -154,8 +155,8 @@ class Description {
     return std::nullopt;
   }
 
-  /// Makes the two sides of a wall one region, where the least ball of one touches the other. Not with a sharp region,
-  /// which may be left out of the verdict.
+  /// Joins the two sides of a wall into one region if the least ball of one side touches the other side. Sharp regions
+  /// are not joined, because the verdict may leave them out.
   void joinSides(std::vector<std::vector<uint32_t>>& partsOf) const {
     std::vector<uint32_t> joinedWith(partsOf.size());
     std::iota(joinedWith.begin(), joinedWith.end(), 0u);
@@ -180,8 +181,8 @@ class Description {
     std::erase_if(partsOf, [](const std::vector<uint32_t>& ofRegion) { return ofRegion.empty(); });
   }
 
-  /// Leaves in `ofRegion` the parts that are thin at their middle: their area is that of the region. Where there is
-  /// none, the part with the least thickness.
+  /// Reduces `ofRegion` to the parts that are thin at their middle, whose area is the area of the region. If there is
+  /// no such part, the part with the least thickness remains.
   [[nodiscard]] ThinRegion describeRegion(std::vector<uint32_t>& ofRegion) const {
     const std::span<const ThinPart> parts = thickness_.thinParts;
     ThinRegion region;

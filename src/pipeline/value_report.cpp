@@ -12,8 +12,9 @@
 namespace asdfvk {
 namespace {
 
-// The range is no scale for errors where the robust range is below this share of it, or where the median relative error
-// is large and far above the average error over the range. No clean mesh is near (docs/accuracy.md).
+// The range of the values is not a good scale for errors in two cases: the robust range is below this share of the
+// range, or the median relative error is large and far above the average error over the range. No clean mesh is near
+// these limits (docs/accuracy.md).
 constexpr double kMinRobustShare = 0.1, kLargeRelativeError = 0.1, kMaxRelativeOverAverage = 5;
 
 /// The warning about faces without a value, with its likely causes. values: #F.
@@ -46,7 +47,7 @@ ValueRange rangeOf(const std::vector<double>& values) {
   return range;
 }
 
-/// The warning where errors over the range are reported and look small only because of the range.
+/// The warning about reported errors over the range that look small only because the range is large.
 std::optional<Warning> warningOfRange(const Report& report) {
   if (!report.estimatedError && !report.check) return std::nullopt;
   const double robustShare = report.sdf.robustRange() / (report.sdf.max - report.sdf.min);

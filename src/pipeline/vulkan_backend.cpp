@@ -99,7 +99,7 @@ class VulkanBackend final : public Backend {
  private:
   [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
 
-  /// computed: the word for what was compared. Throws Error{NoUsableDevice} where it is wrong.
+  /// Throws Error{NoUsableDevice} if the results of a kernel are wrong. computed: the word for these results.
   void requireRight(const TracerCheck& check, const char* computed) const {
     if (!check.isRefuted()) return;
     throw Error(ErrorCode::NoUsableDevice,
@@ -107,7 +107,7 @@ class VulkanBackend final : public Backend {
                             deviceName(), computed, check.differingCount, counted(check.comparedCount, "face")));
   }
 
-  // Destroyed in reverse: each member depends on those before it.
+  // Members are destroyed in reverse order: each member depends on the members before it.
   VulkanTraceRequest request_;
   Instance instance_;
   OpenedDevice opened_;

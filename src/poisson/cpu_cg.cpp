@@ -16,12 +16,13 @@
 namespace asdfvk {
 namespace {
 
-constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine part of a small mesh.
-constexpr size_t kChunkRowCount = 256;   // Multiplied and then summed while the first-level cache holds them.
+constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine some rows of a small mesh.
+// Rows that are multiplied and then summed while the first-level cache holds them.
+constexpr size_t kChunkRowCount = 256;
 constexpr size_t kLaneCount = 8;
 constexpr uint32_t kIterationsPerCheckpoint = 8;
 
-// The recurred residual departs from the true one at about 1e-7 (float32) of the first one.
+// The residual of the recurrence departs from the true residual at about 1e-7 (float32) of the first residual.
 constexpr double kMinFloatReduction = 1e-6, kMinDoubleReduction = 1e-13;
 
 /// The matrix S in double, as Eigen's sparse matrix on the columns of the system.

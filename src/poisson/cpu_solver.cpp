@@ -14,7 +14,7 @@ class CpuGraphSolver final : public GraphSolver {
   SolverReport solve(GraphProblem problem, const SolverOptions& options, std::vector<double>& values,
                      const RunControl& control) override {
     const std::span<const double> constraints = problem.constraints;
-    // The solution takes the place of the first guess, and the values come after the system.
+    // To save memory, the solution overwrites the first guess, and `values` is made after the system is released.
     PoissonSystem system = systemOf(graph_, weights_, std::move(problem));
     const SolverReport report = solve_(system, options, system.firstGuess, control);
     const std::vector<uint32_t> faces = std::move(system.faces);

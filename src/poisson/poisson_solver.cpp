@@ -9,7 +9,8 @@
 namespace asdfvk {
 namespace {
 
-/// The first solver that needs a device is the default on a device, the first one that needs none is that on the CPU.
+/// The first solver that needs a device is the default on a device, the first solver that needs none is the default on
+/// the CPU.
 constexpr std::array kSolvers{
     Solver{.name = "cg", .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanCgSolver},
     Solver{.name = "jacobi", .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanJacobiSolver},

@@ -15,8 +15,8 @@ namespace asdfvk {
 namespace {
 
 constexpr double kMinDistanceRatio = 1e-9;
-constexpr double kMinDistance = 1e-300;                            // Where the diagonal itself is almost 0.
-constexpr double kMinWeight = std::numeric_limits<double>::min();  // Where the distance overflows.
+constexpr double kMinDistance = 1e-300;                            // For meshes whose diagonal is almost 0.
+constexpr double kMinWeight = std::numeric_limits<double>::min();  // For distances that overflow.
 
 // Unlike the root of a sum of squares, std::hypot neither overflows nor underflows in any unit.
 double lengthOf(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
@@ -50,7 +50,8 @@ double finiteOrZero(std::span<const double> perFace, uint32_t face) {
   return !perFace.empty() && std::isfinite(perFace[face]) ? perFace[face] : 0;
 }
 
-/// Fills all of `system` but faces, firstGuess and constraintMean. unknownOf: #F, kNotUnknown for the other faces.
+/// Fills `system` except faces, firstGuess and constraintMean. unknownOf: #F, kNotUnknown for faces that are not
+/// unknowns.
 void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> constraints,
               std::span<const double> divergence, PoissonSystem& system) {
   const size_t unknownCount = system.faces.size();

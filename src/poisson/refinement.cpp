@@ -12,7 +12,8 @@
 namespace asdfvk {
 namespace {
 
-// A pass reduces the residual a little more than necessary: rounding in its own residual then costs no further pass.
+// A pass reduces the residual a little more than necessary, so that rounding errors of the pass do not require a
+// further pass.
 constexpr double kSafety = 0.9;
 // A pass that leaves more than this share of the residual has reached the limit of its precision.
 constexpr double kStagnation = 0.5;
@@ -64,9 +65,9 @@ SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions&
                                              .correction = residual});
     UnsetVector<double> corrected = std::move(residual);
     forEachInParallel(solution.size(), [&](size_t row) { corrected[row] += solution[row]; });
-    residual.resize(solution.size());  // Not before the memory of the corrector is free.
+    residual.resize(solution.size());  // Allocated after the corrector has released its memory.
     computeResidual(system, corrected, residual);
-    const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.
+    const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not finite.
     const bool helps = newNorm <= norm, stagnates = passStagnates(newNorm, norm);
     if (helps) {
       std::copy(corrected.begin(), corrected.end(), solution.begin());

@@ -44,7 +44,7 @@ HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsVi
 
 void HitPoints::clear() { groups_.clear(); }
 
-/// Neither a miss nor a false hit.
+/// Whether a hit is neither a miss nor a false hit.
 bool HitPoints::isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit& hit) const {
   return hit.face != kNoFace &&
          !isFalseHit(cone_, scene_.geometry.normals[seedFace], direction, scene_.geometry.normals[hit.face]);

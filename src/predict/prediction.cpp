@@ -14,20 +14,20 @@
 namespace asdfvk {
 namespace {
 
-// Cells predicted with one set of hit points; together they have 1.5 times as many contributing seeds as cells.
+// Number of cells that are predicted with one set of hit points. They have about 1.5 contributing seeds per cell.
 constexpr size_t kBlockSize = 128;
 
 /// Predicts the faces of one block of cells after another. Cells of a block are close to each other and share the hit
 /// points of their seeds.
 class CellPredictor {
  public:
-  /// The input must outlive it.
+  /// The input must outlive this object.
   explicit CellPredictor(const PredictionInput& input)
       : input_(input), points_(input.scene, input.cone, input.hits), kernel_(input.cone) {
     weighting_.inverseAngleVariance = 1 / (kNormalDeviationRadians * kNormalDeviationRadians);
   }
 
-  /// values: #F; those of the cells' faces are written.
+  /// values: #F; the values of the faces of these cells are written.
   void run(std::span<const uint32_t> cells, std::vector<double>& values) {
     points_.clear();
     cached_.assign(std::bit_ceil(2 * cells.size() * (1 + input_.options.neighbourCount)), {});
@@ -104,7 +104,7 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 }
 
 /// Copies the values of faces that are in the same cell as before, if the contributing seeds are the same too. The
-/// others become the remaining faces.
+/// other faces become the remaining faces.
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
   const std::span<const uint32_t> faces = input_.cells.faces[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
@@ -149,7 +149,7 @@ void CellPredictor::weighNeighbours(const VirtualCone& at) {
     kernel_.weigh(neighbourSeeds_[i], weighting_, at, &weights_[i * kPointGroupSize]);
 }
 
-/// From the seeds with at least minWeightShare of the total weight.
+/// The value that is predicted from the seeds with at least minWeightShare of the total weight.
 double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
   float sum = 0;
   for (size_t i = 0; i < neighbourHits_.size(); ++i) sum += weights_[i];
@@ -174,7 +174,7 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
     order.push_back(cell);
     isListed[cell] = 1;
   }
-  // The hierarchy does not contain copies of other faces.
+  // Seeds that are copies of other faces are not in the hierarchy; their cells are the last ones.
   for (uint32_t cell = 0; cell < seeds.size(); ++cell)
     if (seeds[cell] != kNoFace && !isListed[cell]) order.push_back(cell);
   return order;
@@ -192,8 +192,8 @@ void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
   });
 }
 
-/// Gives each new cell the faces around its seed that are nearer to it than to the seed of their cell. Returns these
-/// faces, ascending.
+/// Gives each new cell the faces around its seed that are nearer to this seed than to the seed of their cell. Returns
+/// these faces, ascending.
 std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
                                  std::span<const uint32_t> newCells, std::vector<uint32_t>& cellOf) {
   const auto squaredDistance = [&](uint32_t face, uint32_t cell) {

@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-// The rounding error of a cosine in float32: a cone narrower than this contains its own rays.
+// Covers the rounding error of a cosine in float32, so that even a very narrow cone contains its own rays.
 constexpr double kCosineSlack = 2e-6;
 
 struct FloatVec3 {
@@ -22,7 +22,7 @@ ASDFVK_ALWAYS_INLINE inline FloatVec3 toFloat(const Vec3d& v) {
 template <typename Floats>
 class GroupSum {
  public:
-  /// place: of the first of `numbers` within its group.
+  /// place: index of the first of `numbers` in its group.
   ASDFVK_ALWAYS_INLINE void add(size_t place, const Floats& numbers) { parts_[place / kLaneCount<Floats>] += numbers; }
 
   [[nodiscard]] ASDFVK_ALWAYS_INLINE float total() const {
@@ -59,14 +59,16 @@ struct KernelInput {
 /// Sums over the points in a virtual cone.
 template <typename Floats>
 struct ConeSums {
-  GroupSum<Floats> mass, difference, square;  ///< difference: mass times (length - median length); square: of that.
-  GroupSum<Floats> weight, weightedLength;    ///< Sums over the inliers.
+  /// With d = length - median length: difference: mass d; square: mass d^2.
+  GroupSum<Floats> mass, difference, square;
+  GroupSum<Floats> weight, weightedLength;  ///< Sums over the inliers.
 };
 
-/// The hit points, `count` entries in each array; 0 where a point is not in the virtual cone.
+/// The hit points: `count` entries in each array, which are 0 for points outside of the virtual cone.
 struct ConePoints {
   float* lengths;  ///< From the virtual cone's origin.
-  float* masses;   ///< The number of rays that the point represents there, up to a factor, times the seed's weight.
+  float* masses;   ///< The number of rays of the virtual cone that the point represents, up to a factor, times the
+                   ///< seed's weight.
   float* weights;  ///< Paper: mass divided by the angle to the axis. Cgal: mass.
   size_t count;
 };
@@ -108,7 +110,7 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
           change = min(max(ratio, minChange), maxChange);
         } else {
           normalCosine = -(nx * x + ny * y + nz * z);
-          // Rays per solid angle at this angle t to the axis: 1 / (sin t cos^2 t).
+          // The density of rays per solid angle at this angle t to the axis is proportional to 1 / (sin t cos^2 t).
           const Floats density = rsqrt(versine * (2 - versine)) / (cosine * cosine);
           change = min(max(ratio * density, minChange), maxChange);
         }
@@ -135,12 +137,13 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
   }
 }
 
-/// The median is between two lengths; massToLow and massToHigh: the mass of the points up to each of them.
+/// The median is between the lengths `low` and `high`. massToLow, massToHigh: mass of the points up to each of the two.
 struct MedianBounds {
   float low, high, massToLow, massToHigh;
 };
 
-/// The quarter of the interval where the mass reaches `halfMass`. keyOf: of the lengths, the numbers that are compared.
+/// The quarter of the interval where the mass reaches `halfMass`. keyOf: maps lengths to the numbers whose median is
+/// searched.
 template <typename Floats, typename KeyOf>
 ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, const MedianBounds& bounds, float halfMass,
                                                    const KeyOf& keyOf) {
@@ -199,7 +202,8 @@ ASDFVK_ALWAYS_INLINE inline float predictedValue(const PredictionKernel::Rules& 
   const float median = medianBetween<Floats>(points, {mean - deviation, mean + deviation, 0, mass}, kMedianPassCount,
                                              [](const Floats& length) ASDFVK_ALWAYS_INLINE { return length; });
   float spread = deviation;
-  if constexpr (kDefinition == Definition::Cgal)  // At most twice the deviation, by Chebyshev's inequality.
+  // The spread is at most twice the deviation, by Chebyshev's inequality.
+  if constexpr (kDefinition == Definition::Cgal)
     spread = medianBetween<Floats>(points, {0, 2 * deviation, 0, mass}, kSpreadPassCount,
                                    [median](const Floats& length)
                                        ASDFVK_ALWAYS_INLINE { return max(length - median, median - length); });
@@ -233,7 +237,7 @@ ASDFVK_ALWAYS_INLINE inline void weighSeeds(const SeedGroup& seeds, const SeedWe
     const Floats cosine = load<Floats>(seeds.nx + i) * normal.x + load<Floats>(seeds.ny + i) * normal.y +
                           load<Floats>(seeds.nz + i) * normal.z;
     const Floats u = max(1 - cosine, Floats{});
-    // Series of the square of arccos(1 - u), 0.3 % off at 90 degrees; beyond, weights are almost 0.
+    // Series of the square of arccos(1 - u). Its error is 0.3 % at 90 degrees; at larger angles weights are almost 0.
     const Floats angleSquare = u * (2 + u * (1.0f / 3 + u * (4.0f / 45 + u * (1.0f / 35 + u * (16.0f / 1575)))));
     const Floats exponent =
         0.5f * ((x * x + y * y + z * z) * weighting.inverseVariance + angleSquare * weighting.inverseAngleVariance);
@@ -248,7 +252,8 @@ PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionS
 
 PredictionKernel::Rules PredictionKernel::rulesOf(const Cone& cone) {
   Rules rules;
-  // In the definition of CGAL the axis ray represents the least solid angle, of nearly the sine of its mean angle.
+  // In CGAL's definition the ray on the axis has the least entry of solidAngles: sin t cos^2 t, which is nearly its
+  // mean angle t.
   const double minAngle = cone.definition == Definition::Paper
                               ? 1 / *std::max_element(cone.weights.begin(), cone.weights.end())
                               : *std::min_element(cone.solidAngles.begin(), cone.solidAngles.end());

@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-// A cell with this bit may still be replaced by a lower one at the same distance.
+// A cell with this bit may still be replaced by a lower cell at the same distance.
 constexpr uint32_t kClaimed = uint32_t{1} << 31;
 
 /// Claims a face for `cell` unless it is assigned, or claimed by a lower cell. Returns whether it was unclaimed.

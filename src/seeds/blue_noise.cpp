@@ -13,9 +13,10 @@ namespace asdfvk {
 namespace {
 
 /// Estimates the radius at which Poisson disks fill the candidates with about `count` centres, none of them in the disk
-/// of another: the root mean square, over random candidates, of the radius that contains as many faces as a disk then
-/// does. For disks in the plane this is 2.2 times the faces per centre: maximal random packings of disks of half the
-/// radius cover 0.55 of it. At least one candidate, count at least 1. Takes about one pass over the graph.
+/// of another. A disk in the plane then has 2.2 times the faces per centre, because maximal random packings of disks of
+/// half the radius cover 0.55 of the plane. The estimate is the root mean square, over random candidates, of the radius
+/// that contains this number of faces. Precondition: at least one candidate, count at least 1. Takes about one pass
+/// over the graph.
 float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengths,
                          std::span<const uint32_t> candidates, uint64_t count, uint64_t randomSeed) {
   ASDFVK_CHECK(!candidates.empty());
@@ -40,7 +41,7 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
 }
 
 // If the start radius was too small it is multiplied by kRadiusGrowth, at most kMaxGrowthCount times, and then set to
-// infinity: there are fewer seeds than components, and no finite radius is large enough.
+// infinity: if there are fewer seeds than components, no finite radius is large enough.
 constexpr int kMaxGrowthCount = 4;
 constexpr float kRadiusGrowth = 1.5f;
 

@@ -57,10 +57,10 @@ void SurfaceDistances::visit(const Pending& from, float limit, const Put& put) {
   }
 }
 
-// The order of the visits does not change the distances: addition in float is monotonic, so that each one becomes the
-// least sum over all paths. The faces are therefore visited in the order of a queue (Moore, "The shortest path through
-// a maze", 1959), which is faster than a heap while paths have few arcs. Farther faces are visited in the order of a
-// heap (Dijkstra 1959), which bounds the time for any arc lengths.
+// The order of the visits does not change the distances: addition in float is monotonic, so that each distance becomes
+// the least sum over all paths. The faces are therefore visited in the order of a queue (Moore, "The shortest path
+// through a maze", 1959), which is faster than a heap while paths have few arcs. Farther faces are visited in the order
+// of a heap (Dijkstra 1959), which bounds the time for any arc lengths.
 void SurfaceDistances::add(std::span<const uint32_t> seeds, float limit) {
   for (uint32_t seed : seeds) {
     distances_[seed] = 0;

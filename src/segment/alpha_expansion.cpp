@@ -28,8 +28,8 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
-  // An expansion after which nothing has changed would find the same again, and the label of the last change has been
-  // expanded as far as it can.
+  // A label needs no further expansion if nothing has changed since its last one. The label of the last change needs
+  // none either, because an expansion is optimal for its label.
   uint32_t unchangedCount = 0;
   for (uint32_t round = 0; round < limits.maxRoundCount; ++round)
     for (uint32_t label = 0; label < labelCount; ++label) {
@@ -47,8 +47,8 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
 }
 
 // A node on the source's side takes the label. With x = 1 for such a node, an edge of cost w between nodes of equal
-// labels costs w where they differ in x: an edge of capacity w in both directions. If the labels differ, it costs
-// w unless both are 1: w - w/2 (x_f + x_g) plus w/2 where they differ in x.
+// labels costs w if x_f and x_g differ: it has the capacity w in both directions. If the labels differ, the edge costs
+// w unless x_f and x_g are both 1: this is w - w/2 (x_f + x_g), plus w/2 if x_f and x_g differ.
 bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label) {
   nodeOf_.resize(labels.size());
   gains_.clear();

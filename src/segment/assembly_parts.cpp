@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-/// The parts of one component, by its faces.
+/// The parts of the component that has these faces.
 Parts partsOfComponent(const PartsInput& input, std::span<const uint32_t> faces, const PartsOptions& options,
                        const LineOfSight& sight, const RunControl& control) {
   std::vector<Face> triangles;

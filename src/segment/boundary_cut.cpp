@@ -14,8 +14,8 @@ namespace asdfvk {
 namespace {
 
 constexpr double kDataWeight = 0.5;
-constexpr double kConcaveRadians = 10 * std::numbers::pi / 180;  ///< At which the cost of an edge is halved.
-constexpr double kConvexRadians = 60 * std::numbers::pi / 180;   ///< At which it is doubled.
+constexpr double kConcaveRadians = 10 * std::numbers::pi / 180;  ///< Concave angle that halves the cost of an edge.
+constexpr double kConvexRadians = 60 * std::numbers::pi / 180;   ///< Convex angle that doubles the cost.
 constexpr uint32_t kMaxRoundCount = 3;
 
 /// Cost of a boundary along an edge.
@@ -30,7 +30,7 @@ struct Choice {
   float distance;  ///< Distance from the label.
 };
 
-/// Ascending by label. Faces of their own label are left out.
+/// The choices of all faces, ascending by label. The label that a face has is left out.
 std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount) {
   std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // Faces next to a label, by label.
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
@@ -51,8 +51,8 @@ std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32
   return choices;
 }
 
-/// The face of each label farthest from other labels; where several are beyond the reach, the one with the largest
-/// area.
+/// For each label its face that is farthest from other labels; of several faces beyond the reach, the one with the
+/// largest area.
 struct Anchors {
   std::vector<uint32_t> faces;   ///< Per label.
   std::vector<float> distances;  ///< #F, to the nearest other label; kUnreached beyond the reach.
@@ -85,7 +85,8 @@ void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, c
   });
 }
 
-/// The graph cut over the faces that may change and their neighbours, which are fixed.
+/// Improves the labels by a graph cut over the faces that may change, and over their neighbours, whose labels are
+/// fixed.
 void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount,
                   std::span<const Choice> choices, const RunControl& control) {
   std::vector<uint32_t> itemOf(labels.size(), kNoLabel), faces;
@@ -99,7 +100,7 @@ void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uin
   for (uint32_t item = 0; item < changeableCount; ++item)
     for (uint32_t arc = surface.offsets[faces[item]]; arc < surface.offsets[faces[item] + 1]; ++arc)
       if (const uint32_t other = surface.arcs[arc].face; labels[other] != kNoLabel) addItem(other);
-  // Each face first has its own label, without a cost.
+  // The first choice of each face is its own label, without a cost.
   std::vector<uint32_t> labelOf(faces.size()), firstChoices(faces.size() + 1, 0);
   for (const Choice& choice : choices) ++firstChoices[itemOf[choice.face] + 1];
   for (uint32_t item = 0; item < faces.size(); ++item) firstChoices[item + 1] += firstChoices[item] + 1;
@@ -160,7 +161,8 @@ void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, 
     std::vector<uint8_t> isLoose(pieces.labels.size(), 1);
     for (const uint32_t anchor : anchors)
       if (anchor != kNoLabel) isLoose[pieces.pieceOf[anchor]] = 0;
-    std::vector<std::tuple<uint32_t, uint32_t, double>> boundaries;  // Loose piece, label beyond, length.
+    // Loose piece, neighbouring label, length of the boundary.
+    std::vector<std::tuple<uint32_t, uint32_t, double>> boundaries;
     for (uint32_t face = 0; face < labels.size(); ++face) {
       const uint32_t piece = pieces.pieceOf[face];
       if (piece == kNoLabel || !isLoose[piece]) continue;

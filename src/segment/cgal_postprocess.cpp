@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kFacesPerBlock = 256, kBlocksPerProgress = 64;
 constexpr size_t kLanes = kLaneCount<Double4>;
-/// Exponents of smaller magnitude are for expOfNegative().
+/// The magnitude up to which expOfNegative() computes exponentials.
 constexpr double kMaxLaneExponent = 511;
 
 /// The filtered values of kLanes faces at a time, a lane each. All sums have the order of the window.
@@ -43,7 +43,7 @@ class WindowFilter {
   }
 
  private:
-  /// Sets others_ to the values of the windows, with the value of the face itself behind the end of a shorter window.
+  /// Sets others_ to the values of the windows, and to the value of the face itself beyond the end of a shorter window.
   void search(uint32_t first, uint32_t blockSize, size_t stride) {
     longest_ = 0;
     for (size_t lane = 0; lane < kLanes; ++lane) {
@@ -87,7 +87,7 @@ class WindowFilter {
     return power;
   }
 
-  /// exp: of the lanes.
+  /// exp: the exponential function for the lanes.
   template <typename Exp>
   [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 weightedMeans(const Double4& value, const Double4& deviation,
                                                                   const Exp& exp) const {
@@ -117,8 +117,8 @@ class WindowFilter {
 
   std::span<const double> values_, ringWeights_;
   FaceWindows windows_;
-  std::vector<uint32_t> ringEnds_;    ///< The ends of the rings of each lane in turn.
-  std::vector<uint32_t> faces_;       ///< The window of each lane in turn.
+  std::vector<uint32_t> ringEnds_;    ///< The ends of the rings, lane after lane.
+  std::vector<uint32_t> faces_;       ///< The windows, lane after lane.
   std::vector<double> valuesAround_;  ///< The values of windows_.faces().
   std::vector<double> others_;        ///< The values of the windows, the lanes side by side.
   std::array<uint32_t, kLanes> counts_{};

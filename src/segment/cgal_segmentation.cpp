@@ -20,7 +20,7 @@ constexpr size_t kFacesPerCutBlock = 4096;
 
 double costOf(double argument) { return -std::log(std::max(kMinArgument, argument)); }
 
-/// Unit also where a face is degenerate but the cross product is not 0; rounding errors may dominate it then.
+/// A unit vector; 0 if the cross product is 0. For other degenerate faces, rounding errors may dominate the direction.
 Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t face) {
   if (!geometry.isDegenerate(face)) return geometry.normals[face];
   const auto [a, b, c] = mesh.faces[face];
@@ -28,15 +28,16 @@ Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t 
   return normal == Vec3d{} ? normal : normal / length(normal);
 }
 
-/// The edge runs from corner i of f to the next one. An angle at a face of no area is 0 or pi by the signs of zeros in
-/// CGAL, and the edge convex. Known for faces g without area only; with f it does not always agree.
+/// s angle / pi of cgalEdgeCosts() for the edge from corner i of f to the next corner. In CGAL, the angle at a face
+/// without area is 0 or pi, by the signs of zeros, and the edge is convex. The result agrees with CGAL's if only g has
+/// no area, but not always if f has none.
 double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t f, uint32_t i, uint32_t g) {
   const Vec3d ofF = normalOf(geometry, mesh, f), ofG = normalOf(geometry, mesh, g);
   if (ofF == Vec3d{} || ofG == Vec3d{}) {
     const Vec3d signs = ofF == Vec3d{} ? -ofG : ofF;
     return signs.x > 0 && signs.y > 0 && signs.z > 0 ? 0 : kConvexFactor;
   }
-  // Unlike the arc cosine, accurate for small angles.
+  // The arc tangent is accurate for small angles, unlike the arc cosine.
   const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
   const uint32_t from = mesh.faces[f][i], to = mesh.faces[f][(i + 1) % 3];
   const Face& other = mesh.faces[g];
@@ -45,7 +46,7 @@ double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint
   return angle / std::numbers::pi * (isConvex ? kConvexFactor : 1);
 }
 
-/// The edges between the places of their faces in the order, sorted by the lower place.
+/// The edges, with each face replaced by its place in `order`, sorted by the lower place.
 std::vector<LabelEdge> reordered(const std::vector<LabelEdge>& edges, std::span<const uint32_t> order) {
   std::vector<uint32_t> placeOf(order.size()), firstEdge(order.size() + 1);
   for (uint32_t i = 0; i < order.size(); ++i) placeOf[order[i]] = i;
@@ -75,7 +76,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   std::vector<double>& costs = clustering.probabilities;
   CgalSegmentation result;
   result.clusters.resize(values.size());
-  // Faces close to each other have near numbers in this order: the cut takes two thirds of the time or less.
+  // Faces close to each other have near numbers in this order, which reduces the time of the cut to two thirds or less.
   const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerCutBlock);
   std::vector<double> orderedCosts(costs.size());
   std::vector<uint32_t> labels(values.size());

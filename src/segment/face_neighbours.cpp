@@ -16,7 +16,8 @@ bool isTraversedBothWays(const TriangleMesh& mesh, uint32_t first, uint32_t seco
   return mesh.faces[first / 3][first % 3] != mesh.faces[second / 3][second % 3];
 }
 
-/// The lowest corner 3 f + i of the faces around the vertex at this corner that hang together by neighbours.
+/// The lowest corner (number 3 f + i) of the faces around the vertex of `corner` that neighbours connect to the face of
+/// `corner`.
 uint32_t umbrellaOf(const TriangleMesh& mesh, const FaceNeighbours& neighbours, uint32_t corner) {
   const uint32_t vertex = mesh.faces[corner / 3][corner % 3];
   uint32_t lowest = corner;
@@ -54,7 +55,7 @@ FaceNeighbours findFaceNeighbours(const TriangleMesh& mesh) {
   });
   std::vector<CornerPair> joined;
   const auto joinCrowded = [&](const std::vector<uint32_t>& corners) {
-    // Sorted by the umbrellas of both ends, the one at the lower vertex first.
+    // Sorted by the umbrellas of both ends; the umbrella at the lower vertex is compared first.
     std::vector<std::pair<CornerPair, uint32_t>> sorted;
     for (const uint32_t corner : corners) {
       CornerPair ends{umbrellaOf(mesh, neighbours, corner),

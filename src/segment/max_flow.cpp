@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Nodes of the smallest ranges, and ranges of a level in a range of the next one.
+/// Number of nodes of a smallest range, and number of ranges that a range of the next level joins.
 constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
 
 }  // namespace
@@ -43,7 +43,7 @@ class MaxFlow::Search {
 
   /// Routes flow along the trees of a forest, from the leaves to the roots, before the search: most of it ends nearby.
   void routeAlongForest();
-  /// Makes every node with a terminal the root of a tree.
+  /// Makes every node with a terminal capacity the root of a tree.
   void plant();
   /// Joins ranges of this size, which have been solved.
   void join(size_t partSize);
@@ -61,16 +61,17 @@ class MaxFlow::Search {
   void adoptOrphans();
   void adopt(uint32_t orphan);
   void makeOrphan(uint32_t node);
-  /// Number of arcs from the node to its terminal; kNone when an orphan is on that path.
+  /// Number of arcs from the node to its terminal; kNone if an orphan is on this path.
   uint32_t distanceToTerminal(uint32_t node);
-  /// The residual capacity that a node of this tree has through `arc` to its child; for the sink: from its child.
+  /// The residual capacity through `arc`, which leads from a node of `tree` to its child: to the child in the source's
+  /// tree, from the child in the sink's tree.
   [[nodiscard]] double residualToChild(Tree tree, uint32_t arc) const {
     return arcs_[tree == Tree::Source ? arc : arc ^ 1].residual;
   }
 
   Node* nodes_;
   Arc* arcs_;
-  uint32_t* queue_;  ///< Ring of active nodes, with a place for each node of the range.
+  uint32_t* queue_;  ///< Ring buffer of active nodes, with room for each node of the range.
   uint32_t begin_, count_;
   uint32_t queueBegin_ = 0, queueSize_ = 0;
   std::vector<uint32_t> orphans_;
@@ -142,10 +143,10 @@ void MaxFlow::Search::run() {
   }
 }
 
-// Moves what a node has from the source, or to the sink, to its parent in the tree as far as the edge carries it. That
-// changes the value of no cut but by what cancels out.
+// Moves the terminal capacity of each node to its parent in the tree, up to the capacity of the edge. Apart from
+// terminal capacities that cancel out, this does not change the value of any cut.
 void MaxFlow::Search::routeAlongForest() {
-  constexpr size_t kMaxTreeSize = 512;  // 64 to 8,000 are as fast within the noise.
+  constexpr size_t kMaxTreeSize = 512;  // Sizes from 64 to 8,000 are equally fast within the noise.
   size_t begin = 0, end = 0;
   for (uint32_t root = begin_; root < begin_ + count_; ++root) {
     if (nodes_[root].parent != kNone) continue;
@@ -201,7 +202,7 @@ uint32_t MaxFlow::Search::grow(uint32_t node) {
     } else if (o.tree != n.tree) {
       return n.tree == Tree::Source ? arc : arc ^ 1;
     } else if (o.checkedAt <= n.checkedAt && o.distance > n.distance) {
-      // A shorter way to the terminal, which keeps augmenting paths short.
+      // This way to the terminal is shorter, which keeps augmenting paths short.
       o.parent = arc ^ 1;
       o.checkedAt = n.checkedAt;
       o.distance = n.distance + 1;

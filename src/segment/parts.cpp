@@ -19,18 +19,21 @@ namespace asdfvk {
 namespace {
 
 constexpr std::array<uint32_t, 5> kPatchCounts{200, 250, 300, 350, 400};
-/// On coarse meshes there are fewer patches: each face a patch would give too many parts.
+/// Coarse meshes have fewer patches, because one patch per face would give too many parts.
 constexpr uint32_t kMinFacesPerPatch = 3;
 /// Depth below the surface of the ends of lines of sight, in shape diameters.
 constexpr double kSightDepth = 0.3;
-/// Volume over area and mean value: about 0.4 for a wall, 0.28 for a tube, 0.19 for a ball.
+/// Least volume of a wall, over area and mean value: the ratio is about 0.4 for a wall, 0.28 for a tube, 0.19 for a
+/// ball.
 constexpr double kMinWallShape = 0.36;
-/// Plates, too, are walls, but most pairs of their patches have a clear line of sight.
+/// Largest mean visibility of a thin shell. Plates are walls too, but most pairs of their patches have a clear line of
+/// sight.
 constexpr double kMaxWallSight = 0.5;
-/// Share of the area up to which all components below kMinPartArea take a neighbouring part.
+/// Components below kMinPartArea take a neighbouring part if they have at most this share of the area together.
 constexpr double kMaxAbsorbedArea = 0.05;
 
-/// Whether most of the area belongs to closed components and has values, and these are thin walls by their volume.
+/// Whether most of the area belongs to closed components and has values, and whether these components are thin walls by
+/// their volume.
 bool isWall(const PartsInput& input, const PartSurface& surface) {
   double volume = 0, valuedArea = 0, product = 0;
   for (uint32_t face = 0; face < surface.faceCount(); ++face) {
@@ -72,14 +75,14 @@ ComponentShapes shapesOf(const PartSurface& surface, const Components& component
   return shapes;
 }
 
-/// What becomes of the components that are neither: they take the nearest part.
+/// Roles of components. Components in neither list take the nearest part.
 struct ComponentRoles {
   std::vector<uint32_t> firstSeeds;  ///< A face of each component that is divided into parts.
   std::vector<uint32_t> whole;       ///< Components that are a part each.
 };
 
-/// Where the small components have much of the area, as in a file of many equal objects, they are parts themselves,
-/// except those that are small beside the largest component.
+/// If the small components have much of the area, as in a file of many equal objects, they are parts themselves, except
+/// components that are small compared with the largest one.
 ComponentRoles rolesOf(const ComponentShapes& shapes) {
   double smallArea = 0, largest = 0;
   for (const double area : shapes.areas) {
@@ -96,7 +99,7 @@ ComponentRoles rolesOf(const ComponentShapes& shapes) {
   return roles;
 }
 
-/// At least one per requested part.
+/// The numbers of patches, at least one per requested part.
 std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& options) {
   std::array<uint32_t, 5> counts = kPatchCounts;
   const double scale = std::min(1.0, faceCount / double{kMinFacesPerPatch * kPatchCounts.back()});
@@ -163,7 +166,7 @@ std::vector<uint32_t> labelsOf(const Patches& patches, const PartMerging& mergin
   return labels;
 }
 
-/// The threshold that separates the level from the next one.
+/// A threshold between the costs of the merges so far and the cost of the next merge.
 double thresholdOf(const PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
   if (!options.partCount) return weights.threshold / options.detail;
   double last = 0;
@@ -179,7 +182,7 @@ uint32_t countAt(const Division& division, double threshold, bool mergesSmall) {
   return merging.regionCount();
 }
 
-/// The division with the largest sum of Rand indices with the others, and their mean.
+/// The division with the largest sum of Rand indices with the other divisions, and the mean of these indices.
 std::pair<size_t, double> mostTypical(std::span<const Division> divisions, std::span<const float> areas) {
   const size_t count = divisions.size();
   std::vector<double> indices(count * count, 0);

@@ -14,8 +14,8 @@ namespace {
 constexpr uint32_t kLloydRoundCount = 2;
 constexpr uint32_t kNoFaceFound = 0xffffffff;
 
-/// The face of the largest distance. Distances may only decrease between calls; those of one block of faces are
-/// compared only where the largest distance that the block had is needed.
+/// Finds the face with the largest distance. Precondition: distances only decrease between calls. The last known
+/// maximum of a block of faces is therefore an upper bound, and only blocks with the largest bound are searched.
 class FarthestFace {
  public:
   explicit FarthestFace(std::span<const float> distances)
@@ -141,7 +141,7 @@ PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> nor
   }
   for (uint32_t i = 0; i < patches.count; ++i) {
     PatchData::Patch& patch = data.patches[i];
-    const bool hasArea = patch.area > 0;  // Otherwise the plain means.
+    const bool hasArea = patch.area > 0;  // Otherwise unweighted means are taken.
     patch.logValue = hasArea ? patch.logValue / patch.area : plainLogs[i] / std::max(1.0, faceCounts[i]);
     patch.centre = hasArea ? patch.centre / patch.area : plainCentres[i] / std::max(1.0, faceCounts[i]);
     if (const double norm = length(patch.normal); norm > 0) patch.normal = patch.normal / norm;
@@ -158,7 +158,7 @@ PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> nor
     }
     for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
       const uint32_t other = patches.patchOf[surface.arcs[arc].face];
-      if (other <= index || other == kNoPatch) continue;  // Each edge once.
+      if (other <= index || other == kNoPatch) continue;  // Each edge is counted once.
       const double length = double{surface.edgeLengths[arc]}, angle = double{surface.angles[arc]};
       edges.push_back({index, other, length, length * std::max(0.0, angle), length * std::max(0.0, -angle)});
     }

@@ -62,7 +62,7 @@ void requireDifferentValues(std::span<const double> values, uint32_t clusterCoun
   if (different.size() < clusterCount) refuse(clusterCount);
 }
 
-/// Each further seed is drawn with a probability proportional to the squared distance to the nearest seed before.
+/// Each further seed is drawn with a probability proportional to the squared distance to the nearest earlier seed.
 std::vector<double> chooseSeeds(std::span<const double> values, uint32_t clusterCount) {
   Rand48 random;
   std::vector<double> seeds{values[random.index(values.size())]};
@@ -87,7 +87,7 @@ std::vector<double> chooseSeeds(std::span<const double> values, uint32_t cluster
   return seeds;
 }
 
-/// Returns whether a value changed its cluster. The first of equally near centres.
+/// Returns whether a value changed its cluster. Of equally near centres, the first one is taken.
 bool assignToNearest(std::span<const double> values, std::span<const double> centres, std::span<uint32_t> clusterOf) {
   bool isChanged = false;
   for (size_t i = 0; i < values.size(); ++i) {
@@ -104,7 +104,7 @@ bool assignToNearest(std::span<const double> values, std::span<const double> cen
   return isChanged;
 }
 
-/// A centre without values stays.
+/// A centre without values remains.
 void moveToMeans(std::span<const double> values, std::span<const uint32_t> clusterOf, std::span<double> centres) {
   std::vector<double> sums(centres.size()), counts(centres.size());
   for (size_t i = 0; i < values.size(); ++i) {
@@ -119,7 +119,7 @@ struct Gaussian {
   double mean, deviation, weight;
   double factor = weight / deviation, exponent = -0.5 / (deviation * deviation);
 
-  /// The density without the factor 1 / sqrt(2 pi). A deviation of 0 is 1 at the mean.
+  /// The density without the factor 1 / sqrt(2 pi). A Gaussian with a deviation of 0 is 1 at the mean and 0 elsewhere.
   [[nodiscard]] double density(double value) const {
     const double distance = value - mean;
     if (std::isinf(exponent)) return distance == 0 ? weight : 0;
@@ -146,7 +146,7 @@ class Mixture {
   /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
   double expect() {
     return sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
-      double product = 1;  // Product of likelihoods: a logarithm takes long.
+      double product = 1;  // Product of likelihoods, because a logarithm per value takes long.
       for (size_t i = begin; i < end; ++i) {
         double* row = &probabilities_[i * gaussians_.size()];
         double total = 0;

@@ -94,7 +94,7 @@ void RingWindow::gather(const DualGraph& graph, uint32_t face, uint32_t ringCoun
   ringEnds_[0] = 1;
   uint32_t count = 1, arcsLeft = kMaxWindowArcCount;
   for (uint32_t ring = 1; ring <= ringCount; ++ring) {
-    // A neighbour of the ring before lies in that ring, in the one before it, or in this one.
+    // A neighbour of a face in ring r - 1 lies in ring r - 2, r - 1 or r.
     const uint32_t searchBegin = ring < 2 ? 0 : ringBegin(ring - 2);
     const uint32_t parentEnd = count;
     for (uint32_t parent = ringBegin(ring - 1); parent < parentEnd; ++parent)

@@ -10,7 +10,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkFaceCount = 4096;
-// Neighbours that are answered one after the other.
+// Number of neighbouring faces whose queries one task answers.
 constexpr size_t kBlockFaceCount = 256;
 
 void shrinkBlock(const WallTree& tree, std::span<FaceBalls> faces) {

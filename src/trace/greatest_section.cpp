@@ -15,11 +15,11 @@
 namespace asdfvk {
 namespace {
 
-/// Cubes that a search divides at most; the bound of the last one is returned.
+/// Largest number of cubes that a search divides. At this limit, the bound of the result is that of the last cube.
 constexpr uint32_t kMaxCubeCount = 200'000;
-/// Along the longest side of the box of the solid.
+/// Number of first cubes along the longest side of the box of the solid.
 constexpr int kFirstCubeCount = 4;
-// Corners so near to a plane are in it: coordinates in float32.
+// Corners within this distance of a plane count as corners in the plane: the resolution of coordinates in float32.
 constexpr double kFlat = 0x1p-22;
 
 /// Distances from the faces of one solid.
@@ -28,7 +28,7 @@ class SolidSurface {
   SolidSurface(const TraceScene& scene, const FaceCopies& copies, std::span<const uint32_t> solidOf, uint32_t solid)
       : scene_(scene), copies_(copies), solidOf_(solidOf), solid_(solid) {}
 
-  /// The copy of a primitive that the solid has; kNoFace for none. Where solids touch, they may share primitives.
+  /// The face of the solid among the copies of a primitive; kNoFace for none. Solids that touch may share primitives.
   [[nodiscard]] uint32_t copyOf(uint32_t primitiveFace) const {
     for (const uint32_t face : copies_.of(primitiveFace))
       if (solidOf_[face] == solid_) return face;
@@ -37,13 +37,13 @@ class SolidSurface {
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return scene_.geometry.normals[face]; }
   [[nodiscard]] PlaneTriangle triangle(uint32_t face) const { return triangleOf(scene_, face); }
 
-  /// Any point less than `enough` away where there is one.
+  /// The nearest point of the solid, or any point that is less than `enough` away.
   [[nodiscard]] SurfacePoint nearest(const Vec3d& p, double enough = 0) const {
     return nearestSurfacePoint(scene_, p, enough, [&](uint32_t face) { return copyOf(face); });
   }
 
-  /// Whether there is surface within a distance of a point, and all of it is in the plane of that face: as the solid is
-  /// closed, it then covers the disc.
+  /// Whether the surface within `radius` of the point is not empty and lies in the plane of `face`. As the solid is
+  /// closed, the surface then covers the disc.
   [[nodiscard]] bool isFlatAround(const Vec3d& point, double radius, uint32_t face) const {
     const Vec3d& plane = normal(face);
     const double offset = dot(plane, triangle(face).corners[0]);
@@ -87,7 +87,7 @@ class Search {
  public:
   explicit Search(const SolidSurface& surface) : surface_(surface) {}
 
-  /// stopOnly: asked for cancellation.
+  /// stopOnly: used for cancellation only.
   GreatestSection run(const Box3d& box, uint32_t maxCubeCount, const RunControl& stopOnly) {
     const Vec3d size = box.size();
     const double side = std::max({size.x, size.y, size.z}) / kFirstCubeCount;
@@ -132,8 +132,8 @@ class Search {
     centre_ = centre;
   }
 
-  /// By the foot and the point of the wall opposite of it. A ball with its centre at most `reach` away contains
-  /// neither.
+  /// Bound by two points that no ball contains: the foot, and the point of the wall opposite of it. It holds for balls
+  /// with their centres at most `reach` away from `centre`.
   double boundByWalls(const Vec3d& centre, const SurfacePoint& foot, double reach) {
     const Vec3d away = (centre - foot.point) / foot.distance;
     const RayHit hit = surface_.opposite(centre, away);
@@ -142,7 +142,7 @@ class Search {
     improve(centre + (half - foot.distance) * away);
     if (half - foot.distance > reach) return std::numeric_limits<double>::infinity();
     const double byPoints = std::sqrt(half * half + reach * reach);
-    // By the planes of both walls, where these reach as far as the balls.
+    // Bound by the planes of both walls, if the walls are flat as far as the balls reach.
     const Vec3d &n = surface_.normal(foot.face), &m = surface_.normal(hit.face);
     const double depth = -dot(centre - surface_.triangle(foot.face).corners[0], n);
     const double other = -dot(centre - surface_.triangle(hit.face).corners[0], m);

@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-/// Points at equal distances on several faces, up to rounding.
+/// Distances that differ by at most this count as equal: it covers rounding.
 constexpr double kEqualDistance = 1e-12;
 
 Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {

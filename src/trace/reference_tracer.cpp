@@ -12,10 +12,11 @@
 namespace asdfvk {
 namespace {
 
-/// From here on rounding moves the place where a ray enters the box by more than 2^-20: there are no hits.
+/// From farther origins, rounding moves the place where a ray enters the box by more than 2^-20. Such rays have no
+/// hits.
 constexpr double kFarthestOrigin = 0x1p32;
 
-/// Distance at which a ray enters the box [-1, 1]^3, slightly enlarged; kNoHit where it misses it.
+/// Distance at which a ray enters the box [-1, 1]^3, slightly enlarged; kNoHit if it misses the box.
 double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
   constexpr double kSide = 1 + 0x1p-7;
   double enter = 0, leave = kNoHit;
@@ -79,7 +80,7 @@ RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, cons
   if (!(std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) <= kFarthestOrigin)) return {};
   const double entry = entryIntoBox(origin, direction);
   const Vec3d entered = origin + entry * direction;
-  if (!isNearBox(entered)) return {};  // It misses the box.
+  if (!isNearBox(entered)) return {};  // The ray misses the box.
   RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace, contactDistance);
   hit.distance += entry;
   return hit;
@@ -88,7 +89,8 @@ RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, cons
 ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
   const Vec3d& normal = scene.geometry.normals[face];
   if (cone.definition == Definition::Paper) return paperConeFrame(cone, normal, face);
-  // From the corners as they are: scaled or moved ones lose coordinates of the normal that are exactly 0.
+  // Computed from the corners of the mesh: scaled or moved corners would lose coordinates of the normal that are
+  // exactly 0.
   const auto [i, j, k] = scene.mesh.faces[face];
   const Vec3d& a = scene.mesh.vertices[i];
   const Vec3d inward = -cross(scene.mesh.vertices[j] - a, scene.mesh.vertices[k] - a);

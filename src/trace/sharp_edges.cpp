@@ -12,8 +12,7 @@
 namespace asdfvk {
 namespace {
 
-/// What is found at the corners of the faces; each corner belongs to one point, so that points are searched in
-/// parallel.
+/// Bits of each corner of a face. A corner belongs to one point, so that points can be searched in parallel.
 enum CornerBit : uint8_t { kIsThin = 1, kNextEdge = 2, kEdgeBefore = 4 };
 
 struct Edge {
@@ -56,7 +55,8 @@ class SharpSearch {
   }
 
  private:
-  /// Calls visit(corner, other) for the corners at a point of which the face of the first is thin because of the other.
+  /// Calls visit(corner, other) for each pair of corners at the point for which the face of `corner` is thin because of
+  /// the face of `other`.
   template <typename Visit>
   void forEachPair(uint32_t point, const Visit& visit) const {
     const std::span<const uint32_t> corners = fans_.cornersAt(point);
@@ -67,7 +67,7 @@ class SharpSearch {
     if (step > 1) forEachPairOverEdges(corners, visit);
   }
 
-  /// The pairs of a large fan that share an edge.
+  /// forEachPair() for the pairs of a large fan whose faces share an edge.
   template <typename Visit>
   void forEachPairOverEdges(std::span<const uint32_t> corners, const Visit& visit) const {
     std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // The other end of an edge, and a corner of it.
@@ -99,7 +99,7 @@ class SharpSearch {
   static uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
   static uint32_t before(uint32_t corner) { return next(next(corner)); }
 
-  /// The edges at this corner that the other face has too.
+  /// The edges at `corner` that the face of `other` also has.
   [[nodiscard]] uint8_t edgeBits(uint32_t corner, uint32_t other) const {
     const uint32_t a = pointAt(next(other)), b = pointAt(before(other));
     const uint32_t n = pointAt(next(corner)), p = pointAt(before(corner));
@@ -131,7 +131,7 @@ class SharpSearch {
     return edges;
   }
 
-  /// The edges joined over their points.
+  /// Lines of edges that are connected by common points.
   [[nodiscard]] std::vector<SharpLine> linesOf(const std::vector<Edge>& edges) {
     std::map<uint32_t, uint32_t> parents;
     const auto rootOf = [&](uint32_t point) {

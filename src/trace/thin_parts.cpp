@@ -11,13 +11,13 @@
 namespace asdfvk {
 namespace {
 
-/// No piece is halved where there would be so many: a limit on memory, 350 bytes each. Whole faces are not counted.
+/// No piece is halved if there would be more pieces, which need 350 bytes each. Whole faces are not counted.
 constexpr size_t kMaxPieceCount = size_t{1} << 20;
 constexpr size_t kBlockSize = 256;
-/// The length of a line in steps: exact after as many halvings as are possible.
+/// The length of a line in steps: a power of two, so that halves are exact.
 constexpr uint32_t kLineLength = uint32_t{1} << 31;
 
-/// A part of a line between two points: an edge of the mesh, or where a piece was halved.
+/// A part of a line. A line is an edge of the mesh, or a line along which a piece was halved.
 struct Side {
   uint32_t line = 0, from = 0, to = 0;
   bool isSharp = false;  ///< Whether the face is thin at a sharp edge.
@@ -93,7 +93,7 @@ class ThinSearch {
     piece.part.isSharp = isSharp(piece);
   }
 
-  /// A piece at a sharp edge is thin there, whatever its ball.
+  /// A piece at a sharp edge is thin, whatever the diameter of its ball.
   [[nodiscard]] bool isThin(const Piece& piece) const {
     return piece.part.isSharp || piece.part.least.ball.diameter < limit_;
   }
@@ -114,8 +114,8 @@ class ThinSearch {
     return longestSide(piece.part.corners).second > maxLength_ && !isThinEverywhere(piece);
   }
 
-  /// The diameter of the ball that one wall limits is a convex function of the point: below the limit at the corners,
-  /// it is below it between them.
+  /// The diameter of the ball that one wall limits is a convex function of the point: if it is below the limit at the
+  /// corners, it is below the limit at all points between them.
   [[nodiscard]] bool isThinEverywhere(const Piece& piece) const {
     const Vec3d& normal = tree_.scene().geometry.normals[piece.part.face];
     for (const uint32_t face : {piece.part.least.wall, piece.atMiddle.wall}) {

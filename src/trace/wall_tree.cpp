@@ -11,9 +11,9 @@
 namespace asdfvk {
 namespace {
 
-/// Nodes of more walls have no disc: their walls are rarely in one.
+/// Nodes with more walls have no cylinder (WallNode::axis), because their walls are rarely in a small one.
 constexpr uint32_t kMaxDiscWallCount = 4096;
-/// Nodes of so many walls are leaves: testing the walls costs less than descending.
+/// Nodes with up to this number of walls are leaves, because testing the walls costs less than descending.
 constexpr uint32_t kMaxLeafWallCount = 4;
 
 }  // namespace
@@ -88,7 +88,7 @@ void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSe
   dispatch<Float16>(instructionSet, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     for (size_t begin = 0; begin < queries.size(); begin += kLaneCount<Floats>) {
       BallPacket<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
-      if (begin > 0) {  // The walls of the neighbour before.
+      if (begin > 0) {  // Offers the walls of the previous queries.
         for (const BallQuery& before : queries.subspan(begin - kLaneCount<Floats>, kLaneCount<Floats>))
           for (const uint32_t wall : {before.atPoint.wall, before.least.wall})
             if (wall != kNoFace) packet.offer(walls_[wallOf_[wall]]);

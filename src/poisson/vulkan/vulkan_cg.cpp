@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-// The recurred residual departs from the true one at about 1e-7 of the first one.
+// The residual of the recurrence departs from the true residual at about 1e-7 of the first residual.
 constexpr double kMinReduction = 1e-6;
 // Iterations after convergence are empty, so batches may grow; the time of a batch remains imperceptible.
 constexpr uint32_t kFirstBatch = 8;
@@ -104,7 +104,7 @@ CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.submitAndWait();
   std::array<CgState, 2> states;
   std::memcpy(&states, statesOnHost_.mapped(), sizeof states);
-  // The iteration that ended the run wrote last.
+  // The last state written is that of the iteration that ended the run.
   return states[1 - stateIndex_].status != kCgRunning ? states[1 - stateIndex_] : states[stateIndex_];
 }
 

@@ -16,7 +16,7 @@
 namespace asdfvk {
 namespace {
 
-// Weights that differ by more than this from their mean are limited: no sum of them leaves the range of float32.
+// Limits of the weights relative to their mean: no sum of limited weights leaves the range of float32.
 constexpr double kMinScaledWeight = 1e-30, kMaxScaledWeight = 1e30;
 
 ComputePipelineDescription describeKernel(const DeviceFacts& facts, const std::string& name,
@@ -26,7 +26,7 @@ ComputePipelineDescription describeKernel(const DeviceFacts& facts, const std::s
   return description;
 }
 
-/// 1 over the mean; 1 where that is no number.
+/// 1 / mean of the weights; 1 if this is not finite or not positive.
 double scaleOfWeights(std::span<const double> weights) {
   const auto count = static_cast<double>(weights.size());
   const double scale = 1 / orderedSum(weights.size(), [&](size_t arc) { return weights[arc] / count; });

@@ -33,8 +33,8 @@ class VulkanGraphSolver final : public GraphSolver {
   }
 
  private:
-  /// Ends where the tolerance or kMinDeviceTolerance is reached, and where float32 stagnates. Below that tolerance, and
-  /// where float32 cannot represent the right-hand side, the result has not converged.
+  /// Ends at the tolerance or at kMinDeviceTolerance, whichever is larger, and where float32 stagnates. The result has
+  /// not converged if the tolerance is below kMinDeviceTolerance, or if float32 cannot represent the right-hand side.
   [[nodiscard]] SolverReport solveInFloat(const GraphProblem& problem, const SolverOptions& options,
                                           std::span<double> values, const RunControl& control) const {
     VulkanEquation equation(solver_.device(), kernels_, onDevice_, problem);
@@ -63,7 +63,7 @@ class VulkanGraphSolver final : public GraphSolver {
     return report;
   }
 
-  /// Continues from the first guess on the CPU.
+  /// Solves on the CPU, from the first guess of the problem.
   [[nodiscard]] SolverReport solveInDouble(GraphProblem problem, const SolverOptions& options, std::span<double> values,
                                            const RunControl& control) const {
     PoissonSystem system = systemOf(graph_, weights_, std::move(problem));

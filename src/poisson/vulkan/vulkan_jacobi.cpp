@@ -12,7 +12,8 @@
 namespace asdfvk {
 namespace {
 
-// A stationary iteration loses nothing by a restart, and float32 does not stagnate over so small a reduction.
+// A stationary iteration loses nothing by a restart, and float32 does not stagnate before the residual is reduced to
+// this share.
 constexpr double kJacobiMinReduction = 1e-2;
 // Fixed: the end of the iteration depends on it, and the same input must give the same bits.
 constexpr uint32_t kBatch = 32;

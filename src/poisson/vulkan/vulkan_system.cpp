@@ -14,11 +14,11 @@
 namespace asdfvk {
 namespace {
 
-// Every workgroup adds up the partial sums of all workgroups, which must be little work compared with its rows. A GPU
-// has lanes to fill and adds 256 sums in one step; a CPU device has neither advantage.
+// Every workgroup adds up the partial sums of all workgroups, which must be little work compared with the work on its
+// rows. A GPU has lanes to fill and adds 256 sums in one step; a CPU device has neither advantage.
 constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
 constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
-// The rest is a margin for loops that the compiler adds.
+// A tenth of the limit is a margin for loops that the compiler adds.
 constexpr uint64_t kMaxKernelIterationCount = kMaxLoopIterationCount / 10 * 9;
 
 uint32_t minRowsPerLane(const DeviceFacts& facts) {

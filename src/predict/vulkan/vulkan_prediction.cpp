@@ -28,10 +28,10 @@ namespace asdfvk {
 namespace {
 
 constexpr uint64_t kMaxPointByteCount = 32u << 20;
-// A face costs time in proportion to the number of rays.
+// The time of a face is proportional to the number of rays.
 constexpr size_t kFirstBatchRayCount = size_t{1} << 18, kMaxBatchRayCount = size_t{1} << 23;
 constexpr size_t kMaxBatchFaceCount = size_t{1} << 18;
-constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;  // 128: every device has them.
+constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;  // Every device has 128 lanes.
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 glsl::vec3 toGlsl(const Vec3d& v) {
@@ -44,7 +44,7 @@ uint32_t divideUp(size_t dividend, uint32_t divisor) {
 
 VkBool32 isCgal(Definition definition) { return definition == Definition::Cgal ? VK_TRUE : VK_FALSE; }
 
-/// Loop iterations of a lane of predict_faces.comp, at most.
+/// Upper bound of the loop iterations of a lane of predict_faces.comp.
 constexpr uint64_t maxIterationCount(uint64_t rayCount) {
   const uint32_t passCount = 3 + kMedianPassCount + kSpreadPassCount;
   return passCount * kMaxContributingSeedCount * (rayCount + rayCount / 64 + 2);
@@ -140,7 +140,7 @@ class VulkanPredictor final : public DevicePredictor {
     BindingSet pointBindings, faceBindings;
   };
 
-  /// Small meshes need little.
+  /// Allocates the memory of a batch. Small meshes need less than the largest batch.
   void reserve(const PredictionInput& input) {
     const size_t seedCount =
         std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, input.hits.seeds.size()));

@@ -59,7 +59,7 @@ class CpuSightTracer final : public SightTracer {
 
   Normalization unit_;
   LaneBvh bvh_;
-  std::unique_ptr<SightTracer> reference_;  // For segments that begin or end outside.
+  std::unique_ptr<SightTracer> reference_;  // For segments that begin or end outside of the box.
 };
 
 }  // namespace

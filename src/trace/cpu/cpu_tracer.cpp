@@ -57,7 +57,7 @@ class CpuTracer final : public ConeTracer {
     seedOrder_.prefetch(face);
   }
 
-  /// seedOf(i): cone i without its output array; prefetchSeed(i): the memory that seedOf(i) reads.
+  /// seedOf(i): cone i without its output array; prefetchSeed(i): prefetches the memory that seedOf(i) reads.
   template <typename SeedOf, typename PrefetchSeed>
   TraceStatistics traceAll(const std::vector<uint32_t>& order, const SeedOf& seedOf, const PrefetchSeed& prefetchSeed,
                            const ConeResults& results, const RunControl& control) {
@@ -71,7 +71,7 @@ class CpuTracer final : public ConeTracer {
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
     const auto traceGroup = [&](size_t index, ConeGroup& group) {
       const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
-      // The scattered data of the next group, while this one is traced.
+      // Prefetches the scattered data of the next group, while this group is traced.
       for (size_t i = end; i < std::min(end + kGroupSize, order.size()); ++i) prefetchSeed(order[i]);
       group.clear();
       for (size_t i = begin; i < end; ++i) {
@@ -92,7 +92,7 @@ class CpuTracer final : public ConeTracer {
     return {order.size() * rayCount, redoneConeCount};
   }
 
-  /// Sets the values of the cones of a group. Returns the number of those that the reference traced.
+  /// Sets the values of the cones of a group. Returns the number of cones that the reference traced.
   uint64_t takeValues(const ConeGroup& group, std::span<const uint32_t> cones, std::span<double> values) const {
     uint64_t redoneConeCount = 0;
     for (size_t lane = 0; lane < cones.size(); ++lane) {

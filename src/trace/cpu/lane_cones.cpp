@@ -33,8 +33,8 @@ ASDFVK_ALWAYS_INLINE inline Vec3Double4 loadRows(const LaneFrames::Rows& rows, s
   return {load<Double4>(&rows[0][first]), load<Double4>(&rows[1][first]), load<Double4>(&rows[2][first])};
 }
 
-/// Batcher's odd-even merge sort (1968) of `count` numbers. Exchanges with positions beyond the last are omitted, as if
-/// infinite numbers stood there.
+/// Batcher's odd-even merge sort (1968) of `count` numbers. Exchanges with positions beyond the last number are
+/// omitted, as if these positions had infinite numbers.
 std::vector<std::pair<uint16_t, uint16_t>> sortingNetwork(size_t count) {
   std::vector<std::pair<uint16_t, uint16_t>> exchanges;
   for (size_t sorted = 1; sorted < count; sorted *= 2)
@@ -68,7 +68,7 @@ LaneCones::LaneCones(const Cone& cone, std::span<const TrianglePlane> planes, In
 
 ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& frames, std::span<const LaneHits> hits) {
   constexpr double kPlaneTolerance = 0x1p-14;
-  // Local copies: through `this` the compiler would reload them after every store of a length.
+  // Local copies, because the compiler would reload members after every store of a length.
   const Vec3d* const directions = cone_.directions.data();
   const TrianglePlane* const trianglePlanes = planes_.data();
   std::array<double, kWidth>* const lengths = lengths_.data();

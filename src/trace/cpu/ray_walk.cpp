@@ -12,12 +12,12 @@ using Ints8 = IntsOf<Float8>;
 constexpr int32_t kSignBit = std::numeric_limits<int32_t>::min();
 constexpr float kTinyDirection = 1e-20F;
 
-// GCC has the instructions of AVX2 as functions, also where they are not the baseline.
+// GCC offers the instructions of AVX2 as functions, even if the baseline does not have AVX2.
 #if defined(__x86_64__) && !defined(__clang__)
 template <typename Floats>
 constexpr bool kHasShuffles = sizeof(Floats) >= sizeof(Float8);
 
-/// Lanes of the set bits first, in ascending order.
+/// For each mask an order of the lanes: the lanes of the set bits first, ascending.
 struct CompactionTable {
   alignas(64) std::array<std::array<int32_t, kBvhLaneCount>, 1U << kBvhLaneCount> lanes{};
 
@@ -41,7 +41,7 @@ ASDFVK_ALWAYS_INLINE inline uint32_t maskBits(const Ints8& mask) {
   return bitsOf(mask);
 }
 
-/// a * b + c, rounded once or twice: for boxes only, whose margin covers it.
+/// a * b + c, rounded once or twice. Use it for boxes only, whose margin covers the difference.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b, const Float8& c) {
 #if defined(__x86_64__) && !defined(__clang__)
@@ -50,16 +50,17 @@ ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b,
   return a * b + c;
 }
 
-/// What the tests need of each ray.
+/// The data of each ray that the tests of boxes and triangles read.
 struct RayRows {
   using Floats = RayGroup::Floats;
 
-  // Distances to planes are plane * inverse + near or far; the margin of the boxes is in these.
+  // The distance to a near plane is plane * inverse + near, to a far plane plane * inverse + far. nears and fars
+  // include the margin of the boxes.
   alignas(32) std::array<Floats, 3> inverses, nears, fars;
-  // Shear along the axis of the longest component of the direction (Woop, Benthin and Wald 2013), which is mainAxes.
+  // Shear along mainAxes, the axis of the longest component of the direction (Woop, Benthin and Wald 2013).
   alignas(32) Floats shearsX, shearsY, mainDirections;
   alignas(32) std::array<int32_t, RayGroup::kWidth> signs, mainAxes;  // Bit 0 of the signs: x is negative.
-  alignas(32) Floats limits;                                          // By which hits are compared.
+  alignas(32) Floats limits;                                          // RayHitDistance::compared of the nearest hit.
 };
 
 ASDFVK_ALWAYS_INLINE inline Float8 absolute(const Float8& x) {
@@ -139,14 +140,14 @@ ASDFVK_ALWAYS_INLINE inline uint32_t enterChildren(const LaneNode& node, const R
   return count;
 }
 
-/// Square of the width of a triangle across the ray, over twice its area there.
+/// A triangle is narrow if the square of its width across the ray, over twice its area across the ray, is above this.
 constexpr float kNarrowTriangle = 32;
 
 struct RayHitDistance {
   float distance, compared;
 };
 
-/// The distance to a plane instead of that from the corners, unless the plane is not near the hit.
+/// The distance to the plane or, if the plane is not near the hit, `fromCorners`.
 RayHitDistance distanceToPlane(const TrianglePlane& plane, const RayGroup& rays, size_t ray,
                                const RayHitDistance& fromCorners) {
   constexpr double kPlaneTolerance = 0x1p-14;

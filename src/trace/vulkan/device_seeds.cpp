@@ -27,7 +27,7 @@ DeviceSeeds::DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle
     : codes_(scene.representatives.size(), kNoFace), triangleCount_(static_cast<uint32_t>(triangles.size())) {
   const std::span<const uint32_t> representatives = scene.representatives;
   forEachInParallel(triangles.size(), [&](uint32_t i) { codes_[triangles[i].faceIndex] = i; });
-  // Copies first: they read the triangle of their representative.
+  // Copies first, because they read the entry of their representative, which is still the triangle.
   forEachInParallel(codes_.size(), [&](uint32_t face) {
     if (representatives[face] != face) codes_[face] = codeOf(scene, face, codes_[representatives[face]]);
   });

@@ -44,7 +44,7 @@ ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
                                       /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE}};
 }
 
-/// Returns the device, or throws.
+/// Returns the device. Throws if it lacks subgroup operations that the kernel needs.
 const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
   const DeviceFacts& facts = device.facts();
   if (facts.hasSubgroupVote && (facts.hasSubgroupArithmetic || kernel != TraceKernel::Packet)) return device;
@@ -53,7 +53,7 @@ const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
                           facts.hasSubgroupVote ? "arithmetic" : "vote"));
 }
 
-// Cones per chunk: 6 MiB of 48 bytes each.
+// Cones per chunk: 48 bytes each, 6 MiB in all.
 constexpr uint64_t kMaxChunkConeCount = 1u << 17;
 // Bytes of the hits of a chunk: sufficient for kMaxChunkConeCount cones of 30 rays.
 constexpr uint64_t kMaxHitBufferByteCount = 32u << 20;
@@ -76,7 +76,7 @@ Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte
   return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
 }
 
-/// Per cone.
+/// Bytes of the hits of one cone.
 uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
 
 }  // namespace

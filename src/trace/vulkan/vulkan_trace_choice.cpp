@@ -36,9 +36,9 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple -
 }  // namespace
 
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
-  if (device.kind == DeviceKind::Cpu)  // Measured on lavapipe; the others are not measured yet.
+  if (device.kind == DeviceKind::Cpu)  // Measured on lavapipe only.
     return {TraceKernel::Seed, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
-  // Compilers choose the size of subgroups, which may differ from the reported one: 8 or 16 lanes on GPUs of Intel.
+  // Compilers choose the size of subgroups, which may differ from the reported size: 8 or 16 lanes on GPUs of Intel.
   const bool hasLargeSubgroups = device.vendor == DeviceVendor::Nvidia || device.vendor == DeviceVendor::Amd ||
                                  (device.vendor == DeviceVendor::Other && device.subgroupSize > kMaxSmallSubgroup);
   return {hasLargeSubgroups ? TraceKernel::Ray : TraceKernel::Seed, BvhFetch::Storage};
@@ -86,7 +86,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
     if (!isCpu) shape.conesPerWorkgroup = std::max(1u, atMost(128) / shape.lanesPerCone);
   }
   // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together.
-  constexpr uint32_t kPacketMargin = 64;  // Above the count of one iteration of a packet.
+  constexpr uint32_t kPacketMargin = 64;  // More than one iteration of a packet adds to the count.
   if (device.endsLongLoops)
     shape.iterationLimit = kernel == TraceKernel::Packet ? kMaxLoopIterationCount - kPacketMargin
                                                          : kMaxLoopIterationCount / std::max(1u, device.subgroupSize);
