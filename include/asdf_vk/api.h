@@ -1,6 +1,6 @@
 #pragma once
 
-// Visibility of the public functions in a shared library; the library hides everything else.
+// Marks the public functions of a shared library as visible. The library hides all other symbols.
 #if defined(_WIN32)
 #define ASDFVK_API
 #else

@@ -1,13 +1,14 @@
 #pragma once
 
-/// Shape diameter function of triangle meshes on Vulkan: everything that a user of the library includes.
+/// Local thickness of triangle meshes, computed by Vulkan or on the CPU. This header includes the whole C++ interface
+/// except openmesh.h, which needs OpenMesh.
 ///
 ///   asdfvk::Session session;                              // opens the device once
 ///   asdfvk::Mesh mesh = asdfvk::readMesh("horse.ply");    // or a MeshView of your own arrays
 ///   asdfvk::Result result = session.compute(mesh);        // result.sdf()[face], in the unit of the mesh
 ///   asdfvk::writeResult("horse.vtu", mesh, result.fields);
 ///
-/// These headers need the standard library only. openmesh.h, for meshes of OpenMesh, is separate.
+/// The included headers need the standard library only.
 #include "asdf_vk/cgal.h"         // IWYU pragma: export
 #include "asdf_vk/choices.h"      // IWYU pragma: export
 #include "asdf_vk/error.h"        // IWYU pragma: export

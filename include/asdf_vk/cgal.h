@@ -9,49 +9,50 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/run_control.h"
 
-/// CGAL's functions on values per face that the caller has: sdf_values_postprocessing() and
-/// segmentation_from_sdf_values() of version 5.5.1 (docs/segmentation.md). They contain no code of CGAL. CGAL's
-/// sdf_values() is Session::compute() with applyDefinition(Definition::Cgal).
+/// Two functions of CGAL 5.5.1 on the caller's values per face: sdf_values_postprocessing() and
+/// segmentation_from_sdf_values() (docs/segmentation.md). They contain no code of CGAL. For CGAL's sdf_values(), call
+/// Session::compute() with options that applyDefinition(Definition::Cgal) has set.
 ///
-/// Values and labels are per input face (#I). The triangles of a polygon have the value of the polygon; the value of a
-/// polygon is the mean over its triangles, weighted by area, and its label the one with the largest area. For a mesh of
-/// triangles the results have the bits of the fields "normalized" and "segment" of Session::compute().
+/// Values and labels are per input face (#I). Each triangle of a polygon takes the value of the polygon. The resulting
+/// value of a polygon is the area-weighted mean over its triangles; its resulting label is the label with the largest
+/// area among its triangles. For a mesh of triangles the results are bit-identical to the fields "normalized" and
+/// "segment" of Session::compute().
 ///
-/// Neighbours are the faces across an edge of exactly two faces that traverse it in opposite directions. An edge of
-/// more faces is first divided as CGAL's readers do by splitting vertices: its faces stay together where neighbours
-/// connect them around both ends. An edge between faces of opposite winding is a border; CGAL's readers reverse faces
-/// of such meshes where they can. Vertices are compared by index.
+/// Two faces are neighbours if they share an edge, traverse it in opposite directions, and no third face has this edge.
+/// An edge of more than two faces is first split, as CGAL's readers do by splitting vertices: faces stay on one edge if
+/// neighbours connect them around both end points. An edge between faces of opposite winding is a boundary; CGAL's
+/// readers instead reverse faces of such meshes where possible. Vertices are compared by index.
 ///
 /// All functions throw Error{EmptyMesh}, Error{ArraySize} for arrays of a wrong size, Error{IndexOutOfRange},
-/// Error{MeshTooLarge}, Error{ValueOutOfRange}, Error{Cancelled}. The result has the same bits on any number of
+/// Error{MeshTooLarge}, Error{ValueOutOfRange} and Error{Cancelled}. Results are bit-identical for any number of
 /// threads.
 namespace asdfvk {
 
 struct PostprocessedSdf {
   std::vector<double> normalized;  ///< #I, 0 to 1; NaN for an input face without a triangle.
-  double min = 0, max = 0;         ///< Range of the smoothed values, which 0 and 1 stand for, in the unit of the input.
+  double min = 0, max = 0;         ///< Smoothed values, in the unit of the input, that are mapped to 0 and 1.
 };
 
-/// Fills missing values, smooths all by a bilateral filter and maps them to [0, 1]. Where all smoothed values are
-/// equal, they stay as they are, in the unit of the input. values: #I, at least 0 and finite, or NaN for no value. A
-/// stop is polled every 256 faces. Throws Error{NoValues} where no face has a value.
+/// Fills missing values, smooths all values by a bilateral filter and maps them to [0, 1]. If all smoothed values are
+/// equal, they are not mapped and keep the unit of the input. values: #I, finite and at least 0; NaN for no value.
+/// Polls for a stop every 256 faces. Throws Error{NoValues} if no face has a value.
 [[nodiscard]] ASDFVK_API PostprocessedSdf postprocessSdf(const MeshView& mesh, std::span<const double> values,
                                                          const RunControl& control = {});
 
 enum class CgalLabels {
-  Segments,  ///< Connected faces of one cluster, numbered by ascending mean value.
-  Clusters,  ///< Clusters of values, numbered by ascending mean: CGAL's output_cluster_ids.
+  Segments,  ///< Sets of connected faces of one cluster, numbered by ascending mean value.
+  Clusters,  ///< Clusters of values, numbered by ascending mean, as CGAL's output_cluster_ids.
 };
 
 struct LabelledFaces {
   std::vector<uint32_t> labels;  ///< #I, below `count`; kNoSegment for an input face without a triangle.
-  uint32_t count = 0;            ///< Number of segments; CgalSegmentationOptions::clusterCount for clusters.
+  uint32_t count = 0;            ///< Number of segments, or CgalSegmentationOptions::clusterCount.
 };
 
-/// Clusters the values and divides the mesh by a graph cut. values: #I, 0 to 1, as postprocessSdf() returns them, or
-/// NaN for no value, which is filled as postprocessSdf() does; ignored at input faces without a triangle. Polled
-/// between the expansions of the graph cut. Throws Error{OptionOutOfRange}, Error{NoValues} where no face has a value,
-/// and Error{TooFewValues} where there are fewer different values than clusters.
+/// Clusters the values and divides the mesh by a graph cut. values: #I, 0 to 1, as postprocessSdf() returns them. A NaN
+/// is a missing value and is filled as postprocessSdf() does. Values of input faces without a triangle are ignored.
+/// Polls for a stop between the expansions of the graph cut. Throws Error{OptionOutOfRange}, Error{NoValues} if no face
+/// has a value, and Error{TooFewValues} if there are fewer distinct values than clusters.
 [[nodiscard]] ASDFVK_API LabelledFaces segmentSdf(const MeshView& mesh, std::span<const double> values,
                                                   const CgalSegmentationOptions& options = {},
                                                   CgalLabels labels = CgalLabels::Segments,

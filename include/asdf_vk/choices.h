@@ -8,7 +8,7 @@
 
 #include "asdf_vk/options.h"
 
-/// Names of the enumerators of Options, as the command line, the JSON report and the Python module use them.
+/// Names of the enumerators of Options. The command line, the JSON report and the Python module use these names.
 namespace asdfvk {
 
 template <typename T, size_t N>
@@ -45,7 +45,7 @@ inline constexpr ChoiceNames<CgalExpansion, 2> kCgalExpansions{
 inline constexpr ChoiceNames<PerElement, 2> kPerElements{
     {{"face", PerElement::Faces}, {"vertex", PerElement::Vertices}}};
 
-/// "paper|balanced|quality"
+/// The names with bars between them: "paper|balanced|quality".
 template <typename T, size_t N>
 [[nodiscard]] std::string joined(const ChoiceNames<T, N>& names) {
   std::string text;
@@ -53,7 +53,7 @@ template <typename T, size_t N>
   return text;
 }
 
-/// Null for an unknown name.
+/// The enumerator with the name; null for an unknown name.
 template <typename T, size_t N>
 [[nodiscard]] const T* findChoice(const ChoiceNames<T, N>& names, std::string_view name) {
   for (const auto& [candidate, value] : names)

@@ -9,10 +9,10 @@
 
 namespace asdfvk {
 
-/// Classes of errors that a caller can act on. The command line maps them to exit codes.
+/// Classes of errors that a caller can handle. The command line maps them to exit codes.
 enum class ErrorKind {
   Usage,      ///< An option is out of range or contradicts another.
-  Input,      ///< A mesh cannot be read, or there is nothing to compute on.
+  Input,      ///< A mesh or array is unreadable, invalid or too large, or no value can be computed.
   Device,     ///< No usable device, or the device was lost or is too small.
   Output,     ///< A result cannot be written.
   Cancelled,  ///< The caller requested a stop.
@@ -25,35 +25,34 @@ enum class ErrorCode {
   UnknownName,      ///< No sampler, solver, backend, format or shape has this name.
   UnknownFormat,    ///< Neither an option nor the extension of the file names a format.
   UnknownField,     ///< The result has no field of that name.
-  InvalidArgument,  ///< A pointer is null, or a handle is not one. C interface only.
+  InvalidArgument,  ///< A null pointer or an invalid handle. C interface only.
   // Input
-  UnreadableInput,  ///< The file cannot be opened or violates its format; the message contains line or byte.
-  EmptyMesh,        ///< No faces in the mesh, or in the region of it.
-  ArraySize,        ///< An array has a wrong size, or offsets do not ascend.
-  ArrayType,        ///< The elements of an array have an unsupported type. Python module and C interface only.
+  UnreadableInput,  ///< The file cannot be opened or violates its format. The message names the line or byte.
+  EmptyMesh,        ///< The mesh, or the given region of it, has no faces.
+  ArraySize,        ///< An array has a wrong size, or the entries of firstCorner do not ascend.
+  ArrayType,        ///< The element type of an array is not supported. C interface and Python module only.
   NonFiniteNumber,  ///< A NaN or an infinite number where only finite ones are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
-  FarFromOrigin,    ///< Double precision does not resolve the mesh at its coordinates.
-  InputTooLarge,    ///< Does not fit into memory.
+  FarFromOrigin,    ///< The coordinates are so large that double precision does not resolve the mesh.
+  InputTooLarge,    ///< The mesh does not fit into memory.
   NoValues,         ///< No face has a value.
-  TooFewValues,     ///< Fewer different values than clusters.
-  ValueOutOfRange,  ///< A value per face that the caller passed is negative, infinite, missing or too large; or a
-                    ///< value of a result does not fit into float32.
+  TooFewValues,     ///< There are fewer distinct values than clusters.
+  ValueOutOfRange,  ///< A value per face of the caller is outside of its range, or a result does not fit into float32.
   // Device
   NoVulkanLoader,     ///< libvulkan.so.1 is not installed.
-  NoVulkanDriver,     ///< No driver, or none that the loader can start.
+  NoVulkanDriver,     ///< No driver is installed, or the loader can start none.
   NoUsableDevice,     ///< Every device was rejected; the message contains the reasons.
-  GpuRequired,        ///< A GPU was required and the backend runs on the CPU.
-  NoDeviceForKernel,  ///< A kernel variant or solver of the device was requested from a backend without a device.
+  GpuRequired,        ///< A GPU was required, but the backend runs on the CPU.
+  NoDeviceForKernel,  ///< A kernel variant or a solver of a device was requested, but the backend has no device.
   KernelUnsupported,  ///< The device lacks a feature that the requested kernel needs.
   DeviceLimit,        ///< The mesh exceeds a limit of the device.
-  EquationLimit,      ///< The Poisson equation exceeds a limit of the device; the CPU solvers have none.
+  EquationLimit,      ///< The Poisson equation exceeds a limit of the device. The CPU solvers have no limit.
   OutOfDeviceMemory,
   DeviceLost,
   ValidationFailed,  ///< The Vulkan validation layers reported a problem.
   VulkanFailed,      ///< Any other failure of a Vulkan call.
-  ForkedProcess,     ///< Use in a process forked after the first use. Python module and C interface only.
+  ForkedProcess,     ///< The process was forked after the first use. C interface and Python module only.
   // Output
   OutputNotWritable,
   // Cancelled
@@ -64,12 +63,13 @@ enum class ErrorCode {
 /// "deviceLost"
 [[nodiscard]] ASDFVK_API const char* nameOf(ErrorCode code);
 
-/// A value of an error by name, for example {"limit", "134217728"}.
+/// A named value of an error, for example {"limit", "134217728"}.
 struct ErrorDetail {
   std::string name, value;
 };
 
-/// A failure that the caller can act on. what() is one line with the reason; it names no option of the command line.
+/// A failure that the caller can handle. what() is one line with the reason and does not name options of the command
+/// line.
 class ASDFVK_API Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message, std::vector<ErrorDetail> details = {})

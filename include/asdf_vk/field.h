@@ -15,15 +15,15 @@ namespace asdfvk {
 
 enum class FieldLocation { PerFace, PerVertex };
 
-/// One quantity of a result: per input face or per vertex of the input, in file order. Every writer, the JSON report
-/// and the picture accept any list of fields.
+/// One quantity of a result, with one item per input face or per vertex of the input, in the order of the input. The
+/// JSON report, the picture and every writer accept any list of fields.
 struct Field {
-  /// Real numbers are double in memory and in CSV, float32 in the binary formats; NaN = no value.
+  /// Real numbers are double in memory and in CSV, and float32 in the other formats. NaN means no value.
   using Values = std::variant<std::vector<double>, std::vector<uint8_t>, std::vector<uint32_t>>;
 
-  std::string name;   ///< Letters, digits, '_'; unique among the fields of a result with the same location.
+  std::string name;   ///< Letters, digits and '_'. Unique among the fields of a result that have the same location.
   std::string label;  ///< Display name: "shape diameter".
-  std::string unit;   ///< "length" (the unit of the mesh), or empty for numbers without a unit, flags and indices.
+  std::string unit;   ///< "length": the unit of the mesh. Empty: no unit, as for flags and indices.
   FieldLocation location = FieldLocation::PerFace;
   uint32_t componentCount = 1;  ///< 3 for a point.
   Values values;                ///< Item i has the entries i componentCount .. (i + 1) componentCount - 1.
@@ -36,29 +36,29 @@ struct Field {
   [[nodiscard]] double at(size_t i) const {
     return std::visit([i](const auto& entries) { return static_cast<double>(entries[i]); }, values);
   }
-  /// Null where the field holds integers.
+  /// The real numbers of the field; null if the field holds integers.
   [[nodiscard]] const std::vector<double>* reals() const { return std::get_if<std::vector<double>>(&values); }
 };
 
-/// The first field of that name, or null.
+/// The first field with the name, or null.
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name);
-/// The field of that name and location, or null.
+/// The field with the name and location, or null.
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name,
                                                 FieldLocation location);
-/// Throws Error{UnknownField} where there is none.
+/// As findField(), but throws Error{UnknownField} if there is no such field.
 [[nodiscard]] ASDFVK_API const Field& requireField(std::span<const Field> fields, std::string_view name,
                                                    FieldLocation location = FieldLocation::PerFace);
 
-/// Smallest and largest finite entry, the upper median, and the number of entries without a value. Without any value
-/// the three numbers are NaN.
+/// Smallest finite entry, upper median, largest finite entry, and number of entries without a value. If no entry has a
+/// value, `min`, `median` and `max` are NaN.
 struct FieldSummary {
   double min, median, max;
   uint64_t missingCount;
 };
 [[nodiscard]] ASDFVK_API FieldSummary summarize(const Field& field);
 
-/// Throws Error{ValueOutOfRange} for a finite number beyond the range of float32, and where the numbers are so small
-/// that all of them would be 0. name: of the numbers, for the message.
+/// Throws Error{ValueOutOfRange} if a finite number is beyond the range of float32, or if the numbers are so small that
+/// all would become 0. name: describes the numbers in the message.
 ASDFVK_API void requireSingles(std::span<const double> numbers, std::string_view name);
 
 }  // namespace asdfvk

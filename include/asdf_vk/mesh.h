@@ -30,41 +30,43 @@ using Vec3f = Vec3<float>;
 /// Three vertex indices, counter-clockwise seen from outside.
 using Face = std::array<uint32_t, 3>;
 
-/// "No value" of a face: a quiet NaN.
+/// Value of a face without a value: a quiet NaN.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The input faces of a mesh with other faces than triangles. Input face i has the corners
-/// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order; it may have fewer than three.
+/// The input faces of a mesh in which not every face is a triangle. Input face i has the corners
+/// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order. An input face may have fewer than three
+/// corners.
 struct Polygons {
-  std::vector<uint64_t> firstCorner;  ///< #I+1, or empty: every input face is one triangle.
+  std::vector<uint64_t> firstCorner;  ///< #I+1 indices into `corners`. Empty: every input face is one triangle.
   std::vector<uint32_t> corners;      ///< Vertex indices.
-  std::vector<uint32_t> inputFaceOf;  ///< #F: the input face of each triangle; non-decreasing.
+  std::vector<uint32_t> inputFaceOf;  ///< #F. The input face of each triangle; non-decreasing.
 
   [[nodiscard]] bool isEmpty() const { return firstCorner.empty(); }
 };
 
-/// A triangle mesh as plain arrays, as readMesh() returns it: all faces of the file, in file order.
+/// A triangle mesh in plain arrays. readMesh() returns all faces of the file, in file order.
 struct Mesh {
-  std::vector<Vec3d> vertices;  ///< #V, in the unit of the file; may hold non-finite numbers (Report::defects).
+  std::vector<Vec3d> vertices;  ///< #V, in the unit of the file. Coordinates may be non-finite (Report::defects).
   std::vector<Face> faces;      ///< #F triangles.
-  Polygons polygons;            ///< Empty unless an input face was not a triangle.
-  /// Unit of length that the file states (3MF, glTF): "um", "mm", "cm", "m", "in" or "ft"; empty for the others.
+  Polygons polygons;            ///< Empty if every input face is a triangle.
+  /// Unit of length that the file states: "um", "mm", "cm", "m", "in" or "ft". Empty for formats other than 3MF and
+  /// glTF.
   std::string unit = {};
-  /// Parts that the file states: instances of meshes of 3MF and glTF, which share no vertices; 0 for the others.
+  /// Number of mesh instances in a 3MF or glTF file, which share no vertices; 0 for other formats.
   uint32_t statedPartCount = 0;
-  /// What the file has beside the surface, and was left out: "12 points".
+  /// Contents of the file that are not part of the surface and were left out: "12 points".
   std::vector<std::string> skipped = {};
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
-  /// #I, the number of faces of the file.
+  /// #I: the number of faces in the file.
   [[nodiscard]] uint64_t inputFaceCount() const {
     return polygons.isEmpty() ? faces.size() : polygons.firstCorner.size() - 1;
   }
 };
 
-/// The arrays of a caller, which must outlive the view. Positions in double and triangles are used in place; float
-/// positions (24 bytes per vertex) and polygons (triangulated, about 16 bytes per corner) are converted by the library.
-/// The faces of a mesh are called input faces: fields have one value per input face, in this order.
+/// View of the caller's arrays, which must outlive the view. The library uses double positions and triangles in place.
+/// It converts float positions to double (24 bytes per vertex) and triangulates polygons (about 16 bytes per corner).
+/// The faces of the view are the input faces: fields have one value per input face, in this order.
 class MeshView {
  public:
   MeshView(const Mesh& mesh);  // NOLINT: implicit by design
@@ -74,7 +76,7 @@ class MeshView {
   MeshView(std::span<const float> positions, std::span<const uint32_t> triangles)
       : floats_(positions), corners_(triangles) {}
   /// Input face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1]. firstCorner: #I+1,
-  /// ascending from 0 to corners.size(). An empty firstCorner means triangles.
+  /// ascending from 0 to corners.size(). Empty: every three corners are a triangle.
   MeshView(std::span<const double> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)
       : doubles_(positions), corners_(corners), firstCorner_(firstCorner) {}
   MeshView(std::span<const float> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)
@@ -88,7 +90,7 @@ class MeshView {
   [[nodiscard]] std::span<const float> floats() const { return floats_; }     ///< Empty for double positions.
   [[nodiscard]] std::span<const uint32_t> corners() const { return corners_; }
   [[nodiscard]] std::span<const uint64_t> firstCorner() const { return firstCorner_; }  ///< Empty for triangles.
-  /// The viewed Mesh, whose triangulation is reused; null for a view of arrays.
+  /// The viewed Mesh, whose triangulation the library reuses; null for a view of arrays.
   [[nodiscard]] const Mesh* mesh() const { return mesh_; }
 
  private:

@@ -10,14 +10,15 @@
 #include "asdf_vk/error.h"
 #include "asdf_vk/mesh.h"
 
-/// Computation on an OpenMesh triangle mesh in memory, for example:
+/// Computes on an OpenMesh triangle mesh in memory, for example:
 ///
 ///   asdfvk::computeOnOpenMesh(halfEdgeMesh, [&](const asdfvk::Mesh& mesh) { return session.compute(mesh).sdf(); });
 ///   double value = OpenMesh::getProperty<OpenMesh::FaceHandle, double>(halfEdgeMesh, "sdf")[faceHandle];
 namespace asdfvk {
 
-/// A mesh of the same vertices and faces, by handle index. Throws Error{OptionConflict} for faces that are marked as
-/// deleted (call garbage_collection() before, which renumbers the handles) and for faces that are not triangles.
+/// Returns a mesh with the vertices and faces of `source`, in the order of their handle indices. Throws
+/// Error{OptionConflict} if a face is not a triangle or is marked as deleted. garbage_collection() removes deleted
+/// faces and renumbers the handles.
 template <typename HalfEdgeMesh>
 [[nodiscard]] Mesh fromOpenMesh(const HalfEdgeMesh& source) {
   Mesh mesh;
@@ -41,8 +42,8 @@ template <typename HalfEdgeMesh>
   return mesh;
 }
 
-/// Stores one value per face, by handle index, as the face property `name` of type double, which is created if missing.
-/// values: n_faces(). Throws Error{ArraySize}.
+/// Stores one value per face in the face property `name` of type double, which is created if missing. values: n_faces()
+/// numbers, in the order of the handle indices. Throws Error{ArraySize}.
 template <typename HalfEdgeMesh>
 void writeFaceProperty(HalfEdgeMesh& target, std::span<const double> values, const std::string& name = "sdf") {
   if (values.size() != target.n_faces())
@@ -51,7 +52,8 @@ void writeFaceProperty(HalfEdgeMesh& target, std::span<const double> values, con
   for (size_t i = 0; i < values.size(); ++i) property[OpenMesh::FaceHandle(static_cast<int>(i))] = values[i];
 }
 
-/// Stores compute(mesh), a range of one double per face, as the face property `name`.
+/// Stores the result of compute(mesh) in the face property `name`. compute: takes a Mesh and returns a range of one
+/// double per face.
 template <typename HalfEdgeMesh, typename Compute>
 void computeOnOpenMesh(HalfEdgeMesh& mesh, Compute&& compute, const std::string& name = "sdf") {
   const auto values = std::forward<Compute>(compute)(fromOpenMesh(std::as_const(mesh)));

@@ -11,8 +11,8 @@ namespace asdfvk {
 
 /// Rotation of the rays of a cone about its axis.
 enum class ConeRotation {
-  Fixed,   ///< Determined by the axis: neighbouring faces cast nearly parallel rays.
-  Hashed,  ///< Determined by a hash of the face index: errors of neighbouring faces are independent.
+  Fixed,   ///< The axis determines the rotation: neighbouring faces cast nearly parallel rays.
+  Hashed,  ///< A hash of the face index determines the rotation: errors of neighbouring faces are independent.
 };
 
 /// Definition of the shape diameter of a face (docs/method.md).
@@ -25,10 +25,11 @@ enum class Definition {
 struct ConeOptions {
   uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
   double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
-  // The next three belong to Definition::Paper and must have their defaults with another definition.
-  /// A hit is false, and dropped, if the angle between the normals of hit face and seed face is below this; 0 to 180.
+  // The next three members must have their defaults unless the definition is Definition::Paper.
+  /// A hit is false and dropped if the normals of hit face and seed face differ by less than this angle; 0 to 180.
   double falseHitAngleDegrees = 90;
-  double outlierDeviations = 1;  ///< Lengths farther than this from the median are dropped; standard deviations, > 0.
+  /// Ray lengths farther than this from the median are dropped; in standard deviations, > 0.
+  double outlierDeviations = 1;
   ConeRotation rotation = ConeRotation::Fixed;
   Definition definition = Definition::Paper;
 
@@ -36,14 +37,14 @@ struct ConeOptions {
 };
 inline constexpr uint32_t kMaxRayCount = 1024;
 
-/// Number of seed faces, the faces that cast rays.
+/// Number of seeds. Seeds are the faces that cast rays.
 struct SeedCount {
-  /// Automatic: kAutomaticSeedShare of the faces. With Guidance::Prediction at least kMinAutomaticSeedCount, all faces
-  /// of a smaller mesh: fewer rays save little time there and cost accuracy.
+  /// Automatic: kAutomaticSeedShare of the faces; with Guidance::Prediction at least kMinAutomaticSeedCount, or all
+  /// faces of a smaller mesh. With fewer seeds a small mesh would lose accuracy and save little time.
   enum class Kind { Automatic, All, Share, Count } kind = Kind::Automatic;
   double share = 0;    ///< Share of the faces that can cast rays, above 0 and at most 1.
   uint64_t count = 0;  ///< At least 1.
-  /// False: the default, which rounds replace by kFirstRoundShare; Automatic is not chosen.
+  /// Whether the caller chose the number. If false, computations with RoundOptions start with kFirstRoundShare.
   bool isChosen = false;
 
   [[nodiscard]] static SeedCount automatic() { return {}; }
@@ -56,22 +57,22 @@ inline constexpr uint64_t kMinAutomaticSeedCount = 3000;
 
 /// Weights of the edges of the dual graph in the Poisson equation.
 enum class ArcWeights {
-  Distance,  ///< 1 / distance of the barycentres: ASDF paper, section 4.1.
-  Feature,   ///< Decreases with the dihedral angle, faster on concave edges (src/poisson).
+  Distance,  ///< 1 / distance of the two barycentres (ASDF paper, section 4.1).
+  Feature,   ///< Decrease with the dihedral angle, faster on concave edges (src/poisson).
 };
 
 /// Guidance field of the Poisson equation (ASDF paper, section 4.1).
 enum class Guidance {
-  None,        ///< No field: harmonic interpolation.
-  Curvature,   ///< The divergence is minus the curvature: the paper's choice.
+  None,        ///< No guidance field: harmonic interpolation.
+  Curvature,   ///< The divergence of the field is minus the curvature, as in the paper.
   Prediction,  ///< The gradient of values predicted from the hits of neighbouring seeds (src/predict).
 };
 
 struct InterpolationOptions {
   ArcWeights weights = ArcWeights::Feature;
   Guidance guidance = Guidance::Prediction;
-  /// Weight of the prediction in the result, 0 to 1: value = (1 - pooling) interpolated + pooling predicted, at seeds
-  /// too. 0 keeps the traced values. Above 0 requires Guidance::Prediction.
+  /// Weight of the prediction in the result, 0 to 1: value = (1 - pooling) * interpolated + pooling * predicted. Seeds
+  /// are included, so that only 0 keeps the traced values. Above 0 requires Guidance::Prediction.
   double pooling = 0;
 };
 
@@ -80,111 +81,115 @@ struct SolverOptions {
   uint32_t maxIterations = 20000;
 };
 
-/// Bilateral filter of the result (Tomasi and Manduchi 1998), for values traced at all faces.
+/// Bilateral filter of the result (Tomasi and Manduchi 1998). Useful if all faces are seeds.
 struct SmoothingOptions {
   bool isOn = false;
   struct Window {
     uint32_t rings = 2;   ///< Rings of the dual graph, 1 to 4.
-    uint32_t passes = 1;  ///< 0 changes nothing.
+    uint32_t passes = 1;  ///< 1 to 100.
     bool operator==(const Window&) const = default;
   };
-  std::optional<Window> window;  ///< Unset: chosen by the number of faces.
+  std::optional<Window> window;  ///< Unset: the number of faces determines the window.
 };
 
-/// Treatment of the finished values, for the field "normalized".
+/// Post-processing of the values. Its result is the field "normalized".
 enum class Postprocess {
   None,
-  Cgal,  ///< As CGAL's sdf_values_postprocessing(): fills missing values, filters bilaterally, maps to [0, 1].
+  Cgal,  ///< Fills missing values, filters bilaterally and maps to [0, 1], as CGAL's sdf_values_postprocessing().
 };
 
-/// Division of the mesh by its values, for the field "segment".
+/// Division of the mesh into segments. Its result is the field "segment".
 enum class Segmentation {
   None,
-  Cgal,   ///< As CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
-  Parts,  ///< The parts that people see: from values, creases and lines of sight, without a number of parts.
+  Cgal,   ///< Segments as by CGAL's segmentation_from_sdf_values(). Implies Postprocess::Cgal.
+  Parts,  ///< The parts that people see, from values, creases and lines of sight. Needs no number of parts.
 };
 
 enum class CgalExpansion {
-  All,    ///< Every cluster is expanded: the method of Shapira et al. 2008, and that of other versions of CGAL.
-  First,  ///< Only the cluster of the least values is expanded, as CGAL 5.5.1 does.
+  All,    ///< The graph cut expands every cluster, as Shapira et al. 2008 and other versions of CGAL do.
+  First,  ///< The graph cut expands only the cluster of the least values, as CGAL 5.5.1 does.
 };
 
 struct CgalSegmentationOptions {
-  uint32_t clusterCount = 5;  ///< 2 to kMaxClusterCount. A cluster of values may have several segments, or none.
-  double smoothness = 0.26;   ///< Weight of the edge costs, 0 to kMaxSmoothness. CGAL's manual has 0 to 1.
+  uint32_t clusterCount = 5;  ///< 2 to kMaxClusterCount. A cluster of values may become several segments, or none.
+  double smoothness = 0.26;   ///< Weight of the edge costs, 0 to kMaxSmoothness. CGAL's manual allows 0 to 1.
   CgalExpansion expansion = CgalExpansion::All;
 };
 inline constexpr uint32_t kMaxClusterCount = 100;
 inline constexpr double kMaxSmoothness = 1000;
 
 struct PartsOptions {
-  /// 1 to kMaxPartCount: that many parts, if components and faces allow. Unset: the number is found.
+  /// Requested number of parts, 1 to kMaxPartCount. The result has more if the mesh has more components, and fewer if
+  /// it has fewer faces. Unset: the segmentation chooses the number.
   std::optional<uint32_t> partCount;
-  /// The cost at which the merging of regions stops is divided by this, so that more detail means more parts.
-  /// kMinDetail to kMaxDetail; must be 1 with partCount.
+  /// Divisor of the cost at which the merging of regions stops, so that more detail means more parts. kMinDetail to
+  /// kMaxDetail; must be 1 if partCount is set.
   double detail = 1;
 };
 inline constexpr uint32_t kMaxPartCount = 100;
 inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 
-/// Quantity that is measured at each face.
+/// Quantities that are measured at each face.
 enum class Measure {
   ShapeDiameter,  ///< Fields "sdf" and "seed".
-  Thickness,      ///< Fields "thickness" and "least_thickness" (docs/thickness.md); no rays are traced.
+  Thickness,      ///< Fields "thickness" and "least_thickness" (docs/thickness.md). Traces no rays.
   Both,
 };
 
 enum class LengthUnit { OfMesh, Micrometre, Millimetre, Centimetre, Metre, Inch, Foot };
 
 /// Wall thickness: the diameter of the largest ball that touches the surface at a point from inside and contains no
-/// point of an opposing wall (docs/thickness.md). Measured at all faces, whatever `seeds` is.
+/// point of an opposing wall (docs/thickness.md). All faces are measured, whatever Options::seeds is.
 struct ThicknessOptions {
-  /// Faces whose normals differ by at least this angle are opposing walls; above 90 and at most 180.
+  /// Two faces are opposing walls if their normals differ by at least this angle; above 90 and at most 180.
   double wallAngleDegrees = 120;
-  /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Implies
-  /// Measure::Thickness.
+  /// Limit of the thickness, above 0, in `limitUnit`. The report lists the connected parts of the surface that are
+  /// thinner. Implies Measure::Thickness.
   std::optional<double> thinnerThan;
-  /// Unit of thinnerThan. Others than OfMesh need a mesh that states its own (Mesh::unit).
+  /// Unit of thinnerThan. Units other than OfMesh require a mesh with a unit (Mesh::unit).
   LengthUnit limitUnit = LengthUnit::OfMesh;
-  /// Leave thin regions that contain a sharp edge or tip out of the verdict and of the minimum. Requires thinnerThan.
+  /// Whether verdict and minimum ignore thin regions that contain a sharp edge or tip. Requires thinnerThan.
   bool allowsSharpEdges = false;
 };
 
-/// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
-/// Without a choice of seeds the first round has kFirstRoundShare. Any of them excludes SeedCount::all(); a maximum
-/// error requires Options::estimatesError.
+/// Targets up to which rounds of seeds are added. A round keeps the traced values of all earlier rounds. If
+/// SeedCount::isChosen is false, the first round has kFirstRoundShare. A target excludes SeedCount::all(); a maximum
+/// error also requires Options::estimatesError.
 struct RoundOptions {
-  std::optional<double> maxError;  ///< Last round: the estimated average error is at most this share of the range.
-  std::optional<double> maxRelativeError;   ///< Last round: the estimated median of error / value is at most this.
-  std::optional<double> timeBudgetSeconds;  ///< Last round: this time since the start of compute() is over.
+  std::optional<double> maxError;  ///< Rounds end when the estimated average error is at most this share of the range.
+  std::optional<double> maxRelativeError;   ///< Rounds end when the estimated median of error / value is at most this.
+  std::optional<double> timeBudgetSeconds;  ///< Rounds end this time after the start of compute().
 
   [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
   [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
 };
-/// Share of seeds of the first round where no seeds are chosen.
+/// Share of the faces that are seeds in the first round if SeedCount::isChosen is false.
 inline constexpr double kFirstRoundShare = 0.02;
 
-/// Treatment of inverted components: closed components whose faces are oriented inwards.
+/// Treatment of inverted components, which are closed components with faces oriented inwards.
 enum class Orientation {
-  Keep,  ///< Unchanged; the report lists them.
-  Auto,  ///< Outer shells are oriented outwards, cavities (shells inside another shell) inwards.
-  Flip,  ///< Every face is reversed.
+  Keep,  ///< Leaves them unchanged; the report warns about them.
+  Auto,  ///< Orients outer shells outwards, and cavities (shells inside another shell) inwards.
+  Flip,  ///< Reverses every face of the mesh.
 };
 
 /// Elements of the mesh that the fields of a result describe.
 enum class PerElement {
-  Faces,     ///< Input faces.
-  Vertices,  ///< Input faces; and vertices, in fields with the same names: means over the faces of a vertex by area.
+  Faces,  ///< Input faces.
+  /// Input faces and vertices. A field per vertex has the name of a field per face; its real values are area-weighted
+  /// means over the faces of the vertex.
+  Vertices,
 };
 
-/// Options of one computation. A member out of its range, and one without effect or against another that differs from
-/// its default, is Error{OptionOutOfRange} or Error{OptionConflict}, as on the command line. Sampler and solver are
-/// names, listed by samplerNames() and solverNames().
+/// Options of one computation. A computation throws Error{OptionOutOfRange} for a member out of its range. It throws
+/// Error{OptionConflict} for a member that differs from its default but has no effect or contradicts another member.
+/// samplerNames() and solverNames() list the names for `sampler` and `solver`.
 struct Options {
   ConeOptions cone;
   SeedCount seeds;
   std::string sampler = "blue-noise";
-  uint64_t randomSeed = 1;  ///< The same seed, mesh, options and device give the same bits.
+  /// Start of all random numbers. The same start, mesh, options and device give the same bits.
+  uint64_t randomSeed = 1;
   InterpolationOptions interpolation;
   SmoothingOptions smoothing;
   Postprocess postprocess = Postprocess::None;
@@ -200,36 +205,36 @@ struct Options {
   Orientation orientation = Orientation::Keep;
   bool computesCentres = false;  ///< Adds the fields "centre" and "component", for skeletons.
   PerElement per = PerElement::Faces;
-  /// Number of random traced faces, and of random faces of the whole mesh, that the double-precision reference
-  /// recomputes.
+  /// Size of two random samples that the double-precision reference recomputes: of the traced faces and of all faces.
   std::optional<uint64_t> checkCount;
-  /// Keep geometry and hierarchy in Result::scene, for a picture. The scene views the arrays of the mesh, which must
-  /// outlive it.
+  /// Keeps geometry and hierarchy in Result::scene, for a picture. Result::scene refers to the arrays of the mesh,
+  /// which must outlive it.
   bool keepsScene = false;
 
   [[nodiscard]] bool postprocesses() const {
     return postprocess == Postprocess::Cgal || segmentation == Segmentation::Cgal;
   }
   [[nodiscard]] bool measuresThickness() const { return measure != Measure::ShapeDiameter; }
-  /// True also where segments, skeleton points, a check or a maximum error need the shape diameter.
+  /// Also true if segments, skeleton points, a check or RoundOptions need the shape diameter.
   [[nodiscard]] bool measuresDiameter() const {
     return measure != Measure::Thickness || postprocesses() || segmentation != Segmentation::None || computesCentres ||
            checkCount || rounds.areSet();
   }
 };
 
-/// Sets of options. The defaults of Options are those of Balanced.
+/// Sets of options. The defaults of Options are the recipe Balanced.
 enum class Recipe {
-  Paper,     ///< ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
-  Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction; traced values are kept.
-  Quality,   ///< Balanced with hashed cones and values pooled with the prediction: least error against many rays.
+  Paper,     ///< As the ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
+  Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction. Keeps traced values.
+  /// Balanced with hashed cones and pooling with the prediction. Has the least error compared with many rays.
+  Quality,
 };
 
-/// Sets the options of a recipe: sampler, weights, guidance, pooling, cone rotation. The others are unchanged.
+/// Sets the options of a recipe: sampler, weights, guidance, pooling and cone rotation. Leaves other options unchanged.
 ASDFVK_API void applyRecipe(Recipe recipe, Options& options);
 
-/// Sets the definition with its number of rays and of seeds. Paper: 30 rays, SeedCount::automatic(). Cgal: 25 rays, all
-/// faces. The others are unchanged.
+/// Sets the definition and its numbers of rays and seeds. Paper: 30 rays, SeedCount::automatic(). Cgal: 25 rays,
+/// SeedCount::all(). Leaves other options unchanged.
 ASDFVK_API void applyDefinition(Definition definition, Options& options);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> samplerNames();
