@@ -14,7 +14,7 @@
 namespace asdfvk::c {
 namespace {
 
-/// A floating-point environment while it exists; then the one before, with its flags.
+/// Sets a floating-point environment. Its destructor restores the previous environment, status flags included.
 class FloatingPointScope {
  public:
   explicit FloatingPointScope(const std::fenv_t* environment) {
@@ -95,8 +95,8 @@ asdf_vk_status guarded(FunctionRef<void()> body) noexcept {
   const FloatingPointScope scope(FE_DFL_ENV);
   try {
     requireSameProcess();
-    // An arena sets the environment in which it was made on each thread that works in it. The arena of a thread of the
-    // caller may be older, and have another environment.
+    // A TBB arena sets the environment of its creation on each thread that works in it. The arena of the calling thread
+    // may have been created in another environment, so that callWithThreads() creates a new arena.
     callWithThreads(static_cast<uint32_t>(defaultThreadCount()), body);
     return ASDF_VK_OK;
   } catch (...) {
@@ -136,8 +136,9 @@ uintptr_t nextHandle() {
 
 void failHandle(const void* handle, const char* type) {
   throw Error(ErrorCode::InvalidArgument,
-              handle == nullptr ? fmt::format("the {} is null", type)
-                                : fmt::format("the handle is that of no {}, or the {} was destroyed", type, type));
+              handle == nullptr
+                  ? fmt::format("the {} is null", type)
+                  : fmt::format("the handle is not a handle of a {}, or the {} was destroyed", type, type));
 }
 
 }  // namespace asdfvk::c

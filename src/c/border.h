@@ -13,18 +13,19 @@
 #include "asdf_vk/run_control.h"
 #include "core/function_ref.h"
 
-/// The border between C and C++: what every function of asdf_vk_c.h does.
+/// The border between C and C++, which every function of asdf_vk_c.h crosses.
 namespace asdfvk::c {
 
-/// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops, and
-/// restores that of the caller. An exception becomes a status and the last error of the thread.
+/// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops. Then
+/// restores the caller's environment. An exception becomes the returned status and the last error of the thread.
 asdf_vk_status guarded(FunctionRef<void()> body) noexcept;
 
-/// Throws Error{InvalidArgument} for null. name: "an output", "the name".
+/// Throws Error{InvalidArgument} for null. name: names the argument in the message, for example "the output".
 void requireArgument(const void* pointer, const char* name);
 
-/// The progress function of a caller as a RunControl. Made before guarded(): keeps the floating-point environment of
-/// the caller, for its function. Must outlive the control.
+/// The progress function of a caller as a RunControl. Stores the floating-point environment at its construction and
+/// calls the progress function in it. Precondition: constructed before guarded() changes the environment. Must outlive
+/// the control.
 class ProgressCall {
  public:
   ProgressCall(asdf_vk_progress callback, void* user) : callback_(callback), user_(user) { std::fegetenv(&callers_); }
@@ -41,12 +42,12 @@ class ProgressCall {
   std::stop_source source_{std::nostopstate};  ///< Its state needs memory: made in control().
 };
 
-/// Numbers that no handle has had, of any type.
+/// Returns a number that no handle of any type had before.
 [[nodiscard]] uintptr_t nextHandle();
 [[noreturn]] void failHandle(const void* handle, const char* type);
 
-/// The living objects of a type by handle. A handle is a number, no address, and never used again: one that was
-/// destroyed, or is of another type, is recognised.
+/// The objects of a type, by handle. A handle is a unique number and not an address, so that destroyed handles and
+/// handles of another type are recognised.
 template <typename Object>
 class Handles {
  public:
@@ -58,7 +59,7 @@ class Handles {
     objects_.emplace(handle, std::move(object));
     return handle;
   }
-  /// Throws Error{InvalidArgument} where there is none.
+  /// Throws Error{InvalidArgument} if the handle is null, destroyed or of another type.
   [[nodiscard]] std::shared_ptr<Object> get(const Object* handle) {
     const std::scoped_lock lock(mutex_);
     const auto found = objects_.find(handle);
@@ -67,7 +68,7 @@ class Handles {
   }
   void destroy(const Object* handle) {
     (void)guarded([&] {
-      std::shared_ptr<Object> object;  // Destroyed without the lock.
+      std::shared_ptr<Object> object;  // Destroyed after the lock is released.
       const std::scoped_lock lock(mutex_);
       const auto found = objects_.find(handle);
       if (found == objects_.end()) return;
@@ -82,7 +83,7 @@ class Handles {
   std::map<const Object*, std::shared_ptr<Object>> objects_;
 };
 
-/// The table of a type. Not destroyed at the end of the process, when devices are no longer usable.
+/// The table of a type. Never destroyed: at the end of the process, devices may be unusable.
 template <typename Object>
 [[nodiscard]] Handles<Object>& handles() {
   static auto* const table = new Handles<Object>(Object::kType);

@@ -15,7 +15,7 @@
 
 struct asdf_vk_options {
   static constexpr const char* kType = "set of options";
-  std::map<std::string, std::string, std::less<>> texts;  ///< Values by name.
+  std::map<std::string, std::string, std::less<>> texts;  ///< Option values as texts, by name.
 };
 
 struct asdf_vk_session {
@@ -23,10 +23,10 @@ struct asdf_vk_session {
   asdfvk::SessionSettings settings;
   std::unique_ptr<asdfvk::Session> session;
   std::string device;
-  std::recursive_mutex mutex;  ///< Recursive, so that a progress function can destroy other scenes.
-  bool isBusy = false;         ///< Within SessionUse.
+  std::recursive_mutex mutex;  ///< Recursive, so that a progress function can destroy other scenes of the session.
+  bool isBusy = false;         ///< True while a SessionUse exists.
   std::mutex releasedMutex;
-  std::list<asdfvk::Scene> released;  ///< Of scenes that were destroyed while another thread computed.
+  std::list<asdfvk::Scene> released;  ///< Scenes that were destroyed while another thread computed.
 };
 
 struct asdf_vk_scene {
@@ -60,14 +60,14 @@ struct asdf_vk_result {
   asdfvk::SessionSettings session;
   asdfvk::Result result;
   std::mutex mutex;
-  asdfvk::Json report;                       ///< Null before the first text.
-  std::map<std::string, std::string> texts;  ///< Those that were returned, by JSON Pointer.
+  asdfvk::Json report;                       ///< JSON null before the first asdf_vk_result_json().
+  std::map<std::string, std::string> texts;  ///< The texts that asdf_vk_result_json() returned, by JSON Pointer.
 };
 
 namespace asdfvk::c {
 
-/// The options of a session or of a computation; null: the defaults. Throws Error{OptionConflict} for options of the
-/// other kind, and what complete() and requireValid() throw.
+/// Returns the settings of a session or of a computation. options: null: the defaults. Throws Error{OptionConflict} for
+/// an option that belongs to the other function, and the errors of complete() and requireValid().
 [[nodiscard]] SessionSettings sessionSettings(const asdf_vk_options* options);
 [[nodiscard]] ComputationSettings computationSettings(const asdf_vk_options* options);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr OptionSpelling kSpelling = OptionSpelling::Name;
 
-/// Options of the program have no keyword in other languages.
+/// The option with the name; null if there is none. Excludes options with an empty keyword, which only the program has.
 const OptionRow* rowOf(OptionRows rows, std::string_view name) {
   const OptionRow* const row = findOption(rows, name);
   return row == nullptr || (row->keyword != nullptr && *row->keyword == 0) ? nullptr : row;
@@ -24,7 +24,8 @@ void setText(const OptionRow& row, void* target, const std::string& text) {
   setOption(row, target, isOn, text, kSpelling);
 }
 
-/// Sets the options in the order of the rows. other, use: the options that are refused, and what they belong to.
+/// Sets the options in the order of the rows. other: rows of options that are refused. use: the object that the refused
+/// options belong to.
 GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle, OptionRows other, const char* use) {
   GivenOptions given{.names = {}, .spelling = kSpelling};
   if (handle == nullptr) return given;
@@ -84,7 +85,7 @@ asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, c
   return guarded([&] {
     const auto object = handles<asdf_vk_options>().get(options);
     requireArgument(name, "the name of the option");
-    ComputationSettings computation;  // For the check of the value.
+    ComputationSettings computation;  // Only to check the value.
     SessionSettings session;
     const OptionRow* const ofComputation = rowOf(computationRows(), name);
     const OptionRow* const ofSession = rowOf(sessionRows(), name);

@@ -56,7 +56,7 @@ void copyNumbers(const Field& field, asdf_vk_type type, void* numbers) {
       if (reals == nullptr) return convert<int32_t>(field, numbers);
       break;
   }
-  throw Error(ErrorCode::ArrayType, fmt::format("the numbers of '{}' do not fit into the requested type", field.name));
+  throw Error(ErrorCode::ArrayType, fmt::format("the field '{}' cannot be copied as the requested type", field.name));
 }
 
 std::string jsonAt(asdf_vk_result& result, const std::string& pointer) {
@@ -90,7 +90,7 @@ asdf_vk_status asdf_vk_result_field(const asdf_vk_result* result, size_t index, 
     const std::vector<Field>& fields = handles<asdf_vk_result>().get(result)->result.fields;
     if (index >= fields.size())
       throw Error(ErrorCode::UnknownField,
-                  fmt::format("there is no field {}: the result has {}", index, fields.size()));
+                  fmt::format("there is no field {}: the result has {} fields", index, fields.size()));
     *field = describedField(fields[index]);
   });
 }

@@ -1,4 +1,4 @@
-// Sessions, scenes and computations.
+// Functions of sessions, scenes and computations.
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
 #include "c/objects.h"
@@ -9,13 +9,13 @@
 namespace asdfvk::c {
 namespace {
 
-/// Exclusive use of a session, with its number of threads.
+/// Exclusive use of a session. Limits the threads to the number of the session while it exists.
 class SessionUse {
  public:
   explicit SessionUse(asdf_vk_session& session)
       : session_(session), lock_(session.mutex), limit_(session.settings.threadCount) {
     if (session.isBusy)
-      throw Error(ErrorCode::InvalidArgument, "the progress function of a computation uses its session");
+      throw Error(ErrorCode::InvalidArgument, "a progress function must not use the session of its computation");
     session.isBusy = true;
   }
   ~SessionUse() {
@@ -33,7 +33,8 @@ class SessionUse {
   ThreadLimit limit_;
 };
 
-/// The prepared scene. Precondition: its session is in use by this thread.
+/// Returns the prepared scene; prepares it if necessary. isNew: set if it was prepared. Precondition: this thread has a
+/// SessionUse of its session.
 Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control, bool* isNew = nullptr) {
   if (scene.prepared.empty() || scene.orientation != orientation) {
     if (isNew != nullptr) *isNew = true;
@@ -50,7 +51,6 @@ std::span<const T> spanOf(const void* numbers, uint64_t count, const char* name)
   return {static_cast<const T*>(numbers), count};
 }
 
-/// Precondition: `triangles` or `firstCorner` is set.
 MeshView viewOf(const void* vertices, asdf_vk_type vertexType, uint64_t vertexCount, std::span<const uint32_t> corners,
                 std::span<const uint64_t> firstCorner) {
   requireAtMost(kMaxIndexCount, vertexCount, "vertices");
@@ -61,7 +61,7 @@ MeshView viewOf(const void* vertices, asdf_vk_type vertexType, uint64_t vertexCo
   throw Error(ErrorCode::ArrayType, "the type of the vertices is neither FLOAT64 nor FLOAT32");
 }
 
-/// The mesh of arrays, which are copied.
+/// Returns a copy of the arrays as a mesh.
 Mesh meshOf(const MeshView& view, const char* unit) {
   Mesh mesh;
   const TriangleMesh triangles = trianglesOf(view, mesh);
