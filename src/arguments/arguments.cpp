@@ -17,7 +17,7 @@ namespace asdfvk {
 namespace {
 
 constexpr const char* kEndOfOptions = "--";
-/// Stands for the value of an option without one; no argument of a program holds it.
+/// Value of an option whose optional value is omitted. No argument of a program contains this character.
 const std::string kNoValue(1, '\0');
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
@@ -89,7 +89,7 @@ std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<st
   for (size_t i = 0; i < arguments.size(); ++i) {
     const Entry* const entry = hasEnded ? nullptr : withOptionalValue(arguments[i]);
     hasEnded |= arguments[i] == kEndOfOptions;
-    // CLI11 takes the next argument instead.
+    // CLI11 would take the next argument as the value.
     if (!hasEnded && arguments[i].starts_with("--") && arguments[i].find('=') == arguments[i].size() - 1)
       refuse(arguments[i] + " has no value");
     if (entry == nullptr) {
@@ -124,7 +124,7 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
   CLI::App app;
   app.set_help_flag();
   app.allow_extras();
-  std::vector<const CLI::Option*> options;  // Null for the positional argument.
+  std::vector<const CLI::Option*> options;  // Null for a positional argument.
   for (const Entry& entry : entries_) {
     const Argument& argument = entry.argument;
     options.push_back(isPositional(argument) ? nullptr
@@ -133,11 +133,11 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
                           : app.add_option(argument.names)->expected(static_cast<int>(argument.valueCount)));
   }
   std::vector<std::string> reversed = withAttachedValues(arguments);
-  std::reverse(reversed.begin(), reversed.end());  // CLI11 takes them from the back.
+  std::reverse(reversed.begin(), reversed.end());  // CLI11 reads the arguments from the back.
   try {
     app.parse(std::move(reversed));
   } catch (const CLI::ArgumentMismatch& mismatch) {
-    // The message begins with the name; that of a flag has no dashes.
+    // The message begins with the name of the argument; the name of a flag has no dashes.
     const std::string message = mismatch.what(), name = message.substr(0, message.find_first_of(": "));
     for (const Entry& entry : entries_) {
       const Argument& argument = entry.argument;
@@ -163,7 +163,7 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
 }
 
 std::string ArgumentParser::parse(const std::vector<std::string>& arguments) {
-  for (const std::string& text : arguments) {  // Before CLI11 refuses another one.
+  for (const std::string& text : arguments) {  // These are answered even if CLI11 would refuse another argument.
     if (text == kEndOfOptions) break;
     if (text == "-h" || text == "--help") return shortHelp.empty() ? help() : shortHelp;
     if (text == "--help=all") return help();

@@ -7,69 +7,70 @@
 #include <string_view>
 #include <vector>
 
-/// Command lines of the programs.
+/// Parsing of command lines.
 namespace asdfvk {
 
 /// An option or a positional argument.
 struct Argument {
   using Values = std::vector<std::string>;
 
-  std::string names;  ///< "--rays" or "-o,--output"; without dashes: positional.
+  std::string names;  ///< "--rays" or "-o,--output"; a name without dashes is a positional argument.
   std::string placeholder =
-      {};                 ///< Stands for the value in the help; empty: a flag. "[=N]": an optional, attached value.
-  std::string text = {};  ///< In the help.
-  /// Gets the values, all those of a list at once, none of a flag and of an optional value. Called where the argument
-  /// is given.
+      {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
+  std::string text = {};  ///< Text of the help.
+  /// Called for each occurrence of the argument, with its values; once with all values for a list. Empty values: a
+  /// flag, or an omitted optional value.
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;
   size_t valueCount = 1;
-  /// Whether the next argument is the value of an option whose value is optional; null: only an attached one is.
+  /// For an option with an optional value: whether the next argument is its value. Null: only a value after an equals
+  /// sign counts.
   std::function<bool(const std::string& next)> takesNext = {};
 
-  /// The long name.
+  /// The long name, with dashes.
   [[nodiscard]] std::string name() const { return names.substr(names.find(',') + 1); }
 };
 
-/// Argument::receive that converts into a variable, which outlives the parsing.
+/// Returns an Argument::receive that converts the values and stores them in `target`, which must outlive the parsing.
 [[nodiscard]] std::function<void(const Argument::Values&)> into(std::string& target);
 [[nodiscard]] std::function<void(const Argument::Values&)> into(uint64_t& target);
 [[nodiscard]] std::function<void(const Argument::Values&)> into(double& target);
 [[nodiscard]] std::function<void(const Argument::Values&)> into(std::array<double, 3>& target);
 [[nodiscard]] std::function<void(const Argument::Values&)> into(bool& target);
 
-/// The arguments of a program, -h,--help and --version.
+/// Parser of the arguments of a program, including -h,--help and --version.
 class ArgumentParser {
  public:
-  /// version: the answer to --version; empty: there is no such option. The arguments receive their values in their
-  /// order.
+  /// version: the answer to --version; empty: the program has no --version. Argument::receive is called in the order of
+  /// `arguments`.
   ArgumentParser(std::string_view name, std::string_view description, std::string_view version,
                  std::vector<Argument> arguments);
 
-  std::string shortHelp;  ///< The answer to --help, where it differs from that to --help=all, which is help().
-  std::string footer;     ///< Below the options in help().
+  std::string shortHelp;  ///< The answer to --help; empty: help(). The answer to --help=all is always help().
+  std::string footer;     ///< Text below the options in help().
 
-  /// arguments: those after the name of the program. Returns the text of --help or --version, else an empty one. Throws
-  /// Error{OptionOutOfRange} where they do not fit, and what the arguments throw that receive values.
+  /// arguments: the command line without the name of the program. Returns the answer to --help or --version, else an
+  /// empty text. Throws Error{OptionOutOfRange} for invalid arguments, and the errors of Argument::receive.
   [[nodiscard]] std::string parse(const std::vector<std::string>& arguments);
-  /// After parse(): the long names of the arguments that were given.
+  /// The long names of the arguments that were given. Precondition: parse() was called.
   [[nodiscard]] std::vector<std::string> givenNames() const;
   [[nodiscard]] bool isGiven(std::string_view name) const;
 
-  /// All arguments by group, in lines of 80 columns, and the footer.
+  /// The help: all arguments by group, then the footer, in lines of at most 80 columns.
   [[nodiscard]] std::string help() const;
 
  private:
   struct Entry {
     Argument argument;
-    std::vector<Argument::Values> given = {};  ///< The values of each occurrence.
+    std::vector<Argument::Values> given = {};  ///< Values of each occurrence.
   };
   [[nodiscard]] Entry& find(std::string_view name);
-  /// The option that the text names, if its value is optional; otherwise null.
+  /// The option that the text names; null if there is none or its value is not optional.
   [[nodiscard]] const Entry* withOptionalValue(const std::string& text) const;
-  /// Joins each optional value to its option by '='. CLI11 would take the next argument as the value, whatever it is.
+  /// Joins each optional value to its option by '='. CLI11 would always take the next argument as the value.
   [[nodiscard]] std::vector<std::string> withAttachedValues(const std::vector<std::string>& arguments) const;
-  /// Reads the arguments that are no options, and refuses unknown options. CLI11 would read "[a]" as a list.
+  /// Reads the positional arguments and refuses unknown options. CLI11 would read "[a]" as a list.
   void readPositional(const std::vector<std::string>& arguments);
   void read(const std::vector<std::string>& arguments);
 
@@ -77,7 +78,7 @@ class ArgumentParser {
   std::vector<Entry> entries_;
 };
 
-/// Lines of at most `width` columns, each after the indentation.
+/// Wraps a text into lines of at most `width` columns. Each line begins with `indent`.
 [[nodiscard]] std::string wrapped(std::string_view text, size_t width, std::string_view indent);
 
 }  // namespace asdfvk

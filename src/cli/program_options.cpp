@@ -113,9 +113,9 @@ const std::string kFieldsText =
 const std::array kOutputRows{
     OptionRow{.name = "output",
               .group = kOutputGroup,
-              .text = "Result: a file, a directory, or - for standard output. .html: a page that shows the results of "
-                      "all meshes in a browser",
-              .more = "[page.md](page.md) and [formats.md](formats.md) have the formats.",
+              .text = "Result: a file, a directory, or - for standard output. FILE.html is a page that shows the "
+                      "results of all meshes in a browser",
+              .more = "[page.md](page.md) and [formats.md](formats.md) describe the formats.",
               .placeholder = "FILE|DIR|-",
               .defaultText = "NAME.asdf.ply beside the input",
               .flags = "-o,--output",
@@ -125,10 +125,10 @@ const std::array kOutputRows{
     OptionRow{.name = "fields",
               .group = kOutputGroup,
               .text = kFieldsText.c_str(),
-              .more = "The first one is the `quality` and the colour of `.ply`, and the only one of `.npy` "
+              .more = "The first real field is the `quality` of `.ply`. `.npy` has the first field only "
                       "([formats.md](formats.md)).",
               .placeholder = "NAME,...",
-              .defaultText = "sdf,seed, and those of --measure, --postprocess and --segment",
+              .defaultText = "sdf,seed, and the fields of --measure, --postprocess and --segment",
               .moreNames = resultFieldNames,
               .wanted = "a list of names such as sdf,seed,error",
               .read = readFields,
@@ -136,7 +136,7 @@ const std::array kOutputRows{
     OptionRow{.name = "open",
               .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, opensPage),
-              .text = "Open the page in the browser; without -o, NAME.asdf.html"},
+              .text = "Open the page in the browser. Without -o the page is NAME.asdf.html"},
     OptionRow{.name = "json",
               .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, json),
@@ -144,16 +144,16 @@ const std::array kOutputRows{
     OptionRow{.name = "format",
               .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, format),
-              .text = "Format where -o does not decide it",
+              .text = "Format of the result if the name of -o does not determine it",
               .defaultText = "ply",
               .moreNames = outputFormats},
     OptionRow{
         .name = "ascii", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, ascii), .text = "Write PLY as text"},
     OptionRow{.name = "colour-of",
               .group = kOutputGroup,
-              .text = "Field whose colours a viewer of .ply, .glb and .obj shows",
-              .more = "It must be written, and have one component.",
-              .defaultText = "segment with --segment, else the first real one",
+              .text = "Field that determines the colours in .ply, .glb and .obj",
+              .more = "The field must be written and have one component.",
+              .defaultText = "segment with --segment, else the first real field",
               .moreNames = pictureFields,
               .read =
                   [](void* t, const OptionValue& value) {
@@ -165,20 +165,22 @@ const std::array kOutputRows{
     OptionRow{.name = "vertex-colours",
               .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, coloursVertices),
-              .text = "Colour the vertices of PLY, too: Blender shows these",
-              .more = "`.glb` and `.obj` have them anyway."},
-    OptionRow{.name = "points",
-              .group = kOutputGroup,
-              .text = "Also write the skeleton points of the faces, half of the shape diameter below each, with radius "
-                      "and segment, or as trees in SWC, for one mesh; - is standard output, as PLY",
-              .placeholder = "FILE.ply|FILE.swc",
-              .wanted = "a file that ends in .ply or .swc",
-              .read =
-                  [](void* t, const OptionValue& value) {
-                    return (hasExtension(textOf(value), ".ply") || hasExtension(textOf(value), ".swc")) &&
-                           readName<&Outputs::points>(t, value);
-                  },
-              .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
+              .text = "Also colour the vertices of PLY, which Blender shows",
+              .more = "`.glb` and `.obj` always have vertex colours."},
+    OptionRow{
+        .name = "points",
+        .group = kOutputGroup,
+        .text =
+            "Also write a skeleton point for each face, half of the shape diameter below it. PLY: points with radius "
+            "and segment. SWC: points with radius, joined into trees. - is PLY on standard output. For one mesh only",
+        .placeholder = "FILE.ply|FILE.swc",
+        .wanted = "a file that ends in .ply or .swc",
+        .read =
+            [](void* t, const OptionValue& value) {
+              return (hasExtension(textOf(value), ".ply") || hasExtension(textOf(value), ".swc")) &&
+                     readName<&Outputs::points>(t, value);
+            },
+        .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
     OptionRow{
         .name = "quiet", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, quiet), .text = "Print errors only"},
     OptionRow{.name = "verbose",
@@ -187,8 +189,8 @@ const std::array kOutputRows{
               .text = "Print the full report: device, seeds, times, solver, places"},
     OptionRow{.name = "picture",
               .group = kPictureGroup,
-              .text = "Also render the coloured mesh, for one mesh; - is standard output",
-              .more = "1200 x 900 pixels, with a colour bar over the 1st to 99th percentile.",
+              .text = "Also render the coloured mesh; - is standard output. For one mesh only",
+              .more = "The picture has 1200 x 900 pixels and a colour bar from the 1st to the 99th percentile.",
               .placeholder = "FILE.png",
               .wanted = "a file that ends in .png",
               .read =
@@ -198,7 +200,7 @@ const std::array kOutputRows{
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->picture); }},
     OptionRow{.name = "picture-of",
               .group = kPictureGroup,
-              .text = "Field to show",
+              .text = "Field that the picture shows",
               .needs = "picture",
               .defaultText =
                   "sdf, segment with --segment, thickness with --measure thickness, or the places thinner than "
@@ -208,7 +210,8 @@ const std::array kOutputRows{
               .write = noValue},
     OptionRow{.name = "picture-view",
               .group = kPictureGroup,
-              .text = "View, in degrees to the right of the broad side of the mesh (-360 to 360) and up (-90 to 90)",
+              .text = "Direction of the view in degrees: to the right of the broad side of the mesh (-360 to 360) and "
+                      "upwards (-90 to 90)",
               .placeholder = "AZIMUTH,ELEVATION",
               .needs = "picture",
               .defaultText = "30,18 (for thin places the view that shows them best)",
@@ -227,22 +230,22 @@ const std::array kBatchRows{
     OptionRow{.name = "recursive",
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, recurses),
-              .text = "Folders are inputs: every mesh below them; results in the same tree below -o",
+              .text = "Compute every mesh below the given folders. The results are in the same tree below -o",
               .flags = "-r,--recursive"},
     OptionRow{.name = "files-from",
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, list),
-              .text = "Also compute the meshes of a list, a path per line; - is standard input",
+              .text = "Also compute the meshes of a list with a path per line; - is standard input",
               .placeholder = "FILE|-"},
     OptionRow{.name = "null",
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, isNullSeparated),
-              .text = "Paths of the list end with a zero byte, as find -print0 writes",
+              .text = "Paths of the list end with a zero byte, as find -print0 writes them",
               .needs = "files-from",
               .flags = "-0,--null"},
     OptionRow{.name = "shard",
               .group = kBatchGroup,
-              .text = "Compute part I of N only; the parts are of about the same size",
+              .text = "Compute part I of N only; the parts have about the same size",
               .placeholder = "I/N",
               .read =
                   [](void* t, const OptionValue& value) {
@@ -258,21 +261,24 @@ const std::array kBatchRows{
     OptionRow{.name = "skip-existing",
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, skipsExisting),
-              .text = "Skip meshes whose result is that of the same input, options and version"},
-    OptionRow{.name = "timeout",
-              .group = kBatchGroup,
-              .access = ASDFVK_MEMBER(BatchOptions, timeoutSeconds),
-              .range = aboveUpTo(0, kMaxSeconds),
-              .text = "Fail a mesh that takes longer, exit code 8; without --isolate between steps only",
-              .placeholder = "SECONDS",
-              .defaultText = "-"},
-    OptionRow{.name = "memory-limit",
-              .group = kBatchGroup,
-              .text = "Fail a mesh that takes more memory, such as 500M or 2G, exit code 8; implies --isolate",
-              .placeholder = "SIZE",
-              .wanted = "a size such as 500M or 2G",
-              .read = readMemory,
-              .write = noValue},
+              .text = "Skip meshes that have a result of the same input, options and version"},
+    OptionRow{
+        .name = "timeout",
+        .group = kBatchGroup,
+        .access = ASDFVK_MEMBER(BatchOptions, timeoutSeconds),
+        .range = aboveUpTo(0, kMaxSeconds),
+        .text =
+            "Fail a mesh that takes longer, with exit code 8. Without --isolate the limit applies between steps only",
+        .placeholder = "SECONDS",
+        .defaultText = "-"},
+    OptionRow{
+        .name = "memory-limit",
+        .group = kBatchGroup,
+        .text = "Fail a mesh that takes more memory than this, such as 500M or 2G, with exit code 8; implies --isolate",
+        .placeholder = "SIZE",
+        .wanted = "a size such as 500M or 2G",
+        .read = readMemory,
+        .write = noValue},
     OptionRow{.name = "isolate",
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, isolates),
@@ -281,7 +287,7 @@ const std::array kBatchRows{
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, jobCount),
               .range = fromTo(1, kMaxJobCount),
-              .text = "Meshes at once",
+              .text = "Number of meshes that are computed at once",
               .placeholder = "N",
               .defaultText = "the number of cores for many small meshes, else 1"},
 };
@@ -291,15 +297,13 @@ const std::array kDeviceRows{
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(CommandLine, listDevices),
               .text = "List Vulkan devices and whether each is usable",
-              .more =
-                  "Also takes `--require-gpu` (exit code 3 where no GPU is usable) and `--json`, and excludes meshes "
-                  "and all other options."},
+              .more = "Can be combined with `--json`, `--quiet`, `--threads` and `--require-gpu` (exit code 3 if no "
+                      "GPU is usable) only."},
     OptionRow{.name = "device-report",
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(CommandLine, deviceReport),
-              .text =
-                  "Print a report on the device as JSON: a self-test, the rate of each variant of the kernels; exit "
-                  "code 3 where the self-test fails",
+              .text = "Print a report on the device as JSON, with a self-test and the rate of each variant of the "
+                      "kernels; exit code 3 if the self-test fails",
               .more = "Takes `--backend`, `--device` and `--require-gpu` ([devices.md](devices.md))."},
 };
 

@@ -1,5 +1,5 @@
-// One row per option of a computation and of a session. A row is in the help of the program, in the man page, in
-// docs/options.md, in the keywords of Python and in the JSON report.
+// The options of a computation and of a session, one row each. The help of the program, the man page, docs/options.md,
+// the keywords of Python and the JSON report are derived from the rows.
 #include "describe/computation_options.h"
 
 #include <fmt/core.h>
@@ -21,10 +21,10 @@ constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
 constexpr const char* kDeviceGroup = "Device";
 constexpr const char* kOutputGroup = "Output";
 
-constexpr double kMaxSeconds = 1e9;  // More would overflow the clocks that count them.
+constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clocks.
 constexpr uint64_t kAllFaces = std::numeric_limits<uint64_t>::max();
 
-/// "10%" as 0.1, "0.1" as 0.1.
+/// 0.1 for "10%" and for "0.1".
 std::optional<double> shareIn(std::string_view text) {
   const bool isPercent = text.ends_with('%');
   const auto number = numberIn<double>(text.substr(0, text.size() - (isPercent ? 1 : 0)));
@@ -41,7 +41,7 @@ const Options& optionsOf(const void* target) { return static_cast<const Computat
 
 constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
 
-/// 0.8, "0.8" or "0.8mm".
+/// Reads 0.8, "0.8" or "0.8mm".
 bool readLength(const OptionValue& value, std::optional<double>& length, LengthUnit& unit) {
   std::string_view text = textIn(value);
   const LengthUnitRow* found = nullptr;
@@ -90,7 +90,7 @@ bool readMaxError(void* target, const OptionValue& value) {
   const auto* number = std::get_if<double>(&value);
   const std::optional<double> share = number != nullptr ? std::optional(*number) : shareIn(text);
   if (!share || !(*share > 0 && *share < 1)) return false;
-  constexpr double kLeastPercentage = 0.1;  // Without %, 0.5 is more likely to mean 0.5 % than half of the range.
+  constexpr double kLeastPercentage = 0.1;  // "0.5" without % more likely means 0.5 % than 50 %.
   if (number == nullptr && !text.ends_with('%') && *share >= kLeastPercentage) {
     const char* const suffix = isRelative ? kRelative.data() : "";
     throw Error(ErrorCode::OptionOutOfRange,
@@ -106,7 +106,7 @@ OptionValue writeMaxError(const void* target) {
   return maxError ? OptionValue(*maxError) : OptionValue();
 }
 
-/// "off", "auto" or "2x1": rings x passes.
+/// Reads "off", "auto" or rings x passes, such as "2x1".
 bool readSmoothing(void* target, const OptionValue& value) {
   const std::string_view text = textIn(value);
   SmoothingOptions& smoothing = optionsOf(target).smoothing;
@@ -145,70 +145,74 @@ OptionValue writeCheck(const void* target) {
 #define COMPUTATION_MEMBER(path) ASDFVK_MEMBER(ComputationSettings, path)
 #define COMPUTATION_CHOICE(path, names) ASDFVK_CHOICE(ComputationSettings, path, names)
 
-// The layers below have the same names (tests/cli/options_test.cpp).
+// The names of samplers, solvers, backends and kernels repeat the tables of other layers; tests/cli/options_test.cpp
+// compares them.
 const std::array kComputationRows{
-    OptionRow{.name = "recipe",
-              .group = kSeedGroup,
-              .access = COMPUTATION_CHOICE(recipe, kRecipes),
-              .text = "Set of options; single options override it. paper: as the ASDF paper. balanced: half of the "
-                      "error of paper. quality: rays pooled over neighbouring seeds, least error against many rays",
-              .more = "[method.md](method.md#recipes) has the sets.",
-              .apply = [](void* t) { applyRecipe(static_cast<ComputationSettings*>(t)->recipe, optionsOf(t)); }},
+    OptionRow{
+        .name = "recipe",
+        .group = kSeedGroup,
+        .access = COMPUTATION_CHOICE(recipe, kRecipes),
+        .text = "Set of options; single options override it. paper: the method of the ASDF paper. balanced: about half "
+                "of the error of paper. quality: also pools the rays of neighbouring seeds, for the least error",
+        .more = "[method.md](method.md#recipes) lists the options of each set.",
+        .apply = [](void* t) { applyRecipe(static_cast<ComputationSettings*>(t)->recipe, optionsOf(t)); }},
     OptionRow{.name = "definition",
               .group = kSeedGroup,
               .access = COMPUTATION_CHOICE(options.cone.definition, kDefinitions),
-              .text = "Definition of the values: of the ASDF paper, or of CGAL's sdf_values without post-processing. "
-                      "cgal: --rays 25 --seeds all unless given",
-              .more = "`cgal` excludes the options that need `paper`, and `--recipe quality`, which rotates the cones "
-                      "([method.md](method.md)).",
+              .text = "Definition of the shape diameter. paper: as in the ASDF paper. cgal: as CGAL's sdf_values "
+                      "without post-processing, with --rays 25 --seeds all unless these are given",
+              .more = "`cgal` excludes the options that need `--definition paper`, and `--recipe quality`, which "
+                      "rotates the cones ([method.md](method.md)).",
               .apply = [](void* t) { applyDefinition(optionsOf(t).cone.definition, optionsOf(t)); }},
     OptionRow{.name = "seeds",
               .group = kSeedGroup,
-              .text = "Faces that cast rays: a share, a count or all; auto: 10%, but at least 3,000",
+              .text = "Faces that cast rays: a share, a count or all faces. auto: 10%, but at least 3,000",
               .more =
-                  "The minimum, or all faces of a smaller mesh, belongs to guidance by prediction, not to `--recipe "
-                  "paper`. A mesh whose faces all cast rays has no estimate of the error.",
+                  "With `auto`, all faces of a mesh of at most 3,000 faces cast rays. Without `--guidance prediction`, "
+                  "as in `--recipe paper`, `auto` has no minimum. If all faces cast rays, there is no error estimate.",
               .placeholder = "N%|N|all|auto",
               .keywordType = "int | float | str",
               .wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, all, or auto",
               .read = readSeeds,
               .write = [](const void* t) { return OptionValue(toText(optionsOf(t).seeds)); }},
-    OptionRow{.name = "max-error",
-              .group = kSeedGroup,
-              .text = "Add seeds until the estimated average error is below this share of the range, or with rel until "
-                      "the median of error / value is; starts with 2% or --seeds",
-              .more = "Compared is the estimate plus 1.5 standard errors. With `rel` half of the faces are within E of "
-                      "their value, whatever the range is ([accuracy.md](accuracy.md)); fulfilled where half of the "
-                      "faces cast rays. A text of 0.1 or more needs a `%`: `0.5` may mean 0.5% or 50%. Excludes "
-                      "`--no-estimate` and `--seeds all`.",
-              .placeholder = "E%[rel]",
-              .keywordType = "float | str",
-              .wanted = "an error above 0% and below 100%, such as 1% (of the range) or 5%rel (of the value)",
-              .read = readMaxError,
-              .write = writeMaxError},
+    OptionRow{
+        .name = "max-error",
+        .group = kSeedGroup,
+        .text = "Add seeds until the estimated average error is at most E of the range of the values; with rel, until "
+                "the estimated median of error / value is at most E. Starts with 2% of the faces, or with --seeds",
+        .more = "E is compared with the estimate plus 1.5 standard errors. With `rel`, half of the faces are within E "
+                "of their value, whatever the range is ([accuracy.md](accuracy.md)); this is fulfilled if half of the "
+                "faces cast rays. A text of 0.1 or more needs a `%`, because `0.5` may mean 0.5% or 50%. Excludes "
+                "`--no-estimate` and `--seeds all`.",
+        .placeholder = "E%[rel]",
+        .keywordType = "float | str",
+        .wanted = "an error above 0% and below 100%, such as 1% (of the range) or 5%rel (of the value)",
+        .read = readMaxError,
+        .write = writeMaxError},
     OptionRow{.name = "max-relative-error",
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.rounds.maxRelativeError),
               .range = aboveAndBelow(0, 1),
-              .text = "Add seeds until the estimated median of error / value is at most this",
+              .text = "Add seeds until the estimated median of error / value is at most E",
               .placeholder = "E",
               .flags = ""},
     OptionRow{.name = "orient",
               .group = kOutputGroup,
               .access = COMPUTATION_CHOICE(options.orientation, kOrientations),
-              .text = "Inverted closed components: report them (keep), reverse them, or reverse all faces",
-              .more = "`auto`: outer shells point outwards, shells inside another one (cavities) inwards."},
+              .text = "Closed components with faces oriented inwards. keep: report them. auto: reverse them. flip: "
+                      "reverse all faces of the mesh",
+              .more = "`auto` orients outer shells outwards, and shells inside another shell (cavities) inwards."},
     OptionRow{.name = "sampler",
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.sampler),
-              .text = "Selection of the seed faces. adaptive: blue noise in two passes, the second denser where the "
-                      "first predicts errors",
+              .text = "Selection of the seeds. adaptive: blue noise in two passes; the second pass is denser where the "
+                      "first one predicts errors",
               .valueNames = "random|blue-noise|farthest-point|normal-space|adaptive"},
     OptionRow{.name = "rng-seed",
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.randomSeed),
               .range = {.min = 0},
-              .text = "Random seed; the same number gives the same bits",
+              .text = "Start of all random numbers; the same number gives the same bits",
               .placeholder = "N",
               .keyword = "random-seed"},
     OptionRow{.name = "time-budget",
@@ -222,9 +226,9 @@ const std::array kComputationRows{
     OptionRow{.name = "estimate",
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.estimatesError),
-              .text = "Do not estimate the error; saves about the time of the interpolation",
-              .more = "The sampler then places all seeds: none go to faces with large expected errors or to the "
-                      "extremes, which costs a little accuracy.",
+              .text = "Do not estimate the error. This saves about as much time as the interpolation takes",
+              .more = "The sampler then selects all seeds: none are placed at large expected errors or at extreme "
+                      "values, which costs a little accuracy.",
               .flags = "--no-estimate"},
     OptionRow{.name = "rays",
               .group = kSeedGroup,
@@ -243,28 +247,28 @@ const std::array kComputationRows{
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.cone.falseHitAngleDegrees),
               .range = fromTo(0, 180),
-              .text = "A hit is false where the normals of the hit face and of the seed differ by less than this",
+              .text = "A hit is dropped as false if the normals of hit face and seed differ by less than this angle",
               .placeholder = "DEGREES",
               .needs = "definition=paper"},
     OptionRow{.name = "outlier-deviations",
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.cone.outlierDeviations),
               .range = above(0),
-              .text = "Lengths farther from the median than S standard deviations are dropped",
+              .text = "Ray lengths farther from the median than S standard deviations are dropped",
               .placeholder = "S",
               .needs = "definition=paper"},
     OptionRow{.name = "cone-rotation",
               .group = kSeedGroup,
               .access = COMPUTATION_CHOICE(options.cone.rotation, kConeRotations),
-              .text = "Rotation of the cones: fixed (parallel rays in neighbouring cones) or hashed (by face index, so "
-                      "that errors are independent)",
+              .text = "Rotation of each cone about its axis. fixed: neighbouring cones have nearly parallel rays. "
+                      "hashed: by a hash of the face index, so that errors of neighbouring faces are independent",
               .needs = "definition=paper"},
     OptionRow{.name = "smooth",
               .group = kSeedGroup,
-              .text = "Bilateral filter over R rings of faces, P passes; auto: by the number of faces. For --seeds all "
-                      "with --cone-rotation hashed",
-              .more = "It removes up to a third of the error against many rays. The estimate and `--max-error` refer "
-                      "to the values before.",
+              .text = "Bilateral filter of the values over R rings of faces, in P passes. auto: R and P by the number "
+                      "of faces. Use it with --seeds all and --cone-rotation hashed",
+              .more = "The filter removes up to a third of the error against many rays. The error estimate and "
+                      "`--max-error` refer to the unfiltered values.",
               .placeholder = "off|auto|RxP",
               .keywordType = "str | tuple[int, int]",
               .wanted = "off, auto or RINGSxPASSES such as 2x1 (1 to 4 rings, 1 to 100 passes)",
@@ -273,27 +277,29 @@ const std::array kComputationRows{
     OptionRow{.name = "postprocess",
               .group = kSegmentGroup,
               .access = COMPUTATION_CHOICE(options.postprocess, kPostprocesses),
-              .text = "Field normalized. cgal: missing values are filled, all are smoothed and mapped to 0 .. 1, as "
-                      "CGAL does"},
+              .text = "Post-processing of the values for the field normalized. cgal: fill missing values, smooth all "
+                      "values and map them to 0 .. 1, as CGAL does"},
     OptionRow{.name = "segment",
               .group = kSegmentGroup,
               .access = COMPUTATION_CHOICE(options.segmentation, kSegmentations),
-              .text = "Field segment. parts: the parts that people see, also --segment without a value. cgal: soft "
-                      "clustering and graph cut, as CGAL does; implies --postprocess cgal; for --seeds all",
+              .text = "Segmentation for the field segment. parts: the parts that people see; --segment without a value "
+                      "means parts. cgal: soft clustering and graph cut, as CGAL does; implies --postprocess cgal; use "
+                      "it with --seeds all",
               .bareValue = "parts",
               .wanted = "one of none|parts|cgal; the number of parts is an option of its own, parts"},
     OptionRow{.name = "parts",
               .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.parts.partCount),
               .range = fromTo(1, kMaxPartCount),
-              .text = "Number of parts; without it the number is found",
+              .text = "Number of parts. Without it the segmentation chooses the number",
               .placeholder = "N",
               .needs = "segment=parts"},
     OptionRow{.name = "detail",
               .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.parts.detail),
               .range = fromTo(kMinDetail, kMaxDetail),
-              .text = "Divides the cost at which merging stops; a larger number gives more parts",
+              .text = "Level of detail. It divides the cost at which the merging of regions stops; a larger number "
+                      "gives more parts",
               .more = "Excludes `--parts`.",
               .placeholder = "X",
               .needs = "segment=parts"},
@@ -301,35 +307,36 @@ const std::array kComputationRows{
               .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.cgalSegmentation.clusterCount),
               .range = fromTo(2, kMaxClusterCount),
-              .text = "Clusters of values, not the number of segments",
+              .text = "Number of clusters of values. A cluster may become several segments",
               .placeholder = "K",
               .needs = "segment=cgal"},
     OptionRow{.name = "smoothness",
               .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.cgalSegmentation.smoothness),
               .range = fromTo(0, kMaxSmoothness),
-              .text = "Weight of the boundaries, usually at most 1",
+              .text = "Weight of the boundaries in the graph cut, usually at most 1",
               .placeholder = "L",
               .needs = "segment=cgal"},
     OptionRow{.name = "cgal-expansion",
               .group = kSegmentGroup,
               .access = COMPUTATION_CHOICE(options.cgalSegmentation.expansion, kCgalExpansions),
-              .text = "The graph cut expands all clusters, or the first one only, as CGAL 5.5.1 does",
+              .text = "Clusters that the graph cut expands: all, or only the first one, as CGAL 5.5.1 does",
               .needs = "segment=cgal",
               .keyword = "expansion"},
     OptionRow{.name = "measure",
               .group = kThicknessGroup,
               .access = COMPUTATION_CHOICE(options.measure, kMeasures),
-              .text = "thickness: the fields thickness, the diameter of the largest ball inside that touches the face, "
-                      "and least_thickness instead of sdf and seed; both: these four",
-              .more = "All faces are measured, whatever `--seeds` is; without the shape diameter no rays are traced."},
+              .text = "Quantity to measure. sdf: the shape diameter, with the fields sdf and seed. thickness: the wall "
+                      "thickness, with the fields thickness and least_thickness. both: all four fields",
+              .more = "The wall thickness is the diameter of the largest ball inside that touches the face. It is "
+                      "measured at all faces, whatever `--seeds` is. `thickness` traces no rays."},
     OptionRow{.name = "thinner-than",
               .group = kThicknessGroup,
               .range = above(0),
-              .text = "Whether any point of the surface is thinner than T, in the unit of the mesh, and where; implies "
+              .text = "Report whether and where the surface is thinner than T, in the unit of the mesh; implies "
                       "--measure thickness",
-              .more = "With a unit, such as `0.8mm`, where the file states its own (3MF, glTF): `um`, `mm`, `cm`, `m`, "
-                      "`in` or `ft`.",
+              .more = "If the file states its unit (3MF, glTF), T may have a unit, as in `0.8mm`: `um`, `mm`, `cm`, "
+                      "`m`, `in` or `ft`.",
               .placeholder = "T",
               .defaultText = "-",
               .keywordType = "float | str",
@@ -347,8 +354,8 @@ const std::array kComputationRows{
     OptionRow{.name = "fail-if-thinner",
               .group = kThicknessGroup,
               .range = above(0),
-              .text = "The same, and exit code 6 where a point is thinner than T, 5 where parts of the surface cannot "
-                      "be judged",
+              .text = "As --thinner-than, with exit code 6 if a point is thinner than T, and exit code 5 if parts of "
+                      "the surface cannot be judged",
               .placeholder = "T",
               .defaultText = "-",
               .keyword = "",
@@ -366,20 +373,19 @@ const std::array kComputationRows{
     OptionRow{.name = "allow-sharp-edges",
               .group = kThicknessGroup,
               .access = COMPUTATION_MEMBER(options.thickness.allowsSharpEdges),
-              .text = "Leave sharp edges and tips, where the thickness is 0, out of the verdict; they are listed",
+              .text = "Leave sharp edges and tips, where the thickness is 0, out of the verdict. The report lists them",
               .needs = "thinner-than"},
     OptionRow{.name = "wall-angle",
               .group = kThicknessGroup,
               .access = COMPUTATION_MEMBER(options.thickness.wallAngleDegrees),
               .range = aboveUpTo(90, 180),
-              .text = "A wall is opposing if its normal differs by this from that of the face",
+              .text = "Two faces are opposing walls if their normals differ by at least this angle",
               .placeholder = "DEGREES",
               .needs = "measure=thickness|both"},
     OptionRow{.name = "check",
               .group = kOutputGroup,
-              .text = "Recompute N random traced faces, and N of all faces, with the reference (2000 without a "
-                      "number); exit code "
-                      "5 where traced faces disagree",
+              .text = "Recompute N random traced faces, and N random faces of all, with the double-precision "
+                      "reference; N is 2000 if not given. Exit code 5 if traced faces disagree",
               .placeholder = "[=N|all]",
               .keywordType = "int | str",
               .bareValue = "2000",
@@ -389,18 +395,22 @@ const std::array kComputationRows{
     OptionRow{.name = "centres",
               .group = kOutputGroup,
               .access = COMPUTATION_MEMBER(options.computesCentres),
-              .text = "The fields centre, skeleton points, and component",
+              .text = "Add the fields centre (skeleton points) and component",
               .flags = ""},
-    OptionRow{.name = "weights",
-              .group = kExperimentGroup,
-              .access = COMPUTATION_CHOICE(options.interpolation.weights, kWeights),
-              .text = "Edge weights of the dual graph: 1/distance of the barycentres, or by the dihedral angle",
-              .more = "See [method.md](method.md)."},
-    OptionRow{.name = "guidance",
-              .group = kExperimentGroup,
-              .access = COMPUTATION_CHOICE(options.interpolation.guidance, kGuidances),
-              .text = "Guidance field: none (harmonic), minus the curvature, or the gradient of values predicted from "
-                      "the hits of neighbouring seeds"},
+    OptionRow{
+        .name = "weights",
+        .group = kExperimentGroup,
+        .access = COMPUTATION_CHOICE(options.interpolation.weights, kWeights),
+        .text =
+            "Edge weights of the dual graph. distance: 1 / distance of the barycentres. feature: by the dihedral angle",
+        .more = "See [method.md](method.md)."},
+    OptionRow{
+        .name = "guidance",
+        .group = kExperimentGroup,
+        .access = COMPUTATION_CHOICE(options.interpolation.guidance, kGuidances),
+        .text =
+            "Guidance field of the Poisson equation. none: harmonic interpolation. curvature: its divergence is minus "
+            "the curvature. prediction: the gradient of values predicted from the hits of neighbouring seeds"},
     OptionRow{.name = "pooling",
               .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.interpolation.pooling),
@@ -411,40 +421,38 @@ const std::array kComputationRows{
     OptionRow{.name = "solver",
               .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.solver),
-              .text = "Conjugate gradients (cg) or Jacobi on the device, conjugate gradients on the CPU in float32 "
-                      "(cpu) or with Eigen in double",
-              .more =
-                  "Eigen also finishes what float32 cannot. `auto` is `cg` on a GPU and `cpu` where the CPU traces. "
-                  "With `cg` and `jacobi` the device also predicts values.",
+              .text = "Solver of the Poisson equation. On the device: conjugate gradients (cg) or jacobi. On the CPU: "
+                      "conjugate gradients in float32 (cpu), or in double (eigen)",
+              .more = "Where float32 does not reach the tolerance, `eigen` continues. `auto` is `cg` on a GPU, and "
+                      "`cpu` if the CPU traces. With `cg` and `jacobi` the device also predicts values.",
               .valueNames = "auto|cg|jacobi|cpu|eigen"},
     OptionRow{.name = "tolerance",
               .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.solverOptions.tolerance),
               .range = aboveAndBelow(0, 1),
               .text = "Relative residual at which the solver stops",
-              .more = "The residual of each face is measured in the unit of the values, so that a finely meshed patch "
-                      "does not hide the rest.",
+              .more = "The residual of each face is scaled to the unit of the values, so that a finely meshed patch "
+                      "does not hide the residuals of other faces.",
               .placeholder = "R"},
     OptionRow{.name = "max-iterations",
               .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.solverOptions.maxIterations),
               .range = {.min = 1},
-              .text = "Iterations at which the solver stops",
+              .text = "Greatest number of iterations of the solver",
               .placeholder = "N"},
     OptionRow{.name = "per",
               .group = kOutputGroup,
               .access = COMPUTATION_CHOICE(options.per, kPerElements),
-              .text = "vertex: also fields per vertex, means over its faces by area, with the names of those per face; "
-                      ".csv and .npy hold these only"},
+              .text = "Elements of the fields. vertex: add a field per vertex for each field per face, with its name: "
+                      "area-weighted means over the faces of a vertex. .csv and .npy then have fields per vertex only"},
 };
 
 const std::array kSessionRows{
     OptionRow{.name = "backend",
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, backend),
-              .text =
-                  "A Vulkan device, the cores of the CPU, the double-precision reference, or the first of them that is "
-                  "available",
+              .text = "What traces the rays. vulkan: a Vulkan device. cpu: the cores of the CPU. reference: the CPU in "
+                      "double precision. auto: the first of these that is available",
               .valueNames = "auto|vulkan|cpu|reference"},
     OptionRow{.name = "device",
               .group = kDeviceGroup,
@@ -456,28 +464,28 @@ const std::array kSessionRows{
     OptionRow{.name = "require-gpu",
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, requireGpu),
-              .text = "Fail where no GPU is usable",
-              .more = "Exit code 3 instead of a CPU device, `cpu` or the reference."},
+              .text = "Fail if no GPU is usable",
+              .more = "The exit code is then 3. CPU devices, `cpu` and `reference` are not used."},
     OptionRow{.name = "threads",
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, threadCount),
               .range = fromTo(0, 1024),
-              .text = "CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on it",
+              .text = "Number of CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on it",
               .placeholder = "N"},
     OptionRow{.name = "kernel",
               .group = kExperimentGroup,
               .access = ASDFVK_MEMBER(SessionSettings, variant.kernel),
-              .text = "Vulkan: neighbouring lanes trace one ray of neighbouring seeds, the rays of one seed, or these "
-                      "as a packet",
-              .more = "`auto` of this and the next one: by the class of the device and the size of the mesh "
-                      "([devices.md](devices.md)).",
+              .text = "Vulkan: rays that neighbouring lanes trace. seed: the same ray of neighbouring seeds. ray: the "
+                      "rays of one seed. packet: as ray, but the lanes traverse the hierarchy together",
+              .more = "For `--kernel` and `--fetch`, `auto` depends on the class of the device and the size of the "
+                      "mesh ([devices.md](devices.md)).",
               .keyword = "",
               .valueNames = "auto|seed|ray|packet",
               .emptyIsAuto = true},
     OptionRow{.name = "fetch",
               .group = kExperimentGroup,
               .access = ASDFVK_MEMBER(SessionSettings, variant.fetch),
-              .text = "Vulkan: the hierarchy is read from texel or storage buffers",
+              .text = "Vulkan: kind of buffers from which the kernels read the hierarchy",
               .keyword = "",
               .valueNames = "auto|texel|storage",
               .emptyIsAuto = true},

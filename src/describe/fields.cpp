@@ -22,7 +22,7 @@ constexpr std::array kFields{
     FieldRow{.name = "normalized",
              .label = "normalised diameter",
              .needs = "postprocess cgal",
-             .meaning = "values from 0 to 1 ([segmentation.md](segmentation.md))"},
+             .meaning = "post-processed value, from 0 to 1 ([segmentation.md](segmentation.md))"},
     FieldRow{.name = "segment",
              .label = "segments",
              .type = FieldType::Label,
@@ -33,7 +33,7 @@ constexpr std::array kFields{
              .label = "wall thickness",
              .unit = "length",
              .needs = "measure thickness",
-             .meaning = "wall thickness at the barycentre, of a polygon the least of its triangles "
+             .meaning = "wall thickness at the barycentre; for a polygon, the least value of its triangles "
                         "([thickness.md](thickness.md))"},
     FieldRow{.name = "least_thickness",
              .label = "least wall thickness",
@@ -46,8 +46,8 @@ constexpr std::array kFields{
              .componentCount = 3,
              .needs = "fields centre",
              .meaning = "skeleton point: the barycentre of the face, moved inwards along its normal by half of the "
-                        "shape diameter. For a polygon, the means of both over its triangles, weighted by area. No "
-                        "value without a value, or without a normal (zero area)"},
+                        "shape diameter. For a polygon, barycentre and normal are area-weighted means over its "
+                        "triangles. No value if the face has no shape diameter or no normal (zero area)"},
     FieldRow{.name = "component",
              .label = "components",
              .type = FieldType::Label,

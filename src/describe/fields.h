@@ -16,14 +16,15 @@ struct FieldRow {
   const char* unit = "";  ///< See Field::unit.
   FieldType type = FieldType::Real;
   uint32_t componentCount = 1;
-  const char* needs = nullptr;  ///< The option that computes the field; null: none.
-  const char* meaning;          ///< The meaning of an entry per face.
+  const char* needs = nullptr;  ///< The option that computes the field; null: no option is needed.
+  const char* meaning;          ///< Meaning of the entry of a face.
 };
 
-/// All fields, in the order in which a result has them.
+/// All fields, in the order of a result.
 [[nodiscard]] std::span<const FieldRow> fieldRows();
 
-/// The field of that name with the entries. Precondition: fieldRows() has the name, and its type is that of `values`.
+/// Makes the field with the name and the entries. Precondition: fieldRows() has a row with the name, and `values` has
+/// the type of the row.
 [[nodiscard]] Field makeField(std::string_view name, Field::Values values);
 
 }  // namespace asdfvk

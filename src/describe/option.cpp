@@ -24,7 +24,7 @@ std::vector<std::string> splitAt(std::string_view text, char separator) {
   return parts;
 }
 
-/// "time-budget" with another separator, or with capitals.
+/// "time_budget" or "timeBudget" for "time-budget".
 std::string inCase(std::string_view name, OptionSpelling spelling) {
   std::string text;
   for (size_t i = 0; i < name.size(); ++i) {
@@ -44,7 +44,7 @@ bool isInRange(const OptionRange& range, double value) {
   return isAbove && (range.excludesMax ? value < range.max : value <= range.max) && std::isfinite(value);
 }
 
-/// The number of a typed value.
+/// The value as a number; unset if it is not a number.
 std::optional<double> numberOf(const OptionValue& value) {
   if (const auto* whole = std::get_if<uint64_t>(&value)) return static_cast<double>(*whole);
   if (const auto* real = std::get_if<double>(&value)) return *real;
@@ -76,7 +76,7 @@ bool hasName(const OptionRow& row, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// False for a wrong value.
+/// Sets the option. Returns false for an invalid value.
 bool assign(const OptionRow& row, void* target, const OptionValue& value) {
   if (row.read != nullptr) return row.read(target, value);
   const auto set = [&](auto member) -> bool {
@@ -112,7 +112,7 @@ bool assign(const OptionRow& row, void* target, const OptionValue& value) {
   return std::visit(set, row.access.member(target));
 }
 
-/// The typed value of a text; the text itself where it has none.
+/// Converts a text to the type of the option; returns the text itself if it does not convert.
 OptionValue typed(const OptionRow& row, const std::string& text) {
   const OptionKind kind = row.access.kind;
   if (kind == OptionKind::Whole) {
@@ -131,7 +131,7 @@ OptionValue typed(const OptionRow& row, const std::string& text) {
               {{"option", spelled(row, spelling)}});
 }
 
-/// The number of letters to insert, remove or replace (V. Levenshtein, 1966).
+/// The number of letters to insert, remove or replace to turn `a` into `b` (V. Levenshtein, 1966).
 size_t distanceOf(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
@@ -145,7 +145,7 @@ size_t distanceOf(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Whether a word of `name`, after a dash or an underscore, begins with `beginning`.
+/// Whether a word of `name` begins with `beginning`. Dashes and underscores separate words.
 bool hasWord(std::string_view name, std::string_view beginning) {
   constexpr size_t kMinSize = 3;
   const size_t at = beginning.size() < kMinSize ? std::string_view::npos : name.find(beginning);

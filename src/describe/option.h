@@ -15,17 +15,17 @@
 #include "asdf_vk/api.h"
 #include "asdf_vk/choices.h"
 
-/// The rows of options. The flags and their help, the range checks, the JSON, the keywords of Python and the documents
-/// come from these rows.
+/// Rows of options. Flags, help, range checks, JSON, keywords of Python and documents are derived from the rows.
 namespace asdfvk {
 
-/// A value of an option, as front ends pass it and reports show it. std::monostate: none.
+/// A value of an option, as front ends pass it and reports show it. std::monostate: no value.
 using OptionValue = std::variant<std::monostate, bool, uint64_t, double, std::string>;
 
-/// How messages and reports spell the name of an option: --time-budget, timeBudgetSeconds, time_budget, time-budget.
+/// Spelling of the name of an option in messages and reports: --time-budget, timeBudgetSeconds, time_budget,
+/// time-budget.
 enum class OptionSpelling { Flag, CamelCase, SnakeCase, Name };
 
-/// A member whose values have names.
+/// A member with named values, such as an enumeration.
 struct ChoiceMember {
   void* member;
   const char* (*get)(const void* member);
@@ -38,11 +38,12 @@ using OptionMember = std::variant<bool*, double*, uint32_t*, uint64_t*, std::str
 
 enum class OptionKind { Special, Flag, Real, Whole, Text, Choice };
 
-/// How a row reaches its member; see ASDFVK_MEMBER and ASDFVK_CHOICE.
+/// Access of a row to its member; see ASDFVK_MEMBER and ASDFVK_CHOICE.
 struct OptionAccess {
-  OptionKind kind = OptionKind::Special;  ///< Special: OptionRow::read and `write` are set.
+  /// Special: there is no member; OptionRow::read and OptionRow::write replace it.
+  OptionKind kind = OptionKind::Special;
   OptionMember (*member)(void* target) = nullptr;
-  std::string (*names)() = nullptr;  ///< "paper|balanced|quality"
+  std::string (*names)() = nullptr;  ///< The names of a Choice: "paper|balanced|quality".
 };
 
 template <typename Member>
@@ -63,7 +64,7 @@ template <const auto& kNames, typename T>
           }};
 }
 
-/// OptionRow::access of a member of Target, and of one whose values have names.
+/// OptionRow::access of a member of Target. ASDFVK_CHOICE is for a member with named values.
 #define ASDFVK_MEMBER(Target, path)                                            \
   OptionAccess {                                                               \
     kindOfMember<decltype((std::declval<Target&>().path))>(),                  \
@@ -75,7 +76,7 @@ template <const auto& kNames, typename T>
         [] { return joined(choices); }                                                                                \
   }
 
-/// Allowed numbers. The bounds of whole numbers are included.
+/// Range of allowed numbers. Whole numbers must have included bounds.
 struct OptionRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool excludesMin = false, excludesMax = false;
@@ -87,71 +88,73 @@ struct OptionRange {
 [[nodiscard]] constexpr OptionRange aboveAndBelow(double min, double max) { return {min, max, true, true}; }
 [[nodiscard]] constexpr OptionRange aboveUpTo(double min, double max) { return {min, max, true, false}; }
 
-/// An option. `target` is the struct of the table that has the row, for example ComputationSettings.
+/// An option. The parameter `target` of the functions is the struct that the options of the table set, for example
+/// ComputationSettings.
 struct OptionRow {
   const char* name;  ///< "time-budget"
   const char* group;
   OptionAccess access = {};
   OptionRange range = {};
-  const char* text = "";         ///< For the help: without range, default and full stop.
-  const char* more = "";         ///< Further sentences for man page and docs/options.md.
-  const char* placeholder = "";  ///< Stands for the value; not of flags, nor of options with names.
-  const char* needs = "";        ///< Without it the option has no effect: "measure=thickness|both", "thinner-than".
-  const char* defaultText = nullptr;  ///< Replaces that of the default value.
-  const char* flags = nullptr;        ///< "-o,--output"; null: -- and the name; empty: no flag.
-  const char* keyword = nullptr;      ///< The keyword of Python; null: the name of the option; empty: there is none.
-  const char* keywordType = nullptr;  ///< Type of the keyword in Python; null: the type of the member.
-  const char* valueNames = nullptr;   ///< Names of a string: "auto|seed|ray".
-  bool emptyIsAuto = false;           ///< The member of the name "auto" is empty.
-  std::vector<std::string> (*moreNames)() = nullptr;  ///< Further names of a string.
-  const char* bareValue = nullptr;                    ///< The value of a flag without one; null: a value is needed.
-  const char* wanted = nullptr;                       ///< What is not read: "an error such as 1%".
-  bool (*read)(void* target, const OptionValue& value) = nullptr;  ///< False, or throws, for a wrong value.
+  const char* text = "";         ///< Text of the help, without range, default and final full stop.
+  const char* more = "";         ///< Further sentences for the man page and docs/options.md.
+  const char* placeholder = "";  ///< Stands for the value in the help. Empty for flags and options with named values.
+  const char* needs = "";  ///< Option without which this one has no effect: "measure=thickness|both", "thinner-than".
+  const char* defaultText = nullptr;  ///< Shown instead of the default value.
+  const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
+  const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option; empty: no keyword.
+  const char* keywordType = nullptr;  ///< Type of the keyword of Python; null: the type of the member.
+  const char* valueNames = nullptr;   ///< Allowed values of a string option: "auto|seed|ray".
+  bool emptyIsAuto = false;           ///< The name "auto" sets the member to an empty string.
+  std::vector<std::string> (*moreNames)() = nullptr;  ///< Returns further allowed values of a string option.
+  const char* bareValue = nullptr;  ///< Value of the option if the command line gives none; null: a value is required.
+  const char* wanted = nullptr;     ///< Description of valid values for messages: "an error such as 1%".
+  /// Sets the option. Returns false or throws for an invalid value.
+  bool (*read)(void* target, const OptionValue& value) = nullptr;
   OptionValue (*write)(const void* target) = nullptr;
-  void (*apply)(void* target) = nullptr;  ///< Called after the member is set.
+  void (*apply)(void* target) = nullptr;  ///< Called after the option is set.
 };
 
 using OptionRows = std::span<const OptionRow>;
 
-/// Null where no row has the name.
+/// The row with the name; null if there is none.
 [[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
 
 [[nodiscard]] ASDFVK_API std::string spelled(const OptionRow& row, OptionSpelling spelling);
-/// The option with a value: --segment cgal, segment=cgal, segment="cgal".
+/// The option with a value, spelled for the front end: --segment cgal, segment=cgal, segment='cgal'.
 [[nodiscard]] std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
-/// The names of the values, empty without.
+/// Names of the allowed values; empty if values have no names.
 [[nodiscard]] ASDFVK_API std::vector<std::string> namesOf(const OptionRow& row);
-/// The placeholder, or the names between bars. Empty for a flag.
+/// The placeholder, or the names of the values with bars between them. Empty for a flag.
 [[nodiscard]] ASDFVK_API std::string placeholderOf(const OptionRow& row);
-/// "from 0 to 1"; empty without a range.
+/// The range as a text: "from 0 to 1". Empty without a range.
 [[nodiscard]] ASDFVK_API std::string rangeText(const OptionRow& row);
-/// What a value must be: "a number from 0 to 1".
+/// Description of valid values: "a number from 0 to 1".
 [[nodiscard]] ASDFVK_API std::string wantedText(const OptionRow& row);
 
-/// Sets an option. The string of a command line is converted. Throws Error{OptionOutOfRange} and Error{UnknownName}
-/// with the detail "option": "--rays: '0' is not a whole number from 1 to 1024".
+/// Sets an option from a text of a command line. Throws Error{OptionOutOfRange} and Error{UnknownName} with the detail
+/// "option" and a message such as "--rays: '0' is not a whole number from 1 to 1024".
 void setOptionText(const OptionRow& row, void* target, const std::string& text,
                    OptionSpelling spelling = OptionSpelling::Flag);
-/// Sets a value that has a type. shown: the value in the message.
+/// Sets an option to a typed value. shown: the value as the message shows it. Throws as setOptionText().
 ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue& value, const std::string& shown,
                           OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API OptionValue valueOf(const OptionRow& row, const void* target);
-/// "-" for none, "off" and "on" for flags.
+/// The value as a text: "-" for no value, "on" or "off" for a flag.
 [[nodiscard]] std::string toText(const OptionValue& value);
 
-/// The default as documents show it. defaults: the target as it is constructed.
+/// The default value as documents show it. defaults: a target with default values.
 [[nodiscard]] ASDFVK_API std::string defaultText(const OptionRow& row, const void* defaults);
 
-/// Whether the option that `row` needs has one of the values it needs.
+/// Whether the option that `row` needs has one of the required values.
 [[nodiscard]] bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target);
 
-/// "--segment cgal"; empty where the row needs none.
+/// The needed option with its value: "--segment cgal". Empty if the row needs no option.
 [[nodiscard]] ASDFVK_API std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling);
 
-/// The options that the caller named.
+/// Names of the options that the caller has set, and their spelling in messages.
 struct GivenOptions {
   std::set<std::string, std::less<>> names;
   OptionSpelling spelling = OptionSpelling::CamelCase;
@@ -159,18 +162,19 @@ struct GivenOptions {
   [[nodiscard]] bool has(std::string_view name) const { return names.contains(name); }
 };
 
-/// Throws Error{OptionConflict} where a given option has no effect: "--clusters needs --segment cgal".
+/// Throws Error{OptionConflict} if a given option has no effect: "--clusters needs --segment cgal".
 void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given);
 
-/// Throws Error{OptionOutOfRange} and Error{UnknownName} for a value out of its range. target: a copy, whose members
-/// are set again.
+/// Throws Error{OptionOutOfRange} or Error{UnknownName} if a value is out of its range. target: a copy of the settings;
+/// its members are overwritten with their values.
 void requireInRange(OptionRows rows, void* target, OptionSpelling spelling);
 
-/// Throws Error{OptionConflict} with the option. message: names of rows in braces are spelled.
+/// Throws Error{OptionConflict} with the detail "option". message: options in braces, such as {seeds=all}, are spelled
+/// for the front end.
 [[noreturn]] ASDFVK_API void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling);
 
-/// "--seeds or --rng-seed" for "--seed": at most three names that differ in few letters, or one of whose words begins
-/// with the name. Empty where there is none.
+/// Up to three of the names that are similar to `name`, for example "--seeds or --rng-seed" for "--seed". Similar names
+/// differ in few letters, or have a word that begins with `name`. Empty if there are none.
 [[nodiscard]] ASDFVK_API std::string similarNames(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace asdfvk

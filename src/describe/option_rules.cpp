@@ -1,4 +1,4 @@
-// What options imply and what they exclude, for every front end.
+// Options that other options imply or exclude, for every front end.
 #include "asdf_vk/error.h"
 #include "describe/computation_options.h"
 
@@ -11,7 +11,7 @@ constexpr uint32_t kCgalRayCount = 25;  // The default of CGAL's sdf_values().
   refuse(computationRows(), message, spelling);
 }
 
-/// A limit implies the measure.
+/// Applies a limit of the thickness, which implies Measure::Thickness.
 void applyLimit(ComputationSettings& computation, const GivenOptions& given) {
   Options& options = computation.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
@@ -39,10 +39,11 @@ void refuseContradictions(const Options& options, const GivenOptions& given) {
   const bool isRelative = !rounds.maxError && given.spelling != OptionSpelling::Flag;  // --max-error 5%rel
   const std::string maxError = isRelative ? "{max-relative-error}" : "{max-error}";
   if (rounds.limitError() && !options.estimatesError)
-    refuseOption(maxError + " needs the estimate of the error; drop it, or {estimate=off}", given.spelling);
+    refuseOption(maxError + " needs the error estimate, which {estimate=off} excludes; drop one of the two",
+                 given.spelling);
   if (rounds.areSet() && options.seeds.kind == SeedCount::Kind::All)
     refuseOption((rounds.limitError() ? maxError : "{time-budget}") +
-                     " adds seeds, but with {seeds=all} every face is one; drop one of the two",
+                     " adds seeds, but with {seeds=all} every face is a seed; drop one of the two",
                  given.spelling);
   if (options.interpolation.pooling > 0 && options.interpolation.guidance != Guidance::Prediction)
     refuseOption(
@@ -52,7 +53,7 @@ void refuseContradictions(const Options& options, const GivenOptions& given) {
   if (options.parts.partCount && (given.has("detail") || options.parts.detail != 1))
     refuseOption("{parts} and {detail} contradict each other; drop one", given.spelling);
   if (options.cone.definition != Definition::Paper && options.cone.rotation != ConeRotation::Fixed)
-    refuseOption("{recipe=quality} rotates the cones, which belongs to {definition=paper}; use another recipe",
+    refuseOption("{recipe=quality} rotates the cones, which needs {definition=paper}; use another recipe",
                  given.spelling);
 }
 

@@ -13,14 +13,14 @@ void to_json(nlohmann::ordered_json& json, const TraceVariant& variant);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const OptionValue& value);
 
-/// The keys that are members of a report.
+/// The JSON object with a key for each member of the report.
 [[nodiscard]] nlohmann::ordered_json toJson(const Report& report);
 
-/// The values of the options that affect the result: the key "options" of the JSON report.
+/// The value of the key "options" of the JSON report: the options that affect the result.
 [[nodiscard]] nlohmann::ordered_json optionValues(const ComputationSettings& computation,
                                                   const SessionSettings& session);
 
-/// The JSON report of docs/formats.md without the names of files.
+/// The JSON report of docs/formats.md, without the names of files.
 [[nodiscard]] nlohmann::ordered_json resultJson(const Report& report, std::span<const Field> fields,
                                                 const ComputationSettings& computation, const SessionSettings& session);
 

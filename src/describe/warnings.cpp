@@ -138,7 +138,7 @@ Warning thinShell(double clearShare) {
   return {
       WarningCode::ThinShell,
       fmt::format("the shape is a thin wall around a cavity: {:.0f} % of the pairs of its patches have a clear line "
-                  "of sight; its parts are less certain than those of solid shapes",
+                  "of sight; its parts are less certain than the parts of solid shapes",
                   100 * clearShare),
       {{"clearShare", numberText(clearShare)}}};
 }
@@ -160,7 +160,8 @@ Warning skippedContent(const std::vector<std::string>& skipped) {
 
 Warning uncertainParts(double agreement) {
   return {WarningCode::UncertainParts,
-          fmt::format("the parts are uncertain: divisions of other sizes agree by {:.2f} only", agreement),
+          fmt::format("the parts are uncertain: divisions from other numbers of patches agree by only {:.2f} of 1",
+                      agreement),
           {{"agreement", numberText(agreement)}}};
 }
 

@@ -8,10 +8,11 @@
 
 namespace asdfvk {
 
-// Every warning but that of inverted components: its sentence, and the values of the sentence as details.
+// Functions that make warnings: a sentence, and the values of the sentence as details. src/pipeline/prepared_mesh.cpp
+// makes the warning about inverted components.
 
-/// One warning per defect found, each with its count; empty for a clean mesh. isOfPolygons: the triangles were cut from
-/// polygons, and the sentences call them triangles instead of faces.
+/// One warning per kind of defect, with the number of defects. isOfPolygons: the mesh has polygons, so that the
+/// sentences say "triangles" instead of "faces".
 [[nodiscard]] std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons);
 
 [[nodiscard]] Warning componentsReversed(uint64_t count);
@@ -20,13 +21,13 @@ struct MissingValues {
   uint64_t count = 0, faceCount = 0;
   bool isInverted = false;    ///< A face without a value belongs to an inverted component.
   bool isOpen = false;        ///< A face without a value belongs to an open component.
-  bool keepsMissing = false;  ///< Faces do not get values from faces connected to them.
+  bool keepsMissing = false;  ///< Faces without a value are not interpolated from connected faces.
 };
 [[nodiscard]] Warning missingValues(const MissingValues& missing);
 
-/// robustShare: length of the range that holds 98 % of the values, over the length of the range of all values.
+/// robustShare: the robust range (1st to 99th percentile of the values), divided by the range of all values.
 [[nodiscard]] Warning rangeDominated(double robustShare);
-/// The warning where the relative error is large against the error over the range.
+/// The warning for a relative error that is large compared with the error over the range.
 [[nodiscard]] Warning rangeDominated(double robustShare, const ErrorEstimate& estimate);
 
 [[nodiscard]] Warning finishedOnCpu(const SolverReport& solver);
@@ -36,19 +37,19 @@ struct MissingValues {
 [[nodiscard]] Warning predictedOnCpu(const Error& failure);
 [[nodiscard]] Warning solvedOnCpu(const Error& failure);
 
-/// clearShare: of the pairs of patches with a clear line of sight.
+/// clearShare: share of the pairs of patches that have a clear line of sight.
 [[nodiscard]] Warning thinShell(double clearShare);
 [[nodiscard]] Warning partCountDiffers(uint32_t requested, uint32_t found);
-/// minShare: of the area, which no component has.
 /// skipped: Mesh::skipped.
 [[nodiscard]] Warning skippedContent(const std::vector<std::string>& skipped);
 
 /// agreement: PartsReport::agreement.
 [[nodiscard]] Warning uncertainParts(double agreement);
 
-/// areaShare: of faces larger than half of their value.
+/// areaShare: share of the area in faces that are larger than half of their value.
 [[nodiscard]] Warning coarseParts(double areaShare);
 
+/// minShare: share of the area that no component reaches.
 [[nodiscard]] Warning onlySmallComponents(double minShare, uint64_t partCount);
 
 }  // namespace asdfvk

@@ -208,12 +208,12 @@ TEST_CASE("options that would have no effect are refused") {
   CHECK_EQ(refusal({"--device-report", "--backend", "vulkan", "--device", "0", "--require-gpu"}), "accepted");
 
   CHECK_EQ(refusal({"a.ply", "--no-estimate", "--max-error", "1%"}),
-           "--max-error needs the estimate of the error; drop it, or --no-estimate");
+           "--max-error needs the error estimate, which --no-estimate excludes; drop one of the two");
   CHECK_EQ(refusal({"a.ply", "--no-estimate", "--time-budget", "1"}), "accepted");
   for (const auto& [option, value] :
        {std::pair{"--max-error", "1%"}, {"--max-error", "5%rel"}, {"--time-budget", "1"}}) {
     CHECK_EQ(refusal({"a.ply", option, value, "--seeds", "all"}),
-             fmt::format("{} adds seeds, but with --seeds all every face is one; drop one of the two", option));
+             fmt::format("{} adds seeds, but with --seeds all every face is a seed; drop one of the two", option));
     CHECK_EQ(refusal({"a.ply", option, value, "--seeds", "20%"}), "accepted");
     CHECK_EQ(refusal({"a.ply", option, value, "--definition", "cgal"}), "accepted");
   }

@@ -207,14 +207,15 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         o.estimatesError = false;
         o.rounds.maxRelativeError = 0.1;
       },
-      ErrorCode::OptionConflict, "maxRelativeError needs the estimate of the error; drop it, or estimate=false");
+      ErrorCode::OptionConflict,
+      "maxRelativeError needs the error estimate, which estimate=false excludes; drop one of the two");
   for (const bool limitsError : {false, true})
     requireFailure(
         [&](Options& o) {
           o.seeds = SeedCount::all();
           (limitsError ? o.rounds.maxError : o.rounds.timeBudgetSeconds) = 0.5;
         },
-        ErrorCode::OptionConflict, "with seeds=all every face is one");
+        ErrorCode::OptionConflict, "with seeds=all every face is a seed");
   requireFailure([](Options& o) { o.sampler = "spiral"; }, ErrorCode::UnknownName,
                  "sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
   requireFailure([](Options& o) { o.solver = "gauss"; }, ErrorCode::UnknownName, "'gauss'");
