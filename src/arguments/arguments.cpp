@@ -58,7 +58,7 @@ std::function<void(const Argument::Values&)> into(bool& target) {
 ArgumentParser::ArgumentParser(std::string_view name, std::string_view description, std::string_view version,
                                std::vector<Argument> arguments)
     : name_(name), description_(description), version_(version) {
-  entries_.push_back({{.names = "-h,--help", .placeholder = "[=all]", .text = "Print a help"}});
+  entries_.push_back({{.names = "-h,--help", .placeholder = "[=all]", .text = "Print the help"}});
   if (!version.empty()) entries_.push_back({{.names = "--version", .text = "Print the version"}});
   for (Argument& argument : arguments) entries_.push_back({std::move(argument)});
 }
@@ -170,7 +170,8 @@ std::string ArgumentParser::parse(const std::vector<std::string>& arguments) {
     if (text == "--version" && !version_.empty()) return version_ + "\n";
   }
   read(arguments);
-  if (isGiven("--help")) refuse(fmt::format("--help: '{}' is not all", find("--help").given.front().front()));
+  if (isGiven("--help"))
+    refuse(fmt::format("--help: '{}' is not 'all'; write --help or --help=all", find("--help").given.front().front()));
   for (const auto& [argument, given] : entries_) {
     if (argument.isRequired && given.empty())
       refuse(fmt::format("{} is missing; {} --help lists the options", argument.name(), name_));

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The failure of a job whose worker was killed or crashed.
+/// The failure of a job whose worker process did not return a result.
 Failure failureOf(const JobOutcome& outcome, const BatchOptions& batch) {
   switch (outcome.end) {
     case JobEnd::TimedOut:
@@ -65,7 +65,7 @@ std::vector<InputFile> inputsOf(const std::vector<std::string>& meshes, const st
   return inputs;
 }
 
-/// The outputs of all inputs are checked against each other, also those of other shards.
+/// The jobs of this shard. Checks the outputs of all shards against each other.
 std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& outputs, const BatchOptions& batch) {
   const std::vector<std::string> paths = planOutputs(outputs, batch, inputs);
   std::vector<Job> jobs;
@@ -78,16 +78,15 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
   return jobs;
 }
 
-/// Removes the temporary files of earlier runs that were killed, and of workers that were killed at the end of this
-/// run.
+/// Removes temporary files that killed processes left in the folders of the outputs.
 void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
   std::set<fs::path> folders;
   for (const Job& job : jobs) folders.insert(fs::path(job.output).parent_path());
   for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 
-/// Throws what the engine throws, except OpenFailure, whose code it returns after reporting it for all jobs without a
-/// result.
+/// Runs the jobs. For an OpenFailure, reports a failure of each unfinished job and returns the code of the failure.
+/// Throws the other errors of runJobs().
 ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client,
                       Monitor& monitor, bool hasJson, const std::stop_token& stop) {
   try {
@@ -105,12 +104,12 @@ ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options
   return ExitCode::Done;
 }
 
-/// Computes the jobs of a worker process. Signals drop a job, or end the idle process.
+/// Computes the jobs of a worker process. A signal cancels the current job or ends an idle process.
 class WorkerComputer : public JobComputer {
  public:
   explicit WorkerComputer(const Greeting& greeting) : settings_(settingsOf(greeting.settings)), records_(settings_) {
     {
-      const ThreadLimit limit(greeting.threadCount);  // A CPU device keeps it.
+      const ThreadLimit limit(greeting.threadCount);  // A CPU device keeps the limit under which it was opened.
       computer_.emplace(settings_, records_, interrupt_.token());
     }
     limit_.emplace(computer_->describe().isCpu ? greeting.threadCount : greeting.threadCountOnGpu);
@@ -151,7 +150,8 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();
-  std::optional<Interrupt::Listening> listening;  // In a batch, a signal drops the current meshes; the log has them.
+  // In a batch, a signal cancels the current meshes, and the log records them.
+  std::optional<Interrupt::Listening> listening;
   if (batch.isBatch()) {
     listening.emplace();
     removeUnfinishedOutputs(jobs);

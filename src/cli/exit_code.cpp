@@ -11,14 +11,14 @@
 namespace asdfvk {
 namespace {
 
-/// The remedy: options or packages; empty where the reason suffices.
+/// The remedy, such as an option or a package; empty if the reason suffices.
 std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& valueOptions) {
   const auto orOnCpu = [&](const std::string& remedy) {
     return requiresGpu ? remedy : remedy + ", or use --backend cpu or reference";
   };
   switch (code) {
     case ErrorCode::UnknownField:
-      return "an estimate needs enough seeds, and faces that are none; give a share such as --seeds 10%";
+      return "an error estimate needs enough seeds, and faces that are not seeds; give a share such as --seeds 10%";
     case ErrorCode::NoValues:
       return "try --orient auto or flip" + (valueOptions.empty() ? "" : ", or drop " + valueOptions);
     case ErrorCode::TooFewValues:
@@ -64,7 +64,8 @@ Failure fileLimitFailure() {
 
 Failure threadLimitFailure() {
   return limitFailure(
-      "the system allows no further thread or process; raise its limit (ulimit -u, or that of the container), or give "
+      "the system allows no further thread or process; raise its limit (ulimit -u, or the limit of the container), or "
+      "give "
       "fewer --threads and --jobs");
 }
 
@@ -132,7 +133,7 @@ Failure currentFailure(bool requiresGpu, const std::string& valueOptions) {
       return fileLimitFailure();
     return code == std::errc::resource_unavailable_try_again ? threadLimitFailure() : internalFailure(error.what());
   } catch (const std::exception& error) {
-    // TBB throws a std::runtime_error where it cannot start a thread.
+    // TBB throws a std::runtime_error if it cannot start a thread.
     return std::string_view(error.what()).starts_with("pthread_create ") ? threadLimitFailure()
                                                                          : internalFailure(error.what());
   } catch (...) {

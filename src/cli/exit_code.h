@@ -10,46 +10,46 @@
 
 namespace asdfvk {
 
-/// Exit status of the program: that of the first failure.
+/// Exit status of the program. After several failures, the first one determines it.
 enum class ExitCode : int {
   Done = 0,
   Usage = 1,        ///< The command line is invalid.
-  Input = 2,        ///< A mesh is unreadable, or there is nothing to compute on it.
-  Device = 3,       ///< No device, or it was lost, and no fallback is allowed.
+  Input = 2,        ///< A mesh is unreadable, invalid or too large, or no value can be computed.
+  Device = 3,       ///< There is no usable device or the device was lost, and no fallback is allowed.
   Output = 4,       ///< A result or report cannot be written.
-  CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all; or
-                    ///< --fail-if-thinner could not be judged.
-  TooThin = 6,      ///< --fail-if-thinner: a point of the surface is thinner.
-  SomeFailed = 7,   ///< Some of several meshes could not be computed; the others are done.
+  CheckFailed = 5,  ///< --check failed or had no traced face to compare; or --fail-if-thinner could not be judged.
+  TooThin = 6,      ///< A point of the surface is thinner than --fail-if-thinner.
+  SomeFailed = 7,   ///< Some of several meshes failed; the others are done.
   Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
   Internal = 70,    ///< A defect of the program.
-  Cancelled = kCancelledCode,  ///< SIGINT, SIGTERM or SIGHUP.
+  Cancelled = kCancelledCode,  ///< SIGINT, SIGTERM or SIGHUP ended the run.
 };
 
 /// Meaning of each code, for the help and the man page.
 inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
     {{ExitCode::Done, "done"},
-     {ExitCode::Usage, "usage"},
+     {ExitCode::Usage, "invalid command line"},
      {ExitCode::Input, "input unreadable"},
      {ExitCode::Device, "no device or device lost"},
      {ExitCode::Output, "output not writable"},
-     {ExitCode::CheckFailed, "a requested check failed, or could not be made"},
+     {ExitCode::CheckFailed, "a requested check failed or was not possible"},
      {ExitCode::TooThin, "thinner than --fail-if-thinner"},
      {ExitCode::SomeFailed, "some of several meshes failed, the others are done"},
-     {ExitCode::Limit, "beyond --timeout, --memory-limit, or a limit of the system on open files or threads"},
+     {ExitCode::Limit,
+      "a mesh exceeded --timeout or --memory-limit, or the system allows no further open file or thread"},
      {ExitCode::Internal, "internal error"},
      {ExitCode::Cancelled, "cancelled"}}};
 
 inline constexpr const char* kExitCodeOfSeveralMeshes =
-    "With several meshes, the others are computed after a failure. The code is 7 if some meshes have a result, also "
-    "with codes 5 and 6, and others have none; else it is that of the first failure.";
+    "With several meshes, a failure does not end the run. The code is 7 if some meshes have a result and others have "
+    "none; meshes with the codes 5 and 6 have a result. Otherwise it is the code of the first failure.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
-/// Whether a mesh with this code has a result.
+/// Whether a mesh that ended with this code has a result.
 [[nodiscard]] bool hasResult(ExitCode ofMesh);
 
-/// Exit code of several meshes from those of each.
+/// Combines the exit codes of several meshes.
 class SharedExitCode {
  public:
   void add(ExitCode ofMesh);
@@ -59,17 +59,17 @@ class SharedExitCode {
   ExitCode first_ = ExitCode::Done;
   bool hasResult_ = false, lacksResult_ = false, isCancelled_ = false;
 };
-/// Done or CheckFailed. A check that is not independent cannot fail.
+/// Done, or CheckFailed if the check failed. A check that is not independent is Done.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
-/// Done, TooThin, or CheckFailed where a limit was not judged. Precondition: there is a limit.
+/// Done, TooThin, or CheckFailed if the limit could not be judged. Precondition: the report has a limit.
 [[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness);
 
-/// A failure as it is reported.
+/// A failure, as the program reports it.
 struct Failure {
   ExitCode code = ExitCode::Internal;
-  std::string message;            ///< One line: the reason, then the remedy.
-  std::string name = "internal";  ///< nameOf(ErrorCode).
+  std::string message;            ///< One line with the reason and the remedy.
+  std::string name = "internal";  ///< nameOf(ErrorCode), or another name such as "internal" or "timeLimit".
 };
 
 /// The failure of a mesh that took longer than --timeout.
@@ -77,8 +77,8 @@ struct Failure {
 /// The failure of a mesh that a stop request ended.
 [[nodiscard]] Failure cancelledFailure();
 
-/// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
-/// valueOptions: options that need values, such as --segment.
+/// Describes the current exception. Precondition: called in a catch block. requiresGpu: the remedy must not be a
+/// backend of the CPU. valueOptions: the given options that need shape diameters, such as --segment, for the remedy.
 [[nodiscard]] Failure currentFailure(bool requiresGpu = false, const std::string& valueOptions = "");
 
 }  // namespace asdfvk

@@ -16,7 +16,7 @@
 namespace asdfvk {
 namespace {
 
-/// The object of a report without its lists, which may be long.
+/// A copy of the object without its lists, which may be long.
 Json withoutLists(Json object) {
   Json kept;
   for (auto& [key, value] : object.items())
@@ -60,7 +60,8 @@ std::unique_ptr<Session> openSession(const SessionOptions& options) {
   }
 }
 
-/// Larger meshes are not read ahead, because two meshes are in memory then.
+/// Whether a file is read during the computation of the previous mesh. Not for large files, because then two meshes are
+/// in memory.
 bool isReadAhead(const Job& job) {
   constexpr uint64_t kMaxBytes = uint64_t{256} << 20;
   return !job.isStream && job.byteCount > 0 && job.byteCount <= kMaxBytes;
@@ -168,7 +169,7 @@ JobResult MeshComputer::compute(const Job& job, const Job* next) {
   return records_.finish(job, std::move(record), std::move(run), old);
 }
 
-/// The file name, or the path where another mesh has the same file name.
+/// The file name, or the whole path if another mesh of the page has the same file name.
 std::string MeshComputer::nameInSharedPage(const Job& job) const {
   const std::string name = nameInPage(job.input);
   const auto sameCount = std::count_if(jobsOfPage_->begin(), jobsOfPage_->end(),

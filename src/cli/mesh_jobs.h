@@ -12,26 +12,27 @@
 
 namespace asdfvk {
 
-/// Makes the records of jobs, and keeps them beside the outputs of a batch.
+/// Makes the records of jobs. In a batch, writes each record to a file beside the output.
 class JobRecords {
  public:
-  /// The settings must outlive this object.
+  /// Precondition: `settings` outlives this object.
   explicit JobRecords(const MeshSettings& settings);
 
   [[nodiscard]] const Json& options() const { return options_; }
 
-  /// The record of a job whose computation begins.
+  /// Makes the record of a job whose computation begins.
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
-  /// Completes the record and writes it beside the output; where that fails, the mesh fails and has no result. old: the
-  /// record of an earlier run, whose output is removed if the mesh failed and the output is out of date.
+  /// Completes the record and, in a batch, writes it beside the output. If the record cannot be written, the mesh fails
+  /// and its output is removed. old: record of an earlier run; if the mesh failed and the earlier output is out of
+  /// date, the earlier output is removed.
   [[nodiscard]] JobResult finish(const Job& job, MeshRecord record, MeshRun run,
                                  const std::optional<MeshRecord>& old) const;
 
-  /// The result of an earlier run that is up to date.
+  /// The result of an earlier run, if it is up to date.
   [[nodiscard]] std::optional<JobResult> findFinished(const Job& job) const;
 
-  /// The result of a job that was not computed.
+  /// The result of a job whose worker process failed.
   [[nodiscard]] JobResult fail(const Job& job, const Failure& failure) const;
 
  private:
@@ -40,17 +41,18 @@ class JobRecords {
   Json options_;
 };
 
-/// Throws the failure as OpenFailure.
+/// Throws an OpenFailure with the members of `failure`.
 [[noreturn]] void throwOpenFailure(const Failure& failure);
 
 /// Computes meshes with one session.
 class MeshComputer : public JobComputer {
  public:
-  /// showsBar: shows the progress of each mesh on a terminal. The references must outlive this object. Throws
-  /// OpenFailure.
+  /// Opens the session. showsBar: shows a progress bar for each mesh if standard error is a terminal. Precondition:
+  /// `settings` and `records` outlive this object. Throws OpenFailure.
   MeshComputer(const MeshSettings& settings, const JobRecords& records, std::stop_token stop, bool showsBar = false);
 
-  /// Puts all results into a page, which the caller writes. jobs: all of the page. Both must outlive this object.
+  /// Adds all results to `page`, which the caller writes, instead of writing them. jobs: all jobs of the page.
+  /// Precondition: both outlive this object.
   void collectIn(Page& page, const std::vector<Job>& jobs);
 
   [[nodiscard]] ComputerDescription describe() const override;
@@ -69,7 +71,7 @@ class MeshComputer : public JobComputer {
   bool isSpent_ = false;
   Page* page_ = nullptr;
   const std::vector<Job>* jobsOfPage_ = nullptr;
-  std::future<LoadedMesh> ahead_;  ///< The last member: it uses the others.
+  std::future<LoadedMesh> ahead_;  ///< The last member, because its destructor waits for a task that uses the others.
 };
 
 }  // namespace asdfvk

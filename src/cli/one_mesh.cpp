@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The field of --picture-of, null for the thin places. Throws Error{UnknownField} and Error{OptionConflict}.
+/// The field that the picture shows; null for the thin places. Throws Error{UnknownField} and Error{OptionConflict}.
 const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
   if (outputs.pictureOf.empty()) return nullptr;
   const Field* const field = result.field(outputs.pictureOf);
@@ -49,8 +49,8 @@ const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
 
 constexpr auto kStopPollTime = std::chrono::milliseconds(20);
 
-/// Waits until an output that is a FIFO has a reader, and keeps it open: the next opening does not wait. Throws
-/// Error{Cancelled}.
+/// If the output is a FIFO, waits until it has a reader. Keeps the FIFO open, so that the writer does not wait again.
+/// Throws Error{Cancelled}.
 class AwaitedReader {
  public:
   AwaitedReader(const std::string& output, const std::stop_token& stop) {
@@ -71,7 +71,7 @@ class AwaitedReader {
   int descriptor_ = -1;
 };
 
-/// The requested checks that failed or could not be made.
+/// The failures of requested checks, including checks that were not possible.
 std::vector<Failure> failedChecks(const ComputationSettings& computation, const Report& report) {
   std::vector<Failure> failures;
   if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
@@ -86,7 +86,7 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
   return failures;
 }
 
-/// The options that need values, for the remedy where there are none.
+/// The given options that need shape diameters, for the remedy if no face has a value.
 std::string valueOptionsOf(const Options& options) {
   const bool isSegmented = options.segmentation != Segmentation::None;
   if (options.postprocess == Postprocess::None || options.segmentation == Segmentation::Cgal)
@@ -108,14 +108,14 @@ LoadedMesh loadNow(const std::string& path, bool computesHash) {
   return loaded;
 }
 
-/// Whether its opening or reading may wait for another process.
+/// Whether opening or reading the file may wait for another process.
 bool mayWait(const std::string& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   return path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
 }
 
-/// The files of a mesh, and what is written to them.
+/// Writes the files of a mesh: result, picture and points.
 class MeshFiles {
  public:
   MeshFiles(const std::string& input, const std::string& output, const MeshSettings& settings, bool showsBar,
@@ -142,10 +142,10 @@ class MeshFiles {
     return work(control);
   }
 
-  /// Precondition: the output is no page.
+  /// Precondition: the output is not a page.
   void writeResult(Mesh& mesh, const Options& options, const Result& result) const {
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
-    flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has its own copy.
+    flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has a copy.
     const AwaitedReader reader(output_, stop_);
     asdfvk::writeResult(output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
   }
@@ -156,7 +156,8 @@ class MeshFiles {
     asdfvk::writePoints(settings_.outputs.points, result.fields);
   }
 
-  /// Renders the field, or the thin places without one, and writes it atomically. Precondition: result.scene is set.
+  /// Renders a picture of the field, or of the thin places if `field` is null, and writes it atomically. Precondition:
+  /// result.scene is set.
   void writePicture(const Result& result, const Field* field) const {
     const Outputs& outputs = settings_.outputs;
     const AwaitedReader reader(outputs.picture, stop_);
@@ -175,7 +176,7 @@ class MeshFiles {
   const std::stop_token stop_;
 };
 
-/// Adds warnings, reports and failed checks of a result that is written.
+/// Adds warnings, reports and failed checks. Precondition: the result was written.
 void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   const Report& report = outcome.result.report;
   const bool showsReport = !outcome.outputs.quiet && !isOfBatch;
@@ -187,7 +188,7 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   if (outcome.outputs.json) run.json += jsonReport(outcome);
   run.report = report;
   for (Failure& failure : failedChecks(outcome.computation, report)) {
-    // The first line of a shown report is the verdict on the thickness already.
+    // The first line of a shown report already has the verdict on the thickness.
     if (!showsReport || failure.name == "checkFailed") run.text += errorLine(outcome.mesh, failure.message);
     if (!run.failure) run.failure = std::move(failure);
   }
@@ -200,7 +201,7 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_
   try {
     std::packaged_task<LoadedMesh()> task([path, computesHash] { return loadNow(path, computesHash); });
     std::future<LoadedMesh> loaded = task.get_future();
-    std::thread(std::move(task)).detach();  // The call of the system cannot be ended before the process.
+    std::thread(std::move(task)).detach();  // A blocked system call cannot be ended before the process ends.
     while (loaded.wait_for(kStopPollTime) != std::future_status::ready)
       if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     return loaded.get();
@@ -210,7 +211,7 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_
 }
 
 void MeshRun::add(Failure failed, const std::string& input, bool hasJson) {
-  const std::string prefix = oneLine(input + ": ");  // The messages of readers begin with the file, too.
+  const std::string prefix = oneLine(input + ": ");  // The messages of readers also begin with the file.
   if (failed.message.starts_with(prefix)) failed.message.erase(0, prefix.size());
   text += errorLine(input, failed.message);
   if (hasJson) json += jsonFailure(input, failed.name, failed.message);

@@ -15,68 +15,70 @@
 
 namespace asdfvk {
 
-/// What is done with a mesh.
+/// Settings for computing a mesh and writing its result.
 struct MeshSettings {
   SessionSettings session;
   ComputationSettings computation;
   Outputs outputs;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
-  bool makesFolders = false;  ///< The folder of the result is made where it does not exist.
-  bool isOfBatch = false;     ///< There is a record beside the result, but no report, and pages have no times.
+  bool makesFolders = false;  ///< Whether a missing folder of the result is created.
+  /// Whether a record is written beside the result and replaces the report. Pages then have no times.
+  bool isOfBatch = false;
 };
 
-/// The settings for a worker of the same program. Strings may have any bytes.
+/// The settings as JSON, for a worker process of the same version. Strings may contain any bytes.
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshSettings& settings);
 [[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
-/// Computes a mesh from file to file and prints its report. A failure is printed. Returns the exit code. Throws
-/// Error{OptionConflict} where outputs contradict each other.
+/// Reads and computes a mesh, writes its result and prints the report or the failure. Returns the exit code. Throws
+/// Error{OptionConflict} if outputs contradict each other.
 [[nodiscard]] ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings,
                                       const std::stop_token& stop);
 
-// The steps of that, for several meshes.
+// Steps of computeOneMesh(), for calls with several meshes.
 
-/// A mesh that was read, or the exception of its reader.
+/// A mesh that was read, or the exception that the reader threw.
 struct LoadedMesh {
   Mesh mesh;
-  std::string hash;    ///< contentHash() of the file; empty unless requested.
-  double seconds = 0;  ///< Time of the reading.
+  std::string hash;    ///< contentHash() of the file; empty if not requested.
+  double seconds = 0;  ///< Time of reading.
   std::exception_ptr failure;
 };
 
-/// A stop request ends the waiting for a FIFO or for standard input; the failure is then Error{Cancelled}.
+/// Reads a mesh. A stop request ends the wait for a FIFO or for standard input; LoadedMesh::failure is then
+/// Error{Cancelled}.
 [[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop);
 
-/// What is left of a mesh that was computed. The texts are empty or consist of complete lines.
+/// Outcome of a mesh. `json` and `text` are empty or consist of complete lines.
 struct MeshRun {
-  std::optional<Failure> failure;  ///< The first one, or the cancellation.
-  std::optional<Report> report;    ///< The report, if the result is written.
-  bool hasResult = false;          ///< Whether any result is written.
-  std::string json;                ///< For --json.
-  std::string text;                ///< Errors; outside a batch and without --quiet also warnings and report.
+  std::optional<Failure> failure;  ///< The first failure, or the cancellation.
+  std::optional<Report> report;    ///< Set if the result was written.
+  bool hasResult = false;          ///< Whether a result was written.
+  std::string json;                ///< Lines of --json.
+  std::string text;                ///< Errors; also warnings and the report, except in a batch or with --quiet.
 
-  /// Adds the lines of a failure of the mesh `input`.
+  /// Adds a failure of the mesh `input`, and its lines.
   void add(Failure failed, const std::string& input, bool hasJson);
 };
 
-/// A page of several meshes, which the caller writes.
+/// A page for several meshes, which the caller writes.
 struct SharedPage {
   Page& page;
   std::string name;  ///< Name of the mesh in the page.
 };
 
-/// Computes and writes a mesh. A failure is part of the MeshRun. sharedPage: takes the result instead of the output, or
-/// null. A stop request is taken from the deadline and ends the computation with ExitCode::Cancelled. showsBar: shows
-/// the progress on a terminal.
+/// Computes a mesh and writes its result. Failures are returned in the MeshRun. deadline: its stop request or expiry
+/// ends the computation. showsBar: shows a progress bar if standard error is a terminal. sharedPage: if not null,
+/// receives the result instead of the file `output`.
 [[nodiscard]] MeshRun computeMesh(Session& session, const std::string& input, const std::string& output,
                                   LoadedMesh loaded, const MeshSettings& settings, const Deadline& deadline,
                                   bool showsBar, const SharedPage* sharedPage = nullptr);
 
-/// Writes a page atomically, and starts the browser with it. Waits for the reader of a FIFO; a stop request ends this
-/// with Error{Cancelled}. Throws Error{OutputNotWritable}.
+/// Writes a page atomically. opensBrowser: opens the page in the browser. If the output is a FIFO, waits for its
+/// reader; a stop request ends the wait with Error{Cancelled}. Throws Error{OutputNotWritable}.
 void finishPage(const Page& page, const std::string& output, bool opensBrowser, const std::stop_token& stop);
 
-/// For tests that inject faults: called with the input before a mesh is computed. Null otherwise.
+/// Hook for tests that inject faults, called with the input before a mesh is computed. Null in the program.
 extern void (*beforeMesh)(const std::string& input);
 
 }  // namespace asdfvk

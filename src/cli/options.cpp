@@ -21,29 +21,29 @@ namespace asdfvk {
 namespace {
 
 constexpr const char* kDescription =
-    "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays from "
-    "seed faces on a Vulkan device, interpolation for the other faces.";
+    "Computes the local thickness of triangle meshes: the shape diameter function or the wall thickness of each face. "
+    "Seed faces cast rays on a Vulkan device or the CPU; the values of the other faces are interpolated.";
 
 constexpr const char* kHelp = R"(asdf-vk: local thickness of triangle meshes, by rays on Vulkan or the CPU
 
   asdf-vk horse.ply               shape diameter of each face, in horse.asdf.ply
   asdf-vk horse.ply -o horse.html --open       a page, shown in a browser
-    --fields NAME,...             what is written: sdf, seed, error, ...
+    --fields NAME,...             fields to write: sdf, seed, error, ...
     --picture FILE.png            also a picture
 
 Walls
-  asdf-vk part.stl --thinner-than 0.8          where it is thinner, in its unit
-  asdf-vk part.stl --fail-if-thinner 0.8       the same, and exit code 6
+  asdf-vk part.stl --thinner-than 0.8          places that are thinner than 0.8
+  asdf-vk part.stl --fail-if-thinner 0.8       as above, with exit code 6
     --measure thickness           wall thickness of each face, without a limit
     --allow-sharp-edges           leave sharp edges out of the verdict
 
 Parts
-  asdf-vk horse.ply --segment                  a label for each face
-    --parts N                     that many; without it the number is found
+  asdf-vk horse.ply --segment                  a part number for each face
+    --parts N                     number of parts; default: automatic
     --detail X                    from 0.1 (few parts) to 10 (many)
 
 Accuracy and time
-  asdf-vk horse.ply --max-error 1%             rays until the error is below 1 %
+  asdf-vk horse.ply --max-error 1%             add rays until the error is 1 %
     --seeds N%|N|all              faces that cast rays; default 10%
     --recipe paper|balanced|quality            quality: pooled rays, slower
     --check                       compare 2,000 faces with the reference
@@ -58,7 +58,7 @@ Input and output
   asdf-vk scan.stl --orient auto -o scan.csv   also .ply .glb .obj .npz .html
     -o FILE|DIR|-                 the result; - is standard output
     --json                        the report as JSON on standard output
-    --backend auto|vulkan|cpu|reference        which device; see --list-devices
+    --backend auto|vulkan|cpu|reference        what traces; see --list-devices
 
 --help=all lists all options. man asdf-vk has the exit codes.
 )";
@@ -75,9 +75,9 @@ bool exists(const std::string& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-/// Whether an option whose value is optional takes the next argument as its value. --segment takes a word that is not
-/// the name of a file: a name that has a dot or a slash, is "-", or exists. --check takes no argument, so that it can
-/// precede a mesh; a number that is no file is an error.
+/// Whether an option with an optional value takes the next argument as its value. --segment takes a word unless it
+/// looks like a file: it has a dot or a slash, begins with a dash, or exists. --check never takes the next argument, so
+/// that a mesh can follow; a number that is not a file is an error.
 bool takesNext(const OptionRow& row, const std::string& next) {
   const std::vector<std::string> names = namesOf(row);
   if (std::find(names.begin(), names.end(), next) != names.end()) return true;
@@ -89,7 +89,7 @@ bool takesNext(const OptionRow& row, const std::string& next) {
   return false;
 }
 
-/// Throws where options are given that --list-devices or --device-report ignores.
+/// Throws Error{OptionConflict} if an option is given that --list-devices or --device-report ignores.
 void requireNoIgnoredOption(const std::vector<std::string>& given, const CommandLine& line) {
   if (!line.listDevices && !line.deviceReport) return;
   const std::string name = line.listDevices ? "--list-devices" : "--device-report";
@@ -110,7 +110,7 @@ std::string helpText(const OptionRow& row, const OptionTable& table) {
   return value == "-" ? text : text + "; default " + value;
 }
 
-/// Adds an argument for each row with a flag, which sets its member in the target.
+/// Adds an argument for each row that has a flag. The argument sets the option in the target of the table.
 void addArguments(const OptionTable& table, std::vector<Argument>& arguments) {
   for (const OptionRow& row : table.rows) {
     const std::string flag = spelled(row, OptionSpelling::Flag);
@@ -138,9 +138,8 @@ bool estimates(const Options& options) {
   return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
 }
 
-/// Sets what --fields, --picture-of and --points imply: --measure both for a field of the shape diameter, the default
-/// of
-/// --picture-of. Refuses a field that the other options do not compute.
+/// Applies what --fields, --picture-of and --points imply, such as --measure both for a field of the shape diameter.
+/// Sets the default of --picture-of. Throws Error{OptionConflict} for a field that the other options do not compute.
 void completeFields(CommandLine& line, bool choosesPicture) {
   Options& options = line.computation.options;
   Outputs& outputs = line.outputs;
@@ -178,7 +177,7 @@ void completePage(CommandLine& line) {
   const bool isPage = writesPages(outputs);
   const bool isOnePage = isPage && (line.meshes.size() == 1 || writesOnePage(outputs));
   if (outputs.opensPage && (!isOnePage || outputs.path == "-"))
-    refuseOptions("--open opens one page; give -o FILE.html, which shows all meshes, or drop --open");
+    refuseOptions("--open opens one page; give -o FILE.html for a page of all meshes, or drop --open");
   if (isPage && std::count(outputs.fields.begin(), outputs.fields.end(), "centre") > 0)
     refuseOptions("--fields centre has three components; a page shows fields of one component");
   line.computation.options.keepsScene = isPage || !outputs.picture.empty();
@@ -280,7 +279,7 @@ void refuseOptions(const std::string& message) { throw Error(ErrorCode::OptionCo
 
 std::string shortUsage() {
   return "Usage: asdf-vk MESH... [OPTIONS]\n"
-         "Computes the shape diameter function of triangle meshes; writes NAME.asdf.ply beside each.\n"
+         "Computes the shape diameter function of triangle meshes. Writes NAME.asdf.ply beside each mesh.\n"
          "asdf-vk --help has examples and the options.\n";
 }
 

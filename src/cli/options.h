@@ -12,19 +12,20 @@
 
 namespace asdfvk {
 
-/// The parsed command line. Every option, and every combination of options, is validated.
+/// The parsed and validated command line.
 struct CommandLine {
-  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once); with -r also folders.
+  /// Paths of meshes, with -r also of folders; "-" (at most once) for standard input.
+  std::vector<std::string> meshes;
   SessionSettings session;
   ComputationSettings computation;
   Outputs outputs;
   BatchOptions batch;
   bool listDevices = false;
   bool deviceReport = false;
-  std::optional<std::string> answer;  ///< The text of --help or --version; if set, nothing is computed.
+  std::optional<std::string> answer;  ///< Answer to --help or --version. If set, nothing is computed.
 };
 
-/// Rows with the struct that they set.
+/// Rows of options, and the struct that they set.
 struct OptionTable {
   OptionRows rows;
   void* target;
@@ -34,21 +35,20 @@ struct OptionTable {
 [[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
 [[nodiscard]] OptionRows outputRows();
 
-/// Name, description and every option of the program, which set `line`.
+/// Makes the parser of the program. Its options set `line`.
 [[nodiscard]] ArgumentParser parserOf(CommandLine& line);
 
-/// Reads the arguments after the name of the program. Throws Error of kind Usage; the message contains the name of the
-/// option.
+/// Parses the arguments after the name of the program. Throws Error of kind Usage, whose message names the option.
 [[nodiscard]] CommandLine parseCommandLine(const std::vector<std::string>& arguments);
 
 /// Throws Error{OptionConflict}.
 [[noreturn]] void refuseOptions(const std::string& message);
 
-/// Hash of all that determines the output of a mesh, for --skip-existing.
+/// Hash of all options that affect the output of a mesh, for --skip-existing.
 [[nodiscard]] std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
                                       const Outputs& outputs);
 
-/// Three lines, for a call without arguments.
+/// The usage in three lines, for a call without arguments.
 [[nodiscard]] std::string shortUsage();
 
 }  // namespace asdfvk

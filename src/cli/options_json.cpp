@@ -1,4 +1,4 @@
-// Options as JSON: in reports, for workers, and for the hash that --skip-existing compares.
+// Options as JSON, for worker processes and for the hash that --skip-existing compares.
 #include <utility>
 
 #include "batch/content_hash.h"
@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-/// Values by the name of the row. Only the outputs that a worker writes: pictures and points are of one mesh.
+/// The values of the options, by the name of the row.
 Json valuesOf(OptionRows rows, const void* target) {
   Json json = Json::object();
   for (const OptionRow& row : rows) json[row.name] = toJson(valueOf(row, target));

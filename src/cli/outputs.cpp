@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
-/// "dir/horse.ply" to "horse.asdf.vtu".
+/// The name of a result: "horse.asdf.vtu" for "dir/horse.ply".
 std::string resultName(const std::string& mesh, const std::string& format) {
   const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
   return stem + ".asdf." + (format.empty() ? "ply" : format);
@@ -32,7 +32,7 @@ std::string resultName(const std::string& mesh, const std::string& format) {
 
 bool isPageName(const fs::path& path) { return lowerCase(path.extension().string()) == ".html"; }
 
-/// The format of a result by resultFormatOf(). Its error names the formats of this program.
+/// resultFormatOf() with an error that names the formats of this program.
 std::string plannedFormat(const std::string& output, const WriteOptions& options) {
   try {
     return resultFormatOf(output, options);
@@ -43,7 +43,7 @@ std::string plannedFormat(const std::string& output, const WriteOptions& options
   }
 }
 
-/// Whether the extension of `path` names another format than `format`.
+/// Whether the extension of `path` names a format other than `format`.
 bool contradicts(const fs::path& path, const std::string& format) {
   if (isPageName(path)) return format != kPageFormat;
   try {
@@ -67,7 +67,7 @@ bool isFolder(const std::string& output) {
   return output.ends_with('/') || (!output.empty() && fs::is_directory(output, ignored));
 }
 
-/// Whether -o is the folder of several results.
+/// Whether -o is a folder for results.
 bool takesFolder(const Outputs& outputs, const BatchOptions& batch) {
   return !outputs.path.empty() && (batch.hasTree() || isFolder(outputs.path));
 }
@@ -87,11 +87,11 @@ std::string normalised(const fs::path& path) {
   return fs::absolute(followLinks(path), ignored).lexically_normal().string();
 }
 
-/// What files are for. Files are compared by device and inode, which follows links, and by normalised path where they
-/// do not exist.
+/// Uses of files, to find a file with two uses. Files are compared by device and inode, so that links are followed;
+/// missing files by normalised path.
 class FileUses {
  public:
-  /// Returns the use that the file has already, or adds this one and returns an empty text.
+  /// Returns the earlier use of the file. If it has none, adds `use` and returns an empty text.
   std::string add(const std::string& path, const std::string& use) {
     std::string& ofName = useOfName_[normalised(path)];
     struct stat status {};
@@ -226,7 +226,7 @@ void requireWritablePlace(const std::string& output) {
   };
   std::error_code error;
   const fs::file_status status = fs::status(output, error);
-  // A device or a FIFO is written directly: no file is created in its folder.
+  // A device or a FIFO is opened directly, so that its folder need not be writable.
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
   const std::error_code reason = fs::status_known(status) ? std::error_code() : error;
   if (!fs::is_directory(folder, error)) fail(fmt::format("{} is not a directory; create it first", folder.string()));

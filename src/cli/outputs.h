@@ -14,51 +14,53 @@
 
 namespace asdfvk {
 
-/// What is written and printed, and where.
+/// Options of the files and texts that are written.
 struct Outputs {
-  std::string path;                 ///< Path of the result: a file, a directory, "-"; empty: beside each input.
-  std::string format;               ///< A name of outputFormats(); empty: by `path`, else ply.
-  std::vector<std::string> fields;  ///< Names of --fields, in this order; empty: the default ones, see fieldNames().
+  std::string path;    ///< Path of the result: a file, a directory, "-"; empty: beside each input.
+  std::string format;  ///< One of outputFormats(). Empty: the extension of `path` decides; without one ply.
+  std::vector<std::string> fields;  ///< Names of --fields, in this order; empty: the default of fieldNames().
   bool ascii = false;
   std::string colourOf = {};  ///< See WriteOptions.
   bool coloursVertices = false;
-  std::string picture;            ///< A .png, "-" for standard output; empty: none.
-  std::string pictureOf = "sdf";  ///< Name of the field to show; empty: the thin places.
+  std::string picture;            ///< Path of the .png file, "-" for standard output; empty: no picture.
+  std::string pictureOf = "sdf";  ///< Name of the field that the picture shows; empty: it shows the thin places.
   View pictureView;
-  bool choosesView = false;  ///< --picture-view is given.
-  std::string points;        ///< A .ply or .swc for the skeleton points, "-" for standard output; empty: none.
-  bool opensPage = false;    ///< Start the browser with the page.
+  bool choosesView = false;  ///< Whether --picture-view is given.
+  std::string points;      ///< Path of the .ply or .swc file of skeleton points, "-" for standard output; empty: none.
+  bool opensPage = false;  ///< Opens the page in the browser.
   bool json = false;
   bool quiet = false;
-  bool verbose = false;  ///< The full report, and the lines of the device.
+  bool verbose = false;  ///< Prints the full report and the lines about devices.
 };
 
 /// Options of a call for many meshes.
 struct BatchOptions {
-  bool recurses = false;         ///< Folders are inputs.
-  std::string list;              ///< File with the paths of meshes, "-" for standard input; empty: none.
+  bool recurses = false;         ///< Arguments may be folders: all meshes below them are inputs.
+  std::string list;              ///< Path of the file that lists meshes, "-" for standard input; empty: none.
   bool isNullSeparated = false;  ///< The paths of the list end with a zero byte.
   std::string log;               ///< File to which a record per mesh is appended; empty: none.
   bool skipsExisting = false;
   std::optional<Shard> shard;
   double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Per mesh.
   uint64_t memoryBytes = 0;                                         ///< Per mesh; 0: no limit.
-  bool isolates = false;                                            ///< Meshes are computed in worker processes.
-  uint32_t jobCount = 0;                                            ///< Meshes at once; 0: by their sizes.
+  bool isolates = false;                                            ///< Computes meshes in worker processes.
+  uint32_t jobCount = 0;  ///< Meshes computed at once; 0: depends on the sizes of the meshes.
 
-  /// Whether inputs come from folders or a list, and -o is the root of a tree.
+  /// Whether inputs come from folders or a list. Then -o is the root of a tree of results.
   [[nodiscard]] bool hasTree() const { return recurses || !list.empty(); }
-  /// Whether there are records beside the outputs, a progress line and a summary instead of a report per mesh.
+  /// Whether this is a batch, which writes a record beside each output. A progress line and a summary replace the
+  /// reports.
   [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
 };
 
-/// "500M", "2G", "1.5g" or bytes; powers of 1024. At least 1 byte; unset for another text.
+/// Reads a number of bytes, at least 1, such as "500M", "2G", "1.5g" or "4096". Units are powers of 1024. Unset for any
+/// other text.
 [[nodiscard]] std::optional<uint64_t> parseByteCount(const std::string& text);
 
-/// The fields to write: those of `outputs`, or by default those that the options compute.
+/// Names of the fields to write: Outputs::fields, or by default the fields that the options compute.
 [[nodiscard]] std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options);
 
-/// Name and extension of the format of pages, which src/viewer writes.
+/// Name and extension of the format of pages, which src/page writes.
 inline constexpr const char* kPageFormat = "html";
 
 /// resultFormats() and kPageFormat.
@@ -70,25 +72,25 @@ inline constexpr const char* kPageFormat = "html";
 /// Whether all results are written to one page.
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
 
-/// Path of the result of each input, "-" for standard output. With a tree, the results lie in a tree below -o, whose
-/// folders need not exist. Throws Error{OptionConflict} if two outputs (results, their records, log, picture, points)
-/// have the same path, if an output is an input, or if several meshes have one output file that is no page.
+/// Returns the path of the result of each input, "-" for standard output. If BatchOptions::hasTree(), results are in a
+/// tree below -o, whose folders need not exist. Throws Error{OptionConflict} if two outputs (results, their records,
+/// log, picture, points) have the same path, if an output is also an input, or if several meshes have the same output
+/// file and it is not a page.
 [[nodiscard]] std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                                    std::span<const InputFile> inputs);
 
-/// For other formats than pages: the fields of --fields, and the format if --format is given or the output is standard
-/// output.
+/// Options for writeResult(). Precondition: the output is not a page.
 [[nodiscard]] WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options);
 
-/// The fields of a result that the output can hold together: all, but the vertex fields only where the format has
-/// either rows per face or rows per vertex. Precondition: vertex fields follow face fields.
+/// The fields of a result that the output holds. With PerElement::Vertices, formats that hold either faces or vertices
+/// (.csv, .npy) hold the vertex fields only. Precondition: vertex fields follow face fields.
 [[nodiscard]] std::span<const Field> writableFields(const WriteOptions& options, PerElement per,
                                                     const std::string& output, std::span<const Field> fields);
 
-/// Makes the folder of a file. Throws Error{OutputNotWritable}.
+/// Creates the folder of the file `output`. Throws Error{OutputNotWritable}.
 void makeFolderOf(const std::string& output);
 
-/// Throws Error{OutputNotWritable} where no file can be written: a check before the work begins.
+/// Throws Error{OutputNotWritable} if the file cannot be written. Allows an error before the computation begins.
 void requireWritablePlace(const std::string& output);
 
 }  // namespace asdfvk

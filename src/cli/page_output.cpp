@@ -23,7 +23,7 @@ namespace {
 
 using FieldList = std::vector<std::reference_wrapper<const Field>>;
 
-/// The fields of --fields; without it all that a page can show, the default ones first.
+/// The fields of --fields; without --fields all fields that a page can show, the default fields first.
 FieldList shownFields(const MeshOutcome& outcome) {
   const Result& result = outcome.result;
   FieldList shown;
@@ -38,12 +38,12 @@ FieldList shownFields(const MeshOutcome& outcome) {
     const bool isShown = std::any_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == &field; });
     if (field.location == FieldLocation::PerFace && field.componentCount == 1 && !isShown) shown.emplace_back(field);
   }
-  // The first one is what the page shows when it is opened.
+  // A page shows its first field when it is opened.
   std::stable_partition(shown.begin(), shown.end(), [](const Field& field) { return field.name == "segment"; });
   return shown;
 }
 
-/// "cow.ply, balanced, seeds 10 %"
+/// Label of a mesh in the page: "cow.ply, balanced, seeds 10 %".
 std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
   const ComputationSettings& computation = outcome.computation;
   const Report& report = outcome.result.report;
@@ -56,8 +56,8 @@ std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
                              100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
 }
 
-/// The rows with a capital, and continued ones joined. Thin regions are lists of the page. Without times the same mesh
-/// and options give the same bytes.
+/// The rows of the report, with capitalised titles and continued rows joined. Omits the list of thin regions, which the
+/// page has elsewhere. showsTimes: if false, the rows depend on mesh and options only.
 std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome, bool showsTimes) {
   std::vector<std::pair<std::string, std::string>> summary;
   bool isThinRow = false;
@@ -89,14 +89,14 @@ std::string errorSentenceOf(const Result& result) {
       100 * estimate.relativePercentile90, groupDigits(estimate.heldOutCount));
 }
 
-/// Unset without a limit.
+/// The thin places; unset without a limit of the thickness.
 std::optional<PageThinPlaces> thinPlacesOf(const Result& result) {
   const std::optional<ThicknessReport>& thickness = result.report.thickness;
   if (!thickness || !thickness->thinnerThan) return std::nullopt;
   return PageThinPlaces{*thickness->thinnerThan, nameOf(*thickness->verdict), thickness->regions, result.thinSurface};
 }
 
-/// None where the page does not show them.
+/// The segments; empty if the page does not show the field "segment".
 std::vector<PageSegment> segmentsOf(const Result& result, const FieldList& shown) {
   const Field* const field = result.field("segment");
   if (std::none_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == field; })) return {};

@@ -19,18 +19,19 @@
 namespace asdfvk {
 namespace {
 
-/// Unused memory at the end of the heap beyond this size is returned to the kernel.
+/// Bytes of unused memory at the end of the heap that are not returned to the kernel.
 constexpr int kKeptBytes = 128 << 20;
 
-/// Freed memory is used again, large arrays included, instead of being returned to the kernel, which clears each new
-/// page. One heap for all threads: an array that one thread frees is free for all of them.
+/// Makes the allocator reuse freed memory, large arrays included. Memory that is returned to the kernel costs time,
+/// because the kernel clears each new page. All threads share one heap, so that each can reuse memory that another one
+/// freed.
 void keepFreedMemory() {
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);
   ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
 }
 
-/// Prints the devices. Returns Done, or Device where a GPU is required and none is usable.
+/// Prints the devices. Returns Device if a GPU is required and none is usable, else Done.
 ExitCode printDevices(bool requireGpu, bool asJson) {
   std::string reason;
   const std::vector<DeviceInfo> devices = listDevices(&reason, requireGpu);
@@ -51,27 +52,27 @@ MeshSettings settingsOf(const CommandLine& line) {
           .isOfBatch = line.batch.isBatch()};
 }
 
-/// asdf-vk summarize LOG.jsonl...; arguments: those after the command.
+/// The command asdf-vk summarize LOG.jsonl... arguments: without the command.
 ExitCode summarize(const std::vector<std::string>& arguments) {
   std::vector<std::string> logs;
   std::string format;
   bool isJson = false;
   ArgumentParser parser(
       "asdf-vk summarize",
-      "Summarises the logs of batches: times, estimated errors, failures by code. Of several records "
-      "of a mesh the latest one counts.",
+      "Summarises the logs of batches: times, estimated errors, failures by code. If a mesh has several "
+      "records, only the latest one counts.",
       "",
       {{.names = "logs",
         .placeholder = "LOG.jsonl...",
-        .text = "Logs of --log",
+        .text = "Logs that --log wrote",
         .receive = [&logs](const Argument::Values& values) { logs = values; },
         .isRequired = true,
         .isList = true},
        {.names = "--format",
         .placeholder = "text|json|csv",
-        .text = "text: a summary; json: the same as one document; csv: a table with a row per mesh",
+        .text = "text: a summary. json: the summary as one document. csv: a table with a row per mesh",
         .receive = into(format)},
-       {.names = "--json", .text = "The same as --format json", .receive = [&isJson](const Argument::Values&) {
+       {.names = "--json", .text = "As --format json", .receive = [&isJson](const Argument::Values&) {
           isJson = true;
         }}});
   if (const std::string answer = parser.parse(arguments); !answer.empty()) {

@@ -7,7 +7,8 @@
 
 namespace asdfvk {
 
-/// The program asdf-vk; arguments: without its name. Throws nothing: a failure is one line on standard error.
+/// Runs the program asdf-vk. arguments: without the name of the program. Throws nothing; prints a failure as one line on
+/// standard error.
 [[nodiscard]] ExitCode runProgram(const std::vector<std::string>& arguments);
 
 }  // namespace asdfvk

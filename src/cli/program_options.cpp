@@ -1,5 +1,5 @@
-// One row per option of the outputs, of many meshes and of the devices; those of a computation and of a session are in
-// describe/computation_options.cpp.
+// The options of outputs, batches and devices, one row each. describe/computation_options.cpp has the options of
+// computations and sessions.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024;
 
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
-/// Texts only come from the command line.
+/// The text of a value. Precondition: the value comes from the command line.
 const std::string& textOf(const OptionValue& value) { return std::get<std::string>(value); }
 
 void requireFieldName(const std::string& name) {
@@ -32,7 +32,7 @@ void requireFieldName(const std::string& name) {
                 fmt::format("'{}' is not a field; the fields are {}", name, joined(known, ", ")));
 }
 
-/// "sdf,seed,error"
+/// Reads names such as "sdf,seed,error".
 bool readFields(void* target, const OptionValue& value) {
   const std::string& text = textOf(value);
   std::vector<std::string> names;
@@ -49,7 +49,7 @@ bool readFields(void* target, const OptionValue& value) {
   return true;
 }
 
-/// "30,18"
+/// Reads azimuth and elevation in degrees, such as "30,18".
 bool readView(void* target, const OptionValue& value) {
   const std::string& text = textOf(value);
   const size_t comma = std::min(text.find(','), text.size());
@@ -66,14 +66,14 @@ bool readView(void* target, const OptionValue& value) {
 }
 
 bool readPictureOf(void* target, const OptionValue& value) {
-  const std::string name = textOf(value) == "seeds" ? "seed" : textOf(value);  // "seeds": the name in version 0.1.
+  const std::string name = textOf(value) == "seeds" ? "seed" : textOf(value);  // Version 0.1 had the name "seeds".
   requireFieldName(name);
   if (name == "centre") reject("'centre' has three components; a picture shows a field of one component");
   static_cast<Outputs*>(target)->pictureOf = name;
   return true;
 }
 
-/// The name of a file that has the extension, or "-".
+/// Whether the name has the extension, or is "-".
 bool hasExtension(const std::string& name, const char* extension) {
   return name == "-" || lowerCase(std::filesystem::path(name).extension().string()) == extension;
 }

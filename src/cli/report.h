@@ -15,9 +15,9 @@
 
 namespace asdfvk {
 
-/// One computed mesh, the input of both reports. Views only.
+/// A computed mesh with its settings, the input of the reports. Holds references only.
 struct MeshOutcome {
-  const std::string& mesh;    ///< The argument of the command line.
+  const std::string& mesh;    ///< Path of the mesh, as on the command line.
   const std::string& output;  ///< Path of the result; "-" for standard output.
   const ComputationSettings& computation;
   const SessionSettings& session;
@@ -25,36 +25,37 @@ struct MeshOutcome {
   const Result& result;
 };
 
-/// Title and text; a row without a title continues the one before.
+/// Rows of title and text. A row without a title continues the previous row.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// Thickness where it is measured, its verdict first, or the rows of the short report; then the details of values and
-/// parts, seeds, device, solver and times. Titles have at most nine characters.
+/// The rows of the full report. First the thickness, beginning with its verdict; if it is not measured, the rows of the
+/// short report. Then details of values, parts, seeds, device, solver and times. Titles have at most nine characters.
 [[nodiscard]] ReportRows reportRows(const Report& report);
 
-/// A title with the mesh or the verdict, rows and files, as aligned lines. Without --verbose at most six lines of at
-/// most 100 columns, longer names of files apart; else all of reportRows().
+/// The report as aligned lines: the name of the mesh with the verdict or the mesh row, further rows, and the output
+/// files. With --verbose it has all of reportRows(), else at most six lines of at most 100 columns (more only for long
+/// file names).
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
 
-/// "the check failed: ..." with the reason, one line.
+/// One line: "the check failed: " and the reason.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 
-/// The verdict, then unjudged faces, size, thin regions, sharp edges, greatest section, percentiles. Precondition:
-/// report.thickness.
+/// Rows of the verdict, unjudged faces, size, thin regions, sharp edges, greatest section and percentiles.
+/// Precondition: report.thickness is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report);
 
-/// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or without a limit the
-/// least thickness; where faces are not judged, how many; the thickness and the thin regions.
+/// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or the least thickness
+/// without a limit; the numbers of unjudged faces, if any; the thickness and the thin regions.
 [[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness);
 
-/// The message and, where there is one, the remedy by options.
+/// The message of the warning, with a remedy by options if there is one.
 [[nodiscard]] std::string textWarning(const Warning& warning);
 
-/// The lines of the session, with a remark where the CPU runs Vulkan. Unless `isVerbose`, empty where the device is the
-/// expected one: neither a replacement of Vulkan, nor a CPU device beside another device.
+/// The lines about the devices of the session, with a remark if Vulkan runs on the CPU. Without isVerbose, empty unless
+/// another backend replaces Vulkan or a CPU device was chosen among several devices.
 [[nodiscard]] std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose);
 
-/// One line per device, or the reason why there is none.
+/// One line per device, or a line with the reason why there is none.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
 /// One line of JSON with the keys of docs/formats.md.
@@ -66,8 +67,8 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// One line with the keys "mesh", "output", "status" and "record", for a mesh that --skip-existing skips.
 [[nodiscard]] std::string jsonSkipped(const std::string& mesh, const MeshRecord& record);
 
-/// Prints the report on the device on standard output. Returns Done, or Device where its self-test failed. Throws as
-/// reportDevice(), and DeviceReport::failure after printing.
+/// Prints the report on the device on standard output. Returns Device if the self-test failed, else Done. Throws as
+/// reportDevice(). Also throws DeviceReport::failure, after printing.
 [[nodiscard]] ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop);
 
 /// Indented JSON with the keys of docs/devices.md.
@@ -75,20 +76,20 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
-/// A page without results.
+/// Makes a page without results.
 [[nodiscard]] Page emptyPage();
 
-/// The name of a mesh in a page, if no other mesh of the page has it.
+/// The name of a mesh in a page: its file name.
 [[nodiscard]] std::string nameInPage(const std::string& mesh);
 
-/// How a page shows a mesh.
+/// Name of a mesh in a page, and whether the page shows times.
 struct PageMesh {
   std::string name;
   bool showsTimes = true;
 };
 
-/// Adds a result with the texts of its report and a small picture. Precondition: result.scene is set. Throws
-/// Error{UnknownField} for a field of --fields that the result does not have, and Error{Cancelled}.
+/// Adds a result to a page, with its report and a small picture. Precondition: the result has a scene. Throws
+/// Error{UnknownField} if the result lacks a field of --fields, and Error{Cancelled}.
 void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, const RunControl& control);
 
 /// Writes the page atomically. Throws Error{OutputNotWritable}.

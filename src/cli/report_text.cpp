@@ -13,10 +13,10 @@
 namespace asdfvk {
 namespace {
 
-/// Parts whose areas are listed in the short report, and in the full one.
+/// Greatest numbers of parts whose areas the short and the full report list.
 constexpr size_t kMaxShortParts = 3, kMaxListedParts = 10;
 
-/// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
+/// A share in percent, rounded down: "99.95 %" for 1999 of 2000.
 std::string percent(uint64_t part, uint64_t whole) {
   const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
   return fmt::format("{} %", std::floor(share * 100) / 100);
@@ -40,7 +40,7 @@ std::string shortValueRow(const Report& report) {
   return text;
 }
 
-/// A share in percent: two digits, or all before the point.
+/// A share in percent, with two significant digits or as a whole number.
 std::string twoDigits(double share) {
   return std::abs(share) < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
 }
@@ -65,11 +65,11 @@ std::string shortErrorRow(const Report& report) {
   if (report.check) {
     const CheckReport& check = *report.check;
     if (check.tracedCount == 0 && check.independent) return tracedCheck(check);
-    return fmt::format("{:.2g} % of the range on average, by the reference; {}", 100 * check.averageError,
+    return fmt::format("{:.2g} % of the range on average, against the reference; {}", 100 * check.averageError,
                        check.independent
                            ? fmt::format("{} of {} agree", groupDigits(check.tracedCount - check.missCount()),
                                          counted(check.tracedCount, "traced face"))
-                           : "nothing to compare: it traced the rays");
+                           : "nothing to compare: the reference traced the rays");
   }
   const ErrorEstimate& estimate = *report.estimatedError;
   return fmt::format("about {:.2g} % of the range on average, {} % of the value in the median", 100 * estimate.average,
@@ -93,7 +93,7 @@ std::string shortSegmentRow(const Report& report) {
   return text + " % of the area";
 }
 
-/// At most four rows: with title and files, six lines.
+/// The rows of the short report: at most five, so that a report has at most six lines.
 ReportRows shortRows(const Report& report) {
   ReportRows rows;
   if (report.thickness) {
@@ -105,7 +105,7 @@ ReportRows shortRows(const Report& report) {
     rows = {{"mesh", meshRow(report)}, {"diameter", shortValueRow(report)}};
   }
   if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));
-  // The error of the diameter matters less than the thickness, and a failed check is an error message of its own.
+  // The thickness matters more than the error of the diameter. A failed check also has an error message.
   constexpr size_t kMaxRows = 5;
   if ((report.estimatedError && !report.thickness) || (report.check && rows.size() < kMaxRows))
     rows.emplace_back("error", shortErrorRow(report));
@@ -155,7 +155,7 @@ std::string solverRow(const SolverReport& solver) {
                      solver.finishedOnCpu ? ", finished on the CPU" : "");
 }
 
-/// The sum of the stages, then each that ran.
+/// The total time, then the time of each stage that ran.
 std::string timeRow(const StageSeconds& seconds) {
   double sum = 0;
   std::string stages;
@@ -226,11 +226,11 @@ std::string textWarning(const Warning& warning) {
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
   if (warning.code == WarningCode::ThinShell) text += "; fewer parts: --detail 0.5, more: --detail 2";
-  if (warning.code == WarningCode::UncertainParts) text += "; look at them, and choose --parts N or --detail X";
+  if (warning.code == WarningCode::UncertainParts) text += "; look at the parts, and choose --parts N or --detail X";
   if (warning.code == WarningCode::CoarseParts) text += "; subdivide or remesh the mesh";
   if (warning.code == WarningCode::OnlySmallComponents) text += "; weld equal vertices if they are one surface";
   if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
-  if (warning.code == WarningCode::RangeDominated) text += "; use the relative error, as --max-error E%rel does";
+  if (warning.code == WarningCode::RangeDominated) text += "; use the relative error (--max-error E%rel)";
   if (warning.code == WarningCode::NotConverged) text += "; raise --max-iterations or --tolerance";
   return text;
 }

@@ -24,18 +24,18 @@ const char* sharpException(const ThicknessReport& thickness) {
   return thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " but at sharp edges" : "";
 }
 
-/// A sentence for each kind of faces that are not judged, or not with certainty.
+/// A row for each kind of faces that are not judged with certainty.
 ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
   ReportRows rows;
   const auto add = [&rows](uint64_t count, const char* noun, const char* rest) {
     if (count > 0) rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", counted(count, noun), rest));
   };
-  add(unjudged.openCount, "face", "of open components: what closes them may be thin; close the mesh");
+  add(unjudged.openCount, "face", "of open components: closing them may add a thin wall; close the mesh");
   add(unjudged.invertedCount, "face",
       "of closed components oriented inwards or inconsistently; --orient auto reverses inverted components");
   add(unjudged.degenerateCount, "degenerate face", "left out: without a normal, or with a corner that is not finite");
-  add(unjudged.selfCrossedCount, "face", "crossed by the same part: inside and outside are mixed up there");
-  add(unjudged.crossedCount, "face", "crossed by another part: both together may be thicker than reported");
+  add(unjudged.selfCrossedCount, "face", "crossed by a face of the same part: inside and outside are ambiguous there");
+  add(unjudged.crossedCount, "face", "crossed by a face of another part: the union may be thicker than reported");
   return rows;
 }
 
@@ -68,7 +68,7 @@ std::string verdictOf(const ThicknessReport& thickness) {
   return fmt::format("NOT JUDGED: none of the judged faces is thinner than {:g}", *thickness.thinnerThan);
 }
 
-/// A row with the title, then at most kListedCount items.
+/// Adds a row with title and heading, then rows for at most kListedCount items.
 template <typename Item>
 void addList(const char* title, const std::string& heading, const std::vector<Item>& items,
              std::string (*textOf)(const Item&, const ThicknessReport&), const ThicknessReport& thickness,

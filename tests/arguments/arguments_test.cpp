@@ -140,7 +140,7 @@ TEST_CASE("help and version are answers, whatever else is given") {
   CHECK(help.find("\n  -f,--first off|on\n      First\n") != std::string::npos);
   CHECK(help.find("\nLate:\n") < help.find("--second NAME"));
   CHECK(help.ends_with("The end.\n"));
-  CHECK_EQ(parse({"--help=some"}).refusal, "--help: 'some' is not all");
+  CHECK_EQ(parse({"--help=some"}).refusal, "--help: 'some' is not 'all'; write --help or --help=all");
   Target target;
   ArgumentParser parser = parserOf(target);
   parser.shortHelp = "Short.\n";

@@ -222,7 +222,7 @@ TEST_CASE("a check that passes ends with 0, one without any traced face with 5")
     INFO(outcome.error);
     CHECK_EQ(outcome.exitCode, 0);
     CHECK(outcome.error.find("\n  check     100 % of ") != std::string::npos);
-    CHECK(outcome.error.find(" % of the range on average, by the reference; ") != std::string::npos);
+    CHECK(outcome.error.find(" % of the range on average, against the reference; ") != std::string::npos);
   }
   CHECK_EQ(runAsdf({mesh, "--seeds", "1", "--check=5", "--backend", "vulkan"}, *lavapipe).exitCode, 0);
   CHECK_EQ(folder.names(), Names{"sphere.asdf.ply", "sphere.off"});

@@ -92,7 +92,7 @@ TEST_CASE("unknown, doubled and bare options are refused") {
            "--segment: '5' is not one of none|parts|cgal; the number of parts is an option of its own, parts");
   CHECK(refusal({"a.ply", "--rays", "3", "--rays", "4"}).find("--rays") != std::string::npos);
   CHECK(refusal({"a.ply", "--rays"}).find("--rays") != std::string::npos);
-  CHECK_EQ(refusal({"--help=some"}), "--help: 'some' is not all");
+  CHECK_EQ(refusal({"--help=some"}), "--help: 'some' is not 'all'; write --help or --help=all");
   CHECK_EQ(refusal({"a.ply", "--help="}), "--help= has no value");
 }
 

@@ -127,7 +127,7 @@ TEST_CASE("the short report has at most six lines of 100 columns, and no device,
   report.check = CheckReport{.passed = true, .tracedCount = 2000, .agreeingCount = 1999, .comparedCount = 2000};
   report.check->averageError = 0.0123;
   CHECK_EQ(lines()[3],
-           "  error     1.2 % of the range on average, by the reference; 1,999 of 2,000 traced faces agree");
+           "  error     1.2 % of the range on average, against the reference; 1,999 of 2,000 traced faces agree");
 
   ThicknessReport& thickness = report.thickness.emplace();
   report.size = {1.23456e-5, 2, 3};

@@ -70,7 +70,7 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
   thickness.unjudged = {.openCount = 1200, .invertedCount = 1, .degenerateCount = 2, .crossedCount = 3};
   const auto checkSentences = [&] {
     const std::string text = textOf(result);
-    checkHolds(text, "\n  unjudged  1,200 faces of open components: what closes them may be thin");
+    checkHolds(text, "\n  unjudged  1,200 faces of open components: closing them may add a thin wall");
     checkHolds(text, "\n            1 face of closed components oriented inwards or inconsistently; --orient auto ");
     checkHolds(text, "\n            2 degenerate faces left out");
     checkHolds(text, "\n            3 faces crossed by another part");
