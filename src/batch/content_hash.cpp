@@ -18,7 +18,7 @@ std::string contentHash(std::span<const char> bytes) { return textOf(XXH3_128bit
 
 std::optional<std::string> contentHashOf(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;  // Opening a FIFO waits for a writer.
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;  // Opening a FIFO would wait for a writer.
   std::ifstream in(path, std::ios::binary);
   if (!in) return std::nullopt;
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);

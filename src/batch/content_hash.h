@@ -7,12 +7,11 @@
 
 namespace asdfvk {
 
-/// The 128-bit XXH3 hash of the bytes as 32 hexadecimal digits. Not a cryptographic hash: it detects accidental changes
-/// only.
+/// Returns the 128-bit XXH3 hash of the bytes as 32 hexadecimal digits. The hash is not cryptographic: it detects
+/// accidental changes only.
 [[nodiscard]] std::string contentHash(std::span<const char> bytes);
 
-/// contentHash() of the bytes of a file, which is read in pieces. Unset where the file cannot be read or is not a
-/// regular file.
+/// Returns contentHash() of the bytes of a file. Unset if the file is not a regular file or cannot be read.
 [[nodiscard]] std::optional<std::string> contentHashOf(const std::filesystem::path& path);
 
 }  // namespace asdfvk

@@ -21,8 +21,8 @@ namespace {
 
 constexpr int kInternalCode = 70;
 
-/// Whether a stop is requested. Waits up to 0.5 s for it, because a signal to the process group may reach a worker
-/// first.
+/// Whether a stop is requested. Waits up to 0.5 s for a request, because a signal to the process group may reach a
+/// worker first.
 bool isStopping(const std::stop_token& stop) {
   constexpr int kAttempts = 50;
   for (int i = 0; i < kAttempts && !stop.stop_requested(); ++i)
@@ -50,7 +50,7 @@ class Engine {
   }
 
  private:
-  /// Returns the indices of the other jobs.
+  /// Adds the results of earlier runs. Returns the indices of the other jobs.
   [[nodiscard]] std::vector<size_t> addFinished() {
     std::vector<size_t> pending(jobs_.size());
     std::iota(pending.begin(), pending.end(), size_t{0});
@@ -84,13 +84,13 @@ class Engine {
     const bool isRequested = options_.requestedAtOnce > 0;
     const uint32_t onGpu = isRequested ? phase.atOnce : std::min(phase.atOnce, kMaxWorkersOnGpu);
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
-    const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, also if its file was replaced.
+    const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, even if its file was replaced.
                                  .arguments = client_.workerArguments,
                                  .greeting = encode(greeting),
                                  .workerCount = phase.atOnce,
                                  .timeoutSeconds = options_.timeoutSeconds,
                                  .memoryBytes = options_.memoryBytes};
-    std::optional<OpenFailure> failure;  // That of the last worker that could not start.
+    std::optional<OpenFailure> failure;  // Failure of the last worker that could not start.
     size_t endedCount = 0;
     const WorkerPoolClient client{.request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); },
                                   .ready = [&](const std::string& answer) -> uint32_t {
@@ -115,7 +115,7 @@ class Engine {
     monitor_.note(fmt::format("not all workers have started: {}", failure->what()));
   }
 
-  /// Returns whether the worker gets further jobs.
+  /// Adds the result of a job. Returns whether the worker gets further jobs.
   bool takeOutcome(size_t index, JobOutcome outcome) {
     const Job& job = jobs_[index];
     bool isDropped =

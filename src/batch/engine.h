@@ -15,56 +15,57 @@
 
 namespace asdfvk {
 
-/// Jobs that are computed in the same way.
+/// Jobs that are computed with the same numbers of jobs at once and of threads.
 struct JobPhase {
-  std::vector<size_t> jobs;  ///< Indices.
+  std::vector<size_t> jobs;  ///< Indices of jobs.
   uint32_t atOnce = 1;       ///< Jobs that are computed at the same time.
-  uint32_t threadCount = 1;  ///< CPU threads of each.
+  uint32_t threadCount = 1;  ///< CPU threads of each job.
 };
 
-/// Files up to this size are small meshes.
+/// Meshes in files up to this size are small.
 inline constexpr uint64_t kSmallMeshBytes = uint64_t{16} << 20;
-/// Each worker opens a device, which takes as long as some small meshes: these, and files of this size with
-/// kBytesPerMesh for each mesh.
+/// Least work that makes up for starting a worker, which opens a device: a number of meshes, and a size of their files
+/// plus kBytesPerMesh per mesh.
 inline constexpr uint64_t kMinMeshesPerWorker = 4, kMinBytesPerWorker = uint64_t{1} << 20;
-/// Workers on one GPU where their number is not requested. An estimate: no GPU was available to measure it.
+/// Greatest number of workers on one GPU, unless their number is requested. An estimate: no GPU was available to
+/// measure it.
 inline constexpr uint32_t kMaxWorkersOnGpu = 4;
 
-/// pending: indices of the jobs to plan; each of them is in exactly one phase. requested: jobs at once, or 0 to choose
-/// by the sizes of the meshes. With 0 large meshes are computed first, one after another with all threads. Small meshes
-/// follow, by as many workers as there are threads, but with at least kMinMeshesPerWorker and kMinBytesPerWorker per
-/// worker. If that gives one worker only, all meshes are computed one after another in their order. Streams are never
-/// computed at the same time as others.
+/// Assigns each pending job to one phase. pending: indices of the jobs. requested: jobs at once; 0: depends on the
+/// sizes of the meshes. With 0, large meshes come first, one after another with all threads. Small meshes follow, with
+/// one worker per thread, but at least kMinMeshesPerWorker and kMinBytesPerWorker per worker. If this gives only one
+/// worker, all meshes are computed one after another in their order. No other job is computed at the same time as a
+/// stream.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t> pending,
                                              uint32_t requested, uint32_t threadCount);
 
 struct EngineOptions {
-  uint32_t requestedAtOnce = 0;                                     ///< Jobs at once; 0: chosen by planJobs().
-  uint32_t threadCount = 1;                                         ///< CPU threads of all jobs together.
-  bool isolates = false;                                            ///< All jobs are computed in workers.
-  double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Time of a job in a worker.
-  uint64_t memoryBytes = 0;                                         ///< Memory of a worker; 0: no limit.
+  uint32_t requestedAtOnce = 0;                                     ///< Jobs at once; 0: planJobs() chooses.
+  uint32_t threadCount = 1;                                         ///< CPU threads of all current jobs together.
+  bool isolates = false;                                            ///< Computes all jobs in workers.
+  double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Time limit of a job in a worker.
+  uint64_t memoryBytes = 0;                                         ///< Memory limit of a worker; 0: no limit.
 };
 
-/// What the front end provides.
+/// Functions and settings that the front end provides.
 struct EngineClient {
-  /// The result of an earlier run that is up to date. Called by several threads at once.
+  /// Returns the result of an earlier run if it is up to date. Must be thread-safe.
   std::function<std::optional<JobResult>(const Job&)> findFinished;
-  /// A computer in this process. Throws OpenFailure.
+  /// Opens a computer in this process. Throws OpenFailure.
   std::function<std::unique_ptr<JobComputer>()> open;
-  /// The result of a job whose worker gave none.
+  /// Returns the result of a job whose worker returned none.
   std::function<JobResult(const Job&, const JobOutcome&)> fail;
-  /// Arguments with which this program is a worker, see serveJobs(), and the settings that it gets.
+  /// Arguments that make this program a worker (serveJobs()), and Greeting::settings of the worker.
   std::vector<std::string> workerArguments;
   Json workerSettings;
-  Json recordOptions;  ///< MeshRecord::options of all jobs.
+  Json recordOptions;  ///< MeshRecord::options for all jobs.
 };
 
-/// Computes the jobs in the order of planJobs(): one after another in this process, several at once in workers. Adds
-/// each result to the monitor. A computer whose device failed is replaced.
+/// Computes the jobs in the phases of planJobs(). Phases with several jobs at once use worker processes, other phases
+/// this process. Adds each result to the monitor. Replaces a computer whose device failed.
 ///
-/// After a stop request the current jobs are dropped, and no further job begins. Throws OpenFailure where no device can
-/// be opened for the jobs that are left, and what the monitor throws.
+/// A stop request drops the current jobs; no further job begins. Throws OpenFailure if no device can be opened for the
+/// remaining jobs. Also throws the errors of the monitor.
 void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
              const std::stop_token& stop);
 

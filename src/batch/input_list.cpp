@@ -33,7 +33,7 @@ uint64_t byteCountOf(const fs::path& path) {
   return error ? 0 : size;
 }
 
-/// "horse.asdf.ply" is a result of this program.
+/// Whether the file is a result of this program, such as "horse.asdf.ply".
 bool isResult(const fs::path& name) { return name.stem().extension() == ".asdf"; }
 
 class FolderSearch {
@@ -56,7 +56,7 @@ class FolderSearch {
       if (name.native().starts_with('.')) continue;
       std::error_code ignored;
       const fs::file_type type = entry->status(ignored).type();
-      // A dangling link, and a file whose type cannot be read, is an input that fails.
+      // Dangling links and files of unknown type are inputs, whose reading then fails.
       const bool isFile = type == fs::file_type::regular || type == fs::file_type::not_found ||
                           type == fs::file_type::none || type == fs::file_type::unknown;
       if (type == fs::file_type::directory && !entry->is_symlink(ignored)) {
@@ -96,7 +96,7 @@ std::vector<std::string> readList(const InputRequest& request) {
   std::vector<std::string> paths;
   bool isFirst = true;
   for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');) {
-    if (!request.isNullSeparated) {  // The list may be from Windows.
+    if (!request.isNullSeparated) {  // The list may have been written on Windows.
       if (std::exchange(isFirst, false) && path.starts_with(kByteOrderMark)) path.erase(0, kByteOrderMark.size());
       if (path.ends_with('\r')) path.pop_back();
     }
@@ -106,7 +106,7 @@ std::vector<std::string> readList(const InputRequest& request) {
   return paths;
 }
 
-/// The leading components that both paths have.
+/// The longest common prefix of the components of both paths.
 fs::path commonFolder(const fs::path& a, const fs::path& b) {
   fs::path common;
   for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end() && *i == *j; ++i, ++j) common /= *i;
@@ -162,7 +162,8 @@ std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shar
     if (inputs[a].byteCount != inputs[b].byteCount) return inputs[a].byteCount > inputs[b].byteCount;
     return inputs[a].path < inputs[b].path;
   });
-  using Load = std::pair<uint64_t, uint32_t>;  // Bytes, shard: of equal loads the first shard is the next.
+  // Bytes and index of a shard. Among equal loads the lowest index comes first.
+  using Load = std::pair<uint64_t, uint32_t>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (uint32_t index = 1; index <= shard.count; ++index) loads.emplace(0, index);
   std::vector<size_t> chosen;

@@ -11,41 +11,42 @@ namespace asdfvk {
 
 /// A mesh of a batch and the path of its result.
 struct Job {
-  std::string input, output;  ///< "-" for the standard streams.
-  uint64_t byteCount = 0;     ///< Size of the input; 0 where it is unknown.
-  bool isStream = false;      ///< The input is no regular file, so that another process may not be able to read it.
+  std::string input, output;  ///< Paths; "-" for the standard streams.
+  uint64_t byteCount = 0;     ///< Size of the input file; 0 if it is unknown.
+  bool isStream = false;      ///< Whether the input is not a regular file. Other processes may be unable to read it.
 };
 
-/// What a job leaves. The texts are empty or consist of complete lines.
+/// The result of a job. The texts are empty or consist of complete lines.
 struct JobResult {
   MeshRecord record;
   std::string report;    ///< For standard output.
   std::string messages;  ///< For standard error.
 };
 
-/// What computes jobs, as the monitor shows it.
+/// A JobComputer, as the monitor shows it.
 struct ComputerDescription {
   std::string backend;
   std::string deviceLines;
   bool isCpu = true;
 };
 
-ASDFVK_JSON(Job, input, output)  // What a worker needs.
+ASDFVK_JSON(Job, input, output)  // The members that a worker needs.
 ASDFVK_JSON(JobResult, record, report, messages)
 ASDFVK_JSON(ComputerDescription, backend, deviceLines, isCpu)
 
-/// Computes jobs with a device that it keeps open.
+/// Computes jobs on a device that stays open.
 class JobComputer {
  public:
   virtual ~JobComputer() = default;
   [[nodiscard]] virtual ComputerDescription describe() const = 0;
-  /// A failure is part of the result. `next`: the job that follows, which may be read ahead, or null.
+  /// Computes a job. Failures are returned in the result. next: the following job, whose input may be read ahead; may
+  /// be null.
   [[nodiscard]] virtual JobResult compute(const Job& job, const Job* next) = 0;
-  /// Whether the device failed, so that further jobs need another computer.
+  /// Whether this computer cannot compute further jobs, because its device failed or a stop was requested.
   [[nodiscard]] virtual bool isSpent() const = 0;
 };
 
-/// Why no computer can be opened.
+/// Failure to open a computer.
 struct OpenFailure : std::runtime_error {
   OpenFailure(int exitCode, std::string errorName, const std::string& message)
       : std::runtime_error(message), code(exitCode), name(std::move(errorName)) {}

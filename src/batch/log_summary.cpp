@@ -34,11 +34,11 @@ std::string spreadText(const Spread& spread, double factor, const char* unit) {
                      factor * spread.median, factor * spread.percentile90, factor * spread.max, unit);
 }
 
-/// The names and texts of a row of the table.
+/// Column names and texts of a row of the table.
 using Cells = std::vector<std::pair<std::string, std::string>>;
 
-/// The members of the record that are columns. An object without a value is left out: another mesh may have its
-/// members.
+/// The keys of the record that are columns. Objects with null values only are left out, because another mesh may have
+/// their keys.
 Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");
@@ -50,7 +50,7 @@ Json rowOf(const MeshRecord& mesh) {
   return row;
 }
 
-/// A cell of a text has quotes where it needs them.
+/// The cell of a value. A text is quoted if necessary.
 std::string cellText(const Json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return value.dump();
@@ -71,7 +71,7 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
   }
 }
 
-constexpr size_t kNamedInputs = 3;  ///< Inputs that the text names for each warning.
+constexpr size_t kNamedInputs = 3;  ///< Greatest number of inputs that the text names for a warning.
 
 }  // namespace
 
@@ -147,7 +147,7 @@ std::string textOf(const LogSummary& summary) {
   }
   row("meshes", counts);
   if (summary.invalidLineCount > 0)
-    row("log", fmt::format("{} cut or invalid", counted(summary.invalidLineCount, "line")));
+    row("log", fmt::format("{} incomplete or invalid", counted(summary.invalidLineCount, "line")));
   row("faces", groupDigits(summary.faceCount));
   row("time", fmt::format("{:.4g} s in all; per mesh {}", summary.meshSeconds, spreadText(summary.seconds, 1, " s")));
   std::string stages;
@@ -196,7 +196,7 @@ std::string jsonOf(const LogSummary& summary) {
 
 std::string csvOf(const LogSummary& summary) {
   std::vector<Cells> rows;
-  Json all = Json::object();  // Which keys there are.
+  Json all = Json::object();  // All keys of the rows.
   for (const MeshRecord& mesh : summary.meshes) {
     const Json row = rowOf(mesh);
     all.update(row, true);

@@ -29,7 +29,7 @@ std::string bytesOfHex(std::string_view hex) {
   return bytes;
 }
 
-/// Whether JSON can represent the text: whether it is UTF-8.
+/// Whether JSON can represent the text, which requires UTF-8.
 bool survivesJson(const std::string& text) {
   const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
   return Json::parse(json).get_ref<const std::string&>() == text;
@@ -40,7 +40,7 @@ bool survivesJson(const std::string& text) {
               fmt::format("the log {} cannot be written: {}", path.string(), std::strerror(errorNumber)));
 }
 
-/// Whether the last line of the file is incomplete. False for a FIFO or a device, which has no last line.
+/// Whether the last line of the file is incomplete. False for a FIFO or a device.
 bool endsWithinLine(int descriptor) {
   const off_t size = ::lseek(descriptor, 0, SEEK_END);
   char last = '\n';
@@ -92,7 +92,7 @@ std::optional<MeshRecord> parseRecord(std::string_view text) {
     auto record = complete.get<MeshRecord>();
     if (complete.contains("inputBytes")) record.input = bytesOfHex(complete["inputBytes"].get<std::string>());
     return record;
-  } catch (const std::exception&) {  // No JSON, a required key is missing, or a value has another type.
+  } catch (const std::exception&) {  // Invalid JSON, a missing key, or a value of a wrong type.
     return std::nullopt;
   }
 }

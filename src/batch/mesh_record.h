@@ -17,9 +17,9 @@ namespace asdfvk {
 
 enum class MeshStatus {
   Done,
-  Skipped,  ///< The output of an earlier run is up to date, see findFinishedOutput().
+  Skipped,  ///< The output of an earlier run is up to date; see findFinishedOutput().
   Failed,
-  Dropped,  ///< The run was cancelled after this mesh was begun and before it was finished.
+  Dropped,  ///< The run was cancelled while this mesh was computed.
 };
 inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses{{{MeshStatus::Done, "done"},
                                                                                   {MeshStatus::Skipped, "skipped"},
@@ -27,40 +27,41 @@ inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses
                                                                                   {MeshStatus::Dropped, "dropped"}}};
 [[nodiscard]] const char* nameOf(MeshStatus status);
 
-/// The record of a mesh of a batch: a line of the log, and the content of the file beside the output.
+/// Record of a mesh of a batch. It is a line of the log and the content of the file beside the output.
 struct MeshRecord {
   std::string input;
-  /// utcTime() at the start of the mesh; at the end of its worker process if that was killed; empty where unknown.
+  /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
-  std::optional<std::string> output;               ///< Unset where no output was written.
-  std::string inputHash, optionsHash, outputHash;  ///< contentHash() of each; empty where unknown.
-  /// Keys of the JSON report, without lists of places; null or unset where unknown.
+  std::optional<std::string> output;               ///< Unset if no output was written.
+  std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
+  /// Values of the JSON report, without lists; null or unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
   std::optional<uint32_t> segmentCount;
   std::string unit;
   Json sdf, thickness, parts, estimatedError, options;
   std::string version, commit, device, backend;
-  std::map<std::string, double> seconds;  ///< Time of each stage that ran.
-  double totalSeconds = 0;                ///< From the start of reading to the end of writing.
+  std::map<std::string, double> seconds;  ///< Seconds of each stage that ran.
+  double totalSeconds = 0;                ///< Time from the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
-  std::vector<std::string> warnings;  ///< The codes of the warnings.
+  std::vector<std::string> warnings;  ///< Codes of the warnings.
   MeshStatus status = MeshStatus::Done;
-  int code = 0;         ///< The exit code of this mesh.
+  int code = 0;         ///< Exit code of this mesh.
   std::string error;    ///< Name of the error; empty without a failure.
-  std::string message;  ///< One line; empty without a failure.
+  std::string message;  ///< Message of the error in one line; empty without a failure.
 };
 
-/// The current time in ISO 8601, "2026-05-31T12:34:56.789Z". The alphabetical order of such texts is that of the times.
+/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". Alphabetical order is chronological
+/// order.
 [[nodiscard]] std::string utcTime();
 
 [[nodiscard]] Json toJson(const MeshRecord& record);
 
-/// One line without the line end. Bytes that are not UTF-8 are replaced. If the input has such bytes, the key
-/// inputBytes has all bytes of the input as hexadecimal digits.
+/// The record as one line of JSON, without the line end. Invalid UTF-8 is replaced. If MeshRecord::input is not UTF-8,
+/// the key inputBytes has its bytes in hexadecimal digits.
 [[nodiscard]] std::string toJsonLine(const MeshRecord& record);
 
-/// Unset where the text is not a record, for example an incomplete line. Only the keys input, status, code and message
-/// are required, so that other programs can write records. Unknown keys are ignored.
+/// Parses a record. Unset if the text is not a record, for example an incomplete line. Requires only the keys input,
+/// status, code and message, so that other programs can write records. Ignores unknown keys.
 [[nodiscard]] std::optional<MeshRecord> parseRecord(std::string_view json);
 
 void to_json(Json& json, MeshStatus status);
@@ -70,9 +71,9 @@ ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount
             peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
             options)
 
-/// A file with one record per line. Several threads and several processes may append to it. Each line is written by one
-/// write(), so that a killed process leaves at most one incomplete line. The next append() of any process ends that
-/// line.
+/// A file with one record per line, to which several threads and processes may append. Each line is written by one
+/// write(), so that a killed process leaves at most one incomplete line. The next append() of any process ends the
+/// incomplete line.
 class RecordLog {
  public:
   /// Throws Error{OutputNotWritable}.
@@ -90,8 +91,8 @@ class RecordLog {
   std::mutex mutex_;
 };
 
-/// The records of a log, without their options. Adds to invalidCount the number of lines that are not records, such as
-/// incomplete lines. Throws Error{UnreadableInput}.
+/// Reads the records of a log, without MeshRecord::options. Adds the number of lines that are not records, such as
+/// incomplete lines, to invalidCount. Throws Error{UnreadableInput}.
 [[nodiscard]] std::vector<MeshRecord> readLog(const std::filesystem::path& path, size_t& invalidCount);
 
 }  // namespace asdfvk

@@ -44,7 +44,7 @@ std::optional<std::string> MessageChannel::take() {
   size_t size = 0;
   const auto [last, error] = std::from_chars(received_.data(), received_.data() + end, size);
   if (error != std::errc() || last != received_.data() + end)
-    throw std::runtime_error("a worker process sent bytes that are no message");
+    throw std::runtime_error("a worker process sent bytes that are not a message");
   if (received_.size() - end - 1 < size) return std::nullopt;
   std::string message = received_.substr(end + 1, size);
   received_.erase(0, end + 1 + size);

@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// A message in CBOR. Strings may have any bytes.
+/// Encodes a message in CBOR. Strings may contain any bytes.
 [[nodiscard]] inline std::string encode(const Json& json) {
   std::string message;
   Json::to_cbor(json, message);
@@ -16,23 +16,24 @@ namespace asdfvk {
 }
 [[nodiscard]] inline Json decode(std::string_view message) { return Json::from_cbor(message); }
 
-/// Messages of any bytes over a connected stream socket, in both directions. A message is its size in decimal digits, a
-/// line end, and its bytes. Does not own the descriptor.
+/// Sends and receives messages of any bytes over a connected stream socket. A message is sent as its size in decimal
+/// digits, a line end, and its bytes. Does not own the descriptor.
 class MessageChannel {
  public:
   explicit MessageChannel(int socket = -1) : socket_(socket) {}
 
-  /// False where the other end is closed.
+  /// Sends a message. False if the other end is closed.
   bool send(std::string_view message);
-  /// Reads what has arrived, without waiting. False where the other end is closed.
+  /// Reads the bytes that have arrived, without waiting. False if the other end is closed.
   bool receive();
-  /// The next complete message that was received. Throws std::runtime_error where the bytes are no message.
+  /// Returns the next complete message that was received; unset if there is none. Throws std::runtime_error if the
+  /// bytes are not a message.
   [[nodiscard]] std::optional<std::string> take();
-  /// Waits for the next message. Unset where the other end is closed. Throws as take().
+  /// Waits for the next message. Unset if the other end is closed. Throws as take().
   [[nodiscard]] std::optional<std::string> wait();
 
  private:
-  /// False at the end; true also where nothing has arrived.
+  /// Reads bytes once. False if the other end is closed; true also if no bytes have arrived.
   bool read(int flags);
 
   int socket_;

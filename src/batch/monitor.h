@@ -16,42 +16,43 @@
 namespace asdfvk {
 
 struct MonitorOptions {
-  std::string log;             ///< File to which records are appended; empty: none.
-  bool printsReports = false;  ///< On standard output.
-  bool showsProgress = true;   ///< And a summary.
-  bool isQuiet = false;        ///< Prints reports and the messages of jobs only.
+  std::string log;             ///< Path of the log, to which records are appended; empty: none.
+  bool printsReports = false;  ///< Prints JobResult::report on standard output.
+  bool showsProgress = true;   ///< Shows the progress and a summary.
+  bool isQuiet = false;        ///< Prints only the reports and messages of jobs.
 };
 
-/// Takes the results of jobs in any order and from any thread: prints them in the order of the jobs, appends to the log
-/// and shows the progress.
+/// Receives the results of jobs in any order and from any thread. Prints them in the order of the jobs, appends them to
+/// the log and shows the progress.
 class Monitor {
  public:
-  /// Opens the log. Throws Error{OutputNotWritable}. The jobs must outlive this object.
+  /// Opens the log. Throws Error{OutputNotWritable}. Precondition: `jobs` outlives this object.
   Monitor(const MonitorOptions& options, const std::vector<Job>& jobs);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// The rate counts from now. Results that were added before are those of earlier runs.
+  /// Starts the time that rate and summary refer to. Called after the results of earlier runs were added.
   void beginComputation();
 
   /// Prints the device lines of the first computer.
   void announce(const ComputerDescription& computer);
 
-  /// Prints a warning unless quiet.
+  /// Prints a warning, unless MonitorOptions::isQuiet.
   void note(const std::string& message);
 
-  /// Throws Error{OutputNotWritable} for the log and standard output.
+  /// Adds the result of a job. Throws Error{OutputNotWritable} if the log or standard output cannot be written.
   void add(size_t job, JobResult result);
 
-  /// Prints what is left and the summary. To be called once, after the last result.
+  /// Prints the remaining texts and the summary. Precondition: all results were added, and finish() was not called
+  /// before.
   void finish();
 
-  /// The exit codes of the added results, in the order in which they were added.
+  /// Exit codes of the added results, in the order of add().
   [[nodiscard]] const std::vector<int>& codes() const { return codes_; }
   /// Jobs without a result, ascending.
   [[nodiscard]] std::vector<size_t> unfinishedJobs() const;
-  /// Whether jobs were dropped or not begun.
+  /// Whether jobs were dropped or have no result.
   [[nodiscard]] bool hasUnfinished() const;
 
  private:
@@ -70,7 +71,7 @@ class Monitor {
   const std::vector<Job>& jobs_;
   mutable std::mutex mutex_;
   std::optional<RecordLog> log_;
-  std::vector<std::optional<Texts>> waiting_;  ///< Until all earlier jobs are printed.
+  std::vector<std::optional<Texts>> waiting_;  ///< Texts that wait until all earlier jobs are printed.
   std::vector<char> isAdded_;
   size_t nextPrinted_ = 0;
   BatchProgress progress_;
@@ -81,7 +82,7 @@ class Monitor {
   double nextProgressSeconds_ = 0;
   bool isTerminal_, isProgressVisible_ = false;
   std::condition_variable_any wakesTicker_;
-  std::jthread ticker_;  ///< Shows the progress also while no mesh ends. The last member: it uses the others.
+  std::jthread ticker_;  ///< Shows the progress between results. The last member, because it uses the others.
 };
 
 }  // namespace asdfvk

@@ -25,7 +25,7 @@ bool isSamePath(const fs::path& a, const fs::path& b) {
   return fs::absolute(a, ignored).lexically_normal() == fs::absolute(b, ignored).lexically_normal();
 }
 
-/// The hash of an output; of one with a second file, of the hashes of both.
+/// The hash of an output. For an output with a second file (.mtl), the hash of both hashes.
 std::optional<std::string> outputHashOf(const fs::path& output) {
   std::optional<std::string> hash = contentHashOf(output);
   const std::optional<std::string> beside = hash ? contentHashOf(besidePathOf(output)) : std::nullopt;
@@ -64,7 +64,7 @@ std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const f
 }
 
 void removeOutputRecord(const fs::path& output) {
-  if (hasOutputRecord(output)) ::unlink(outputRecordPath(output).c_str());  // Never a folder.
+  if (hasOutputRecord(output)) ::unlink(outputRecordPath(output).c_str());  // unlink() removes no folder.
 }
 
 void removeOutput(const MeshRecord& record, const fs::path& output) {

@@ -6,11 +6,11 @@
 
 namespace asdfvk {
 
-/// Highest resident memory of this process since the last reset, or since its start; bytes. 0 where it is unknown.
+/// Peak resident memory of this process in bytes, since the last resetPeakMemory() or its start; 0 if unknown.
 [[nodiscard]] uint64_t peakMemoryBytes();
 void resetPeakMemory();
 
-/// Resident memory of a process; 0 where it is unknown.
+/// Resident memory of a process in bytes; 0 if unknown.
 [[nodiscard]] uint64_t residentBytesOf(pid_t process);
 
 }  // namespace asdfvk

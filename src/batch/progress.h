@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// Counts of a batch that runs, by which its rate and the time left are estimated. Bytes are those of the input files.
+/// Counts of a running batch, from which its rate and the remaining time are estimated. Bytes refer to the input files.
 struct BatchProgress {
   uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files.
   uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
@@ -18,9 +18,9 @@ struct BatchProgress {
   void count(const MeshRecord& record, uint64_t bytes);
 
   [[nodiscard]] uint64_t finishedCount() const { return doneCount + skippedCount + failedCount + droppedCount; }
-  /// 0 to 1, by bytes and number of meshes.
+  /// Finished share of the batch, 0 to 1, by bytes and number of meshes.
   [[nodiscard]] double share() const;
-  /// Estimated from the meshes that were computed so far, by their bytes; infinite before the first one.
+  /// Estimate from the meshes that were computed or failed, by their bytes and number; infinite before the first one.
   [[nodiscard]] double secondsLeft(double elapsedSeconds) const;
 };
 
@@ -30,7 +30,7 @@ struct BatchProgress {
 /// "9,899 done, 3 skipped, 101 failed; 123 s, 80.5 meshes/s, 0.312 million faces/s".
 [[nodiscard]] std::string summaryText(const BatchProgress& progress, double elapsedSeconds);
 
-/// "35 s", "2 min 35 s", "3 h 12 min", "2 d 4 h".
+/// A duration as a text: "35 s", "2 min 35 s", "3 h 12 min", "2 d 4 h".
 [[nodiscard]] std::string durationText(double seconds);
 
 }  // namespace asdfvk

@@ -32,8 +32,8 @@ void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)
   messages.send(encode(computer->describe()));
   while (const std::optional<std::string> request = messages.wait()) {
     JobResult result = computer->compute(decode(*request).get<Job>(), nullptr);
-    result.record.options = nullptr;           // The main process has them.
-    const bool isSpent = computer->isSpent();  // Another worker opens the device anew.
+    result.record.options = nullptr;           // The main process has the options.
+    const bool isSpent = computer->isSpent();  // A new worker opens the device again.
     if (!messages.send(encode({{"result", result}, {"isSpent", isSpent}})) || isSpent) return;
   }
 }

@@ -7,16 +7,17 @@
 
 namespace asdfvk {
 
-/// The first message to a worker. settings: those of the front end.
+/// The first message to a worker.
 struct Greeting {
-  Json settings;
+  Json settings;  ///< EngineClient::workerSettings.
   uint32_t threadCount = 1, threadCountOnGpu = 1;
 };
 ASDFVK_JSON(Greeting, settings, threadCount, threadCountOnGpu)
 
-/// Runs a worker process: computes the jobs that arrive on its standard input, a socket, until the socket is closed or
-/// the computer is spent. The process is killed when its parent ends. Its standard output becomes standard error, so
-/// that texts that a library prints are no answers. open: throws OpenFailure, which is sent and ends the worker.
+/// Runs this process as a worker. Computes jobs that arrive on standard input, which is a socket, until the socket is
+/// closed or JobComputer::isSpent(). The process is killed when its parent ends. Redirects standard output to standard
+/// error, so that no text of a library becomes an answer. open: opens the computer; an OpenFailure is sent as the
+/// answer and ends the worker.
 void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)>& open);
 
 }  // namespace asdfvk

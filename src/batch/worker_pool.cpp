@@ -17,21 +17,21 @@ namespace asdfvk {
 namespace {
 
 constexpr int kPollMilliseconds = 100;
-/// A mesh may fill 2 GB of memory per second, 20 MB in this time.
+/// A mesh may fill 2 GB of memory per second, which is 20 MB in this time.
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
-/// Share of the memory for jobs, which is the limit minus the memory of a ready worker. A worker that keeps more than
-/// this share after a job is replaced, so that the next job does not fail because of the memory of earlier jobs.
+/// A worker is replaced if it keeps more than this share of the memory for jobs after a job, so that the next job does
+/// not fail because of earlier jobs. The memory for jobs is the limit minus the memory of a ready worker.
 constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
   std::unique_ptr<WorkerProcess> process;
   bool isReady = false, hasServed = false;
-  bool isGivenUp = false;  ///< No further process is started.
-  int failedStarts = 0;    ///< In a row.
+  bool isGivenUp = false;  ///< No further process is started for this worker.
+  int failedStarts = 0;    ///< Consecutive failed starts.
   std::optional<size_t> job;
-  Stopwatch watch;          ///< Since the greeting, or since the job was sent.
-  uint64_t readyBytes = 0;  ///< Memory when it was ready.
+  Stopwatch watch;          ///< Runs since the greeting or the job was sent.
+  uint64_t readyBytes = 0;  ///< Memory when the worker became ready.
   uint64_t peakBytes = 0;
 };
 
@@ -60,7 +60,7 @@ class WorkerPool {
            std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
   }
 
-  /// Until a worker is ready, only one starts; then as many as client_.ready() allows.
+  /// Until a worker is ready, only one process may run. Then client_.ready() determines the number.
   [[nodiscard]] bool mayStart(const Worker& worker) const {
     if (worker.isGivenUp) return false;
     const auto startedCount = static_cast<uint32_t>(
@@ -89,11 +89,13 @@ class WorkerPool {
     worker.job = next_++;
     worker.watch = Stopwatch();
     worker.peakBytes = 0;
-    worker.process->messages().send(client_.request(*worker.job));  // If the worker has ended, watchOver() detects it.
+    // If the worker has ended, watchOver() will detect it.
+    worker.process->messages().send(client_.request(*worker.job));
   }
 
   [[nodiscard]] bool hasGrown(const Worker& worker) const {
-    if (options_.memoryBytes <= worker.readyBytes) return false;  // No limit, or below the memory of any ready worker.
+    // No limit, or a limit that a ready worker already exceeds.
+    if (options_.memoryBytes <= worker.readyBytes) return false;
     const auto ready = static_cast<double>(worker.readyBytes);
     const double kept = static_cast<double>(residentBytesOf(worker.process->id())) - ready;
     return kept > kMaxKeptShare * (static_cast<double>(options_.memoryBytes) - ready);
@@ -151,7 +153,7 @@ class WorkerPool {
     if (!finish(worker, {.end = JobEnd::Answered, .answer = message, .worker = id})) worker.process.reset();
   }
 
-  /// The worker closed its output.
+  /// Handles a worker that closed its socket: ends the process and its job.
   void replace(Worker& worker) {
     const pid_t id = worker.process->id();
     const ProcessEnd end = worker.process->waitForEnd();
@@ -201,10 +203,10 @@ class WorkerPool {
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
   std::vector<Worker> workers_;
-  uint32_t allowedCount_ = 1;  ///< Workers at once.
+  uint32_t allowedCount_ = 1;  ///< Processes at once.
   bool hasStarted_ = false;    ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
-  std::string failure_;  ///< Why the last worker could not start.
+  std::string failure_;  ///< Reason why the last worker could not start.
 };
 
 }  // namespace

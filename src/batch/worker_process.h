@@ -12,24 +12,24 @@
 namespace asdfvk {
 
 struct ProcessEnd {
-  int signal = 0;    ///< The signal that ended the process; 0 where it exited.
-  int exitCode = 0;  ///< Where it exited.
+  int signal = 0;    ///< The signal that ended the process; 0 if the process exited.
+  int exitCode = 0;  ///< Set if the process exited.
 };
 /// "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
 [[nodiscard]] std::string textOf(const ProcessEnd& end);
 
-/// A process that reads messages from its standard input and answers with messages on its standard output. Both are the
-/// same socket. Its standard error is that of this process. The destructor kills it.
+/// A child process that exchanges messages with this process. Its standard input and output are one socket; it shares
+/// standard error with this process. The destructor kills the child process.
 class WorkerProcess {
  public:
-  /// arguments: the first one is the name that the process sees. Throws std::system_error.
+  /// arguments: the first one is argv[0]. Throws std::system_error.
   WorkerProcess(const std::string& program, const std::vector<std::string>& arguments);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   [[nodiscard]] pid_t id() const { return process_; }
-  /// For poll(): readable where a message arrives or the process ended.
+  /// Descriptor for poll(): readable if bytes have arrived or the process has ended.
   [[nodiscard]] int descriptor() const { return socket_; }
   [[nodiscard]] MessageChannel& messages() { return messages_; }
 

@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// Runs the program asdf-vk. arguments: without the name of the program. Throws nothing; prints a failure as one line on
-/// standard error.
+/// Runs the program asdf-vk. arguments: without the name of the program. Throws nothing; prints a failure as one line
+/// on standard error.
 [[nodiscard]] ExitCode runProgram(const std::vector<std::string>& arguments);
 
 }  // namespace asdfvk
