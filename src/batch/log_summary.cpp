@@ -71,6 +71,15 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
   }
 }
 
+/// Adds the keys of a row that are missing. An object takes precedence over null: a mesh may lack its members.
+void addKeys(const Json& row, Json& all) {
+  for (const auto& [key, value] : row.items()) {
+    Json& known = all[key];
+    if (known.is_null()) known = value.is_object() ? Json::object() : value;
+    if (known.is_object() && value.is_object()) addKeys(value, known);
+  }
+}
+
 constexpr size_t kNamedInputs = 3;  ///< Greatest number of inputs that the text names for a warning.
 
 }  // namespace
@@ -199,14 +208,14 @@ std::string csvOf(const LogSummary& summary) {
   Json all = Json::object();  // All keys of the rows.
   for (const MeshRecord& mesh : summary.meshes) {
     const Json row = rowOf(mesh);
-    all.update(row, true);
+    addKeys(row, all);
     addCells(row, "", rows.emplace_back());
   }
   if (rows.empty()) all = rowOf({});
   Cells columns;
   addCells(all, "", columns);
   std::string table;
-  for (const auto& [name, ignored] : columns) table += (table.empty() ? "" : ",") + name;
+  for (const auto& [name, ignored] : columns) table += (table.empty() ? "" : ",") + cellText(name);
   for (const Cells& row : rows) {
     const std::map<std::string, std::string> cellOf(row.begin(), row.end());
     char separator = '\n';

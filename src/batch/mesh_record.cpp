@@ -18,6 +18,8 @@
 namespace asdfvk {
 namespace {
 
+constexpr int kMaxDepth = 16;  ///< Of the values of a record; those of the program have five levels.
+
 std::string bytesOfHex(std::string_view hex) {
   std::string bytes;
   for (size_t i = 0; i < hex.size(); i += 2) {
@@ -83,7 +85,11 @@ std::string toJsonLine(const MeshRecord& record) {
 
 std::optional<MeshRecord> parseRecord(std::string_view text) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+      // Copies and texts of values are made by recursion.
+      if (depth > kMaxDepth) throw std::length_error("nested too deep");
+      return true;
+    });
     for (const char* required : {"input", "status", "code", "message"})
       if (json.at(required).is_null()) return std::nullopt;
     Json complete = MeshRecord();

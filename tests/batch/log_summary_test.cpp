@@ -134,6 +134,21 @@ TEST_CASE("the table has a row for each mesh, with the keys of the records") {
   for (const char* absent : {"minPlace", "optionsHash", "options"}) CHECK_EQ(table.find(absent), std::string::npos);
 }
 
+TEST_CASE("a mesh without an object has empty cells in the columns of its members") {
+  MeshRecord closed = recordOf("a", MeshStatus::Done, 1), open = recordOf("b", MeshStatus::Done, 1);
+  closed.thickness = {{"min", 0.5}, {"greatestSection", {{"diameter", 2}}}};
+  open.thickness = {{"min", 0.5}, {"greatestSection", nullptr}};
+  using Column = std::vector<std::string>;
+  const auto diametersOf = [](const std::vector<MeshRecord>& meshes) {
+    return columnOf(csvOf(summarizeRecords(meshes, 0)), "thickness.greatestSection.diameter");
+  };
+  CHECK_EQ(diametersOf({closed, open}), Column{"thickness.greatestSection.diameter", "2", ""});
+  std::swap(closed.input, open.input);
+  CHECK_EQ(diametersOf({closed, open}), Column{"thickness.greatestSection.diameter", "", "2"});
+  open.thickness["greatestSection"]["diameter"]["further"] = 3;  // Of another version: no column of both.
+  CHECK_EQ(diametersOf({closed, open}).size(), 3);
+}
+
 TEST_CASE("the table has texts with commas, quotes and line ends in quotes") {
   const std::string table = csvOf(
       summarizeRecords({recordOf("a,\"b\"\n.ply", MeshStatus::Done, 0.5), recordOf("z", MeshStatus::Failed, 1, 2)}, 0));

@@ -96,6 +96,15 @@ TEST_CASE("names that are not UTF-8 read back as they are, others have no furthe
                             std::string(hex) + "\"}"));
 }
 
+TEST_CASE("a record with values nested too deep is invalid") {
+  const auto nested = [](size_t depth) {
+    return R"({"input": "a", "status": "done", "code": 0, "message": "", "sdf": )" + std::string(depth, '[') +
+           std::string(depth, ']') + "}";
+  };
+  CHECK(parseRecord(nested(10)));
+  CHECK_FALSE(parseRecord(nested(300000)));
+}
+
 TEST_CASE("a line that another process leaves cut is ended by the next record") {
   const ScratchFolder folder;
   const std::string path = folder / "log.jsonl";
