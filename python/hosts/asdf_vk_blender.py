@@ -28,6 +28,7 @@ bl_info = {
 }
 
 COLOURS = "asdf-vk"  # Name of the colour attribute.
+FIELDS = ("sdf", "seed", "thickness", "least_thickness", "segment")  # Names of the other attributes.
 REPORT = "asdf_vk_report"  # Property of the mesh with the text of the last result.
 VIRIDIS = np.array(  # sRGB at 0, 1/4, ... 1.
     [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
@@ -43,9 +44,10 @@ MEASURES = (
 def module():
     """The Python package asdf_vk. Raises ImportError with what to do."""
     addon = bpy.context.preferences.addons.get(__name__)
-    folder = addon.preferences.folder if addon else ""
-    if folder and bpy.path.abspath(folder) not in sys.path:
-        sys.path.append(str(Path(bpy.path.abspath(folder)).expanduser()))
+    if addon and addon.preferences.folder:
+        folder = str(Path(bpy.path.abspath(addon.preferences.folder)).expanduser())
+        if folder not in sys.path:
+            sys.path.append(folder)
     try:
         import asdf_vk
     except ImportError as error:
@@ -62,6 +64,9 @@ def mesh_of(asdf_vk, obj):
     mesh = obj.data
     if not mesh.polygons:
         raise ValueError(f"{obj.name} has no faces")
+    for item in (*obj.vertex_groups, *mesh.uv_layers):
+        if item.name in (*FIELDS, COLOURS):
+            raise ValueError(f"{obj.name} has a vertex group or UV map with the name {item.name}: rename it")
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     corners, first = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.polygons), np.int32)
     mesh.vertices.foreach_get("co", vertices)
@@ -169,13 +174,19 @@ def set_materials(mesh, segments) -> None:
     mesh.polygons.foreach_set("material_index", np.maximum(segments, 0).astype(np.int32))
 
 
-def length(context, value: float) -> str:
+def length(context, value: float, other: float = np.nan) -> str:
+    """In the unit of the scene: four digits, and up to six where it takes more to differ from another length."""
     settings = context.scene.unit_settings
-    if not np.isfinite(value):
-        return "-"
-    if settings.system == "NONE":
-        return f"{value:.4g}"
-    return bpy.utils.units.to_string(settings.system, "LENGTH", value * settings.scale_length, precision=4)
+
+    def text(number: float, digits: int) -> str:
+        if not np.isfinite(number):
+            return "-"
+        if settings.system == "NONE":
+            return f"{number:.{digits}g}"
+        return bpy.utils.units.to_string(settings.system, "LENGTH", number * settings.scale_length, precision=digits)
+
+    digits = next((n for n in (4, 5, 6) if text(value, n) != text(other, n)), 4)
+    return text(value, digits)
 
 
 def main_field(info):
@@ -191,18 +202,18 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
         set_materials(mesh, segments)
         colours = np.array([colour_of_part(part) for part in range(int(segments.max()) + 1)])
         set_colours(mesh, colours[np.maximum(segments, 0)])
-        text = f"{info.segment_count} parts"
+        text = f"{info.segment_count} part{'s' if info.segment_count != 1 else ''}"
     elif measure == "THICKNESS":
-        least = info.fields["least_thickness"]
-        set_colours(mesh, colours_of(least, limit))
-        report = info.thickness
-        text = f"least thickness {length(context, report.min)}"
+        least, report = info.fields["least_thickness"], info.thickness
+        lowest = limit if report.regions else 0  # Without a thin region, what is below the limit is so by rounding.
+        set_colours(mesh, colours_of(least, lowest))
+        text = f"least thickness {length(context, report.min, limit)}"
         if limit > 0:
-            thin = least < limit  # NaN is not below.
+            thin = least < lowest  # NaN is not below.
             select_faces(mesh, thin)
             context.tool_settings.mesh_select_mode = (False, False, True)
             verdict = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}[report.verdict]
-            text = f"{verdict}: {text}, {np.count_nonzero(thin)} faces below {length(context, limit)}"
+            text = f"{verdict}: {text}, {np.count_nonzero(thin)} faces below {length(context, limit, report.min)}"
     else:
         set_colours(mesh, colours_of(info.fields["sdf"], 0))
         text = f"median diameter {length(context, info.sdf.median)}"

@@ -41,9 +41,15 @@ def module():
     return asdf_vk
 
 
-def length(value: float) -> str:
-    """In the unit of the user."""
-    return FreeCAD.Units.Quantity(value, FreeCAD.Units.Length).UserString
+def length(value: float, limit: float) -> str:
+    """In mm: four digits, and up to six where it takes more to differ from the limit."""
+    digits = next((n for n in (4, 5, 6) if f"{value:.{n}g}" != f"{limit:.{n}g}"), 4)
+    return f"{value:.{digits}g} mm"
+
+
+def summary(report) -> str:
+    least = length(report.min, report.thinner_than)
+    return VERDICTS[report.verdict] + ("" if np.isnan(report.min) else f", least thickness {least}")
 
 
 def triangles_of(obj, deviation: float):
@@ -52,13 +58,18 @@ def triangles_of(obj, deviation: float):
         placed = obj.Mesh.copy()
         placed.Placement = obj.getGlobalPlacement()
         meshes = [placed]
-    elif getattr(obj, "Shape", None) is not None and obj.Shape.Faces:
+    elif hasattr(obj, "getGlobalPlacement") and getattr(obj, "Shape", None) is not None and obj.Shape.Faces:
         shape = obj.Shape.copy()
         shape.Placement = obj.getGlobalPlacement()
         settings = {"LinearDeflection": deviation, "AngularDeflection": 0.3, "Relative": False}
-        meshes = [MeshPart.meshFromShape(Shape=solid, **settings) for solid in shape.Solids or [shape]]
+        of_solids = {face.hashCode() for solid in shape.Solids for face in solid.Faces}
+        loose = [face for face in shape.Faces if face.hashCode() not in of_solids]
+        pieces = [*shape.Solids, Part.Compound(loose)] if loose and of_solids else shape.Solids or [shape]
+        meshes = [MeshPart.meshFromShape(Shape=piece, **settings) for piece in pieces]
     else:
-        raise ValueError(f"{obj.Label} has no faces; select a solid or a mesh")
+        meshes = []
+    if not any(mesh.CountFacets for mesh in meshes):
+        raise ValueError(f"{obj.Label} has no faces; select a solid, a body or a mesh, and of a link its original")
     vertices, triangles, count = [], [], 0
     for mesh in meshes:
         points, faces = mesh.Topology
@@ -98,13 +109,18 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
     options = {"measure": "thickness", "thinner_than": limit, "allow_sharp_edges": allow_sharp_edges}
     info = asdf_vk.compute(vertices, triangles, progress=progress, **options)
     obj.Document.openTransaction("Check wall thickness")
-    add_result(obj, vertices, triangles, info, limit)
+    try:
+        add_result(obj, vertices, triangles, info, limit)
+    except BaseException:
+        obj.Document.abortTransaction()
+        raise
     obj.Document.commitTransaction()
     return info
 
 
-def colours_of(least, limit: float) -> list:
-    """Red below the limit, viridis from the limit to the greatest value, grey without a value."""
+def colours_of(least, limit: float, is_thin: bool) -> list:
+    """Viridis from the limit to the greatest value, grey without a value; red below the limit where walls are thin.
+    Where none is, what is below the limit is so by rounding."""
     colours = np.tile(GREY, (len(least), 1))
     has_value = np.isfinite(least)
     if has_value.any():
@@ -112,46 +128,52 @@ def colours_of(least, limit: float) -> list:
         shares = np.clip((least[has_value] - limit) / (high - limit), 0, 1)
         stops = np.linspace(0, 1, len(VIRIDIS))
         colours[has_value] = np.stack([np.interp(shares, stops, VIRIDIS[:, channel]) for channel in range(3)], axis=1)
-        colours[has_value & (least < limit)] = RED
+        colours[has_value & (least < limit) & is_thin] = RED
     return [(*colour, 0.0) for colour in colours.tolist()]
+
+
+def result_of(obj):
+    """The group with the result of the last check of an object; None without one."""
+    return next((group for group in obj.Document.Objects if getattr(group, "CheckedObject", None) == obj.Name), None)
 
 
 def add_result(obj, vertices, triangles, info, limit: float) -> None:
     """Adds a group with the coloured mesh and the places to the document; replaces that of an earlier check."""
     document = obj.Document
-    label = f"Thickness of {obj.Label}"
-    for old in document.getObjectsByLabel(label):
+    old = result_of(obj)
+    if old is not None:
         for child in old.Group:
             document.removeObject(child.Name)
         document.removeObject(old.Name)
     group = document.addObject("App::DocumentObjectGroup", "Thickness")
-    group.Label = label
+    group.Label = f"Thickness of {obj.Label}"
+    group.addProperty("App::PropertyString", "CheckedObject", "Thickness").CheckedObject = obj.Name
     group.addProperty("App::PropertyLength", "Limit", "Thickness").Limit = limit
     group.addProperty("App::PropertyLength", "LeastThickness", "Thickness").LeastThickness = info.thickness.min
     group.addProperty("App::PropertyString", "Verdict", "Thickness").Verdict = VERDICTS[info.thickness.verdict]
 
     mesh = document.addObject("Mesh::Feature", "ThicknessMesh")
-    mesh.Label = f"{VERDICTS[info.thickness.verdict]}: least thickness {length(info.thickness.min)}"
+    mesh.Label = f"{obj.Label}: {summary(info.thickness)}"  # FreeCAD appends a number to a label that is in use.
     mesh.Mesh = Mesh.Mesh(vertices[triangles].tolist())
     values = info.fields["least_thickness"]
-    mesh.addProperty("App::PropertyColorList", "FaceColors", "Thickness").FaceColors = colours_of(values, limit)
+    mesh.addProperty("App::PropertyColorList", "FaceColors", "Thickness").FaceColors = colours_of(values, limit, bool(info.thickness.regions))
     mesh.addProperty("App::PropertyFloatList", "LeastThickness", "Thickness").LeastThickness = values.tolist()
     group.addObject(mesh)
     for region in info.thickness.regions[:PLACE_COUNT]:
-        group.addObject(add_place(document, region))
+        group.addObject(add_place(document, region, limit))
     document.recompute()
     if FreeCAD.GuiUp:
         mesh.ViewObject.Coloring = True
         obj.ViewObject.hide()
 
 
-def add_place(document, region):
+def add_place(document, region, limit: float):
     """A thin place: the line through the wall, or a point at a sharp edge."""
     place, opposite = FreeCAD.Vector(*region.place), FreeCAD.Vector(*region.opposite)
     is_point = place.distanceToPoint(opposite) < 1e-7
     line = document.addObject("Part::Feature", "Place")
     line.Shape = Part.Vertex(place) if is_point else Part.makeLine(place, opposite)
-    kind = "sharp edge" if region.is_sharp else f"wall {length(region.min)}"
+    kind = "sharp edge" if region.is_sharp else f"wall {length(region.min, limit)}"
     line.Label = f"{kind} at ({place.x:.4g}, {place.y:.4g}, {place.z:.4g})"
     if FreeCAD.GuiUp:
         view = line.ViewObject
@@ -226,10 +248,9 @@ class Panel:
         finally:
             dialog.close()
         report = info.thickness
-        text = f"<b>{VERDICTS[report.verdict]}</b>: least thickness {length(report.min)}"
-        self.result.setText(f"{text}; places: {len(report.regions)}. A click shows a place.")
-        group = self.obj.Document.getObjectsByLabel(f"Thickness of {self.obj.Label}")[0]
-        self.objects = group.Group[1:]
+        click = " A click shows a place." if report.regions else ""
+        self.result.setText(f"{summary(report)}; places: {len(report.regions)}.{click}")
+        self.objects = result_of(self.obj).Group[1:]
         self.places.addItems([place.Label for place in self.objects])
 
     def go_to(self, row: int) -> None:

@@ -110,7 +110,9 @@ class WallThickness(SurfaceFilter):
         limit = self.options.get("thinner_than")
         if limit is None:
             return
-        cells.add_array(surface, "thin", (info.fields["least_thickness"] < limit).astype("u1"))
+        # Without a thin region, what is below the limit is so by rounding.
+        thin = (info.fields["least_thickness"] < limit) & bool(info.thickness.regions)
+        cells.add_array(surface, "thin", thin.astype("u1"))
         verdict, least = vtkStringArray(), vtkDoubleArray()
         verdict.SetName("verdict")
         verdict.InsertNextValue(info.thickness.verdict)

@@ -101,6 +101,19 @@ for name, matrix in (
     checks.same_bits(f"polygons, {name}", attribute(obj, "thickness"), path)
     checks.that(f"{name}: walls have values", np.isfinite(np.load(path)).sum() >= len(faces) - 1)
 
+# A wall of the limit, but for rounding to float32.
+box = [(x + 5.3, y + 5.3, z + 5.3) for x in (0, 10) for y in (0, 10) for z in (0, 0.8)]
+sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+obj = add("plate at the limit", box, sides)
+for limit, report in ((0.8, "PASS: least thickness 80 cm, 0 faces below 80 cm"), (0.8002, "FAIL: least thickness 80 cm, 6 faces below 80.02 cm")):
+    bpy.ops.object.asdf_vk(measure="THICKNESS", limit=limit)
+    checks.that(f"{obj.data['asdf_vk_report']!r}", obj.data["asdf_vk_report"] == report)
+checks.that("all are selected", len(selected(obj)) == 6)
+bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.8)
+checks.that("none is selected", not selected(obj))
+obj.vertex_groups.new(name="sdf")
+checks.raises("a name in use", RuntimeError, lambda: bpy.ops.object.asdf_vk(), "rename it")
+
 figure = asdf_vk.read_mesh(folder / "figure.ply")
 obj = add("figure", figure.vertices, figure.faces)
 bpy.ops.object.asdf_vk(measure="PARTS")

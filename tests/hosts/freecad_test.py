@@ -102,6 +102,24 @@ wedge = add(Part.Face(knife).extrude(vector(0, 5, 0)), "Wedge")
 checks.that("a sharp edge fails", host.check(wedge, 0.5).thickness.verdict == "failed")
 checks.that("unless allowed", host.check(wedge, 0.5, allow_sharp_edges=True).thickness.verdict == "passed")
 
+limited = add(Part.makeBox(10, 10, 0.8, vector(5.3, 5.3, 5.3)), "Limited")
+checks.that("a wall of the limit passes", host.check(limited, 0.8).thickness.verdict == "passed")
+result = host.result_of(limited).Group[0]
+checks.that("and nothing is red", len(set(result.FaceColors)) > 0 and not any(c[0] > 0.8 and c[1] < 0.2 for c in result.FaceColors))
+checks.that(f"its label {result.Label!r}", result.Label == "Limited: PASS, least thickness 0.8 mm")
+host.check(limited, 0.8005)
+label = host.result_of(limited).Group[1].Label
+checks.that(f"a wall just below it {label!r}", label.startswith("wall 0.8 mm at ("))
+both = add(Part.makeCompound([Part.makeBox(10, 10, 5), Part.makePlane(10, 10, vector(20, 0, 0))]), "Both")
+checks.that("a face beside a solid is not left out", host.check(both, 1).thickness.verdict == "notJudged")
+other = document.addObject("App::FeaturePython", "Other")
+other.Label = "Thickness of Named"
+named = add(Part.makeBox(10, 10, 1), "Named")
+host.check(named, 2)
+host.check(named, 2)
+results = [o for o in document.Objects if getattr(o, "CheckedObject", None) == named.Name]
+checks.that("an object with the label of the result", len(results) == 1 and other in document.Objects)
+
 sheet = add(Part.makePlane(10, 10), "Sheet")
 checks.that("an open sheet is not judged", host.check(sheet, 1).thickness.verdict == "notJudged")
 checks.that("and in the document", document.getObjectsByLabel("Thickness of Sheet")[0].Verdict == "NOT JUDGED")
@@ -110,6 +128,11 @@ checks.that("and in the document", document.getObjectsByLabel("Thickness of Shee
 count = len(document.Objects)
 empty = document.addObject("App::DocumentObjectGroup", "Empty")
 checks.raises("no faces", ValueError, lambda: host.check(empty, 1), "has no faces")
+link = document.addObject("App::Link", "Link")
+link.LinkedObject = box
+checks.raises("a link", ValueError, lambda: host.check(link, 1), "has no faces")
+checks.raises("an empty mesh", ValueError, lambda: host.check(document.addObject("Mesh::Feature"), 1), "has no faces")
+count = len(document.Objects) - 1
 checks.raises("limit 0", ValueError, lambda: host.check(box, 0), "above 0 mm")
 big = document.addObject("Mesh::Feature", "Big")
 big.Mesh = mesh_of("big.ply")

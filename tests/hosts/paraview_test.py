@@ -43,6 +43,10 @@ checks.that("verdict", facts.GetAbstractArray("verdict").GetValue(0) == "failed"
 checks.that("least thickness", abs(facts.GetArray("least_thickness_of_part").GetValue(0) - 0.6) < 1e-6)
 sheet = servermanager.Fetch(WallThickness(Input=Plane(), Limit=1))
 checks.that("an open sheet is not judged", sheet.GetFieldData().GetAbstractArray("verdict").GetValue(0) == "notJudged")
+plate = Box(XLength=10, YLength=10, ZLength=0.8, Center=[10.3, 10.3, 5.7])
+limited = WallThickness(Input=Clean(Input=plate), Limit=0.8)
+passes = servermanager.Fetch(limited).GetFieldData().GetAbstractArray("verdict").GetValue(0) == "passed"
+checks.that("a wall of the limit is not thin", passes and not arrays_of(limited)["thin"].any())
 figure = PLYReader(FileNames=[str(folder / "figure.ply")])
 checks.same_bits("segment", arrays_of(ShapeParts(Input=figure))["segment"], folder / "figure.segment.npy")
 three = arrays_of(ShapeParts(Input=figure, NumberOfParts=3))["segment"]
