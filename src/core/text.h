@@ -62,13 +62,13 @@ template <typename T>
   return value;
 }
 
-/// A diameter, thickness or area in a report, a picture or a legend. It has four significant digits, or more where a
+/// A diameter, thickness or area in a report, a picture or a legend. It has four significant digits, or up to nine where a
 /// length that differs from `limit` would otherwise have the text of `limit`.
 [[nodiscard]] inline std::string lengthText(double length, std::optional<double> limit = {}) {
-  for (int digits = 4;; ++digits) {
-    std::string text = fmt::format("{:.{}g}", length, digits);
-    if (!limit || length == *limit || digits == 17 || text != fmt::format("{:.{}g}", *limit, digits)) return text;
-  }
+  for (int digits = 4; limit && digits <= 9; ++digits)
+    if (std::string text = fmt::format("{:.{}g}", length, digits); text != fmt::format("{:.{}g}", *limit, digits))
+      return text;
+  return fmt::format("{:.4g}", length);
 }
 
 /// The greatest number of bytes that appendNumber() writes.

@@ -36,5 +36,6 @@ TEST_CASE("a length has four digits, and as many more as it takes to differ from
   CHECK(lengthText(0.99996, 1.0) == "0.99996");
   CHECK(lengthText(1.0000001, 1.0) == "1.0000001");
   CHECK(lengthText(1, 1.0) == "1");
+  CHECK(lengthText(0.7999999999999546, 0.8) == "0.8");
   CHECK(lengthText(0.6, 0.8) == "0.6");
 }

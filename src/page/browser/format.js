@@ -14,13 +14,13 @@ function withDigits(value, digits) {
 }
 
 /**
- * Four significant digits, without trailing zeros after a decimal point, and as many more as it takes to differ from a
- * limit.
+ * Four significant digits, without trailing zeros after a decimal point, and as many more, up to nine, as it takes to
+ * differ from a limit.
  */
 export function formatValue(value, limit = value) {
-  let digits = 4;
-  while (digits < 17 && value !== limit && withDigits(value, digits) === withDigits(limit, digits)) ++digits;
-  return withDigits(value, digits);
+  for (let digits = 4; digits <= 9; ++digits)
+    if (withDigits(value, digits) !== withDigits(limit, digits)) return withDigits(value, digits);
+  return withDigits(value, 4);
 }
 
 export const formatCount = (count) => count.toLocaleString('en-US');
