@@ -138,6 +138,8 @@ def main() -> int:
             if needs_display:
                 variables = None if shown is None else {**variables, **shown}
             rows.append(run(host, needed, [str(word) for word in command], folder, variables))
+    if not rows:
+        sys.exit(f"test-hosts: no host has the name '{arguments.only}'")
     print(f"\n{'host':16} {'checks':>6}  result")
     for host, checks, result in rows:
         print(f"{host:16} {checks:>6}  {result}")
