@@ -64,9 +64,10 @@ def mesh_of(asdf_vk, obj):
     mesh = obj.data
     if not mesh.polygons:
         raise ValueError(f"{obj.name} has no faces")
-    for item in (*obj.vertex_groups, *mesh.uv_layers):
+    of_user = [attribute for attribute in mesh.attributes if attribute.domain not in ("FACE", "CORNER")]
+    for item in (*obj.vertex_groups, *mesh.uv_layers, *of_user):
         if item.name in (*FIELDS, COLOURS):
-            raise ValueError(f"{obj.name} has a vertex group or UV map with the name {item.name}: rename it")
+            raise ValueError(f"{obj.name} has a vertex group, UV map or attribute with the name {item.name}: rename it")
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     corners, first = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.polygons), np.int32)
     mesh.vertices.foreach_get("co", vertices)
