@@ -70,6 +70,9 @@ checks.same_bits("polygons", cells.thickness(surface), folder / "polygons.thickn
 stored = vtk_to_numpy(surface.GetCellData().GetArray("thickness"))
 checks.that("a line has no value", len(stored) == len(sizes) + 1 and bool(np.isnan(stored[0])))
 checks.raises("no faces", asdf_vk.InputError, lambda: cells.thickness(vtkPolyData()), "extract its surface")
+pointless = vtkPolyData()
+pointless.SetPolys(faces)
+checks.raises("faces without points", asdf_vk.InputError, lambda: cells.thickness(pointless), "no faces")
 checks.raises("an array instead of a dataset", asdf_vk.InputError, lambda: cells.segment(np.zeros((3, 3))), "vtkPolyData")
 
 # Cancel: what the button "Abort" does.

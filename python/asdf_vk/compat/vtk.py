@@ -38,7 +38,7 @@ def mesh_of(dataset: Any) -> Mesh:
     if dataset.GetNumberOfStrips() > 0:
         raise error_of("arrayType", "the dataset has triangle strips: triangulate it first (vtkTriangleFilter)")
     faces = dataset.GetPolys()
-    if faces.GetNumberOfCells() == 0:
+    if faces.GetNumberOfCells() == 0 or dataset.GetNumberOfPoints() == 0:
         raise error_of("emptyMesh", "the dataset has no faces: extract its surface first")
     points = vtk_to_numpy(dataset.GetPoints().GetData())
     corners, first = (vtk_to_numpy(array) for array in (faces.GetConnectivityArray(), faces.GetOffsetsArray()))
