@@ -11,8 +11,8 @@ namespace asdfvk {
 /// Which closed components are cavities, and of which bodies.
 struct Nesting {
   std::vector<uint8_t> isCavity;  ///< #components
-  std::vector<uint32_t>
-      bodyOf;  ///< #components: of a cavity the innermost body around it; of any other component its own index.
+  /// #components: of a cavity the innermost body around it; of any other component its own index.
+  std::vector<uint32_t> bodyOf;
 };
 
 /// Finds the cavities among the closed components. A component is in another one if all of its samples

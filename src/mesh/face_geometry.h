@@ -16,10 +16,9 @@ inline constexpr double kDegenerateHeightRatio = 1e-10;
 /// Geometry of the faces, #F entries each, in the unit of the mesh.
 struct FaceGeometry {
   std::vector<Vec3d> barycentres;  ///< Not finite where a corner is not finite.
-  std::vector<Vec3d>
-      normals;  ///< Unit vectors by the right-hand rule over the order of the corners; zero for a degenerate face.
-  std::vector<double> areas;  ///< 0 for a degenerate face.
-  Box3d bounds;               ///< Bounding box of the finite vertices that faces use.
+  std::vector<Vec3d> normals;      ///< Unit, right-hand rule over the order of the corners; zero for a degenerate face.
+  std::vector<double> areas;       ///< 0 for a degenerate face.
+  Box3d bounds;                    ///< Bounding box of the finite vertices that faces use.
 
   /// Whether the face has zero area (see kDegenerateHeightRatio) or a non-finite corner. Such a face neither casts rays
   /// nor is hit by rays.

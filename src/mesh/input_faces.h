@@ -61,8 +61,8 @@ class PolygonTriangulator {
   std::vector<uint32_t> previous_, next_;
   std::vector<double> turn_;
   std::vector<uint8_t> isEar_, isClipped_;
-  std::vector<uint32_t>
-      reflex_;  ///< Corners that are not left turns of the whole polygon; only these can lie in an ear.
+  /// Corners that are not left turns of the whole polygon; only these can lie in an ear.
+  std::vector<uint32_t> reflex_;
 };
 
 }  // namespace asdfvk

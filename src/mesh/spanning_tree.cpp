@@ -145,10 +145,9 @@ class SpanningTree {
   std::vector<uint32_t> order_;  ///< The caller's point at each position in the tree. All other indices are positions.
   std::vector<Vec3d> points_;
   std::vector<PointNode> nodes_;
-  std::vector<uint32_t>
-      groups_;  ///< Links of a disjoint-set forest; during the search for edges, the group of each point.
-  std::vector<Edge>
-      nearest_;  ///< Where `to` is of the same group or kNone, `square` is a lower bound for other groups.
+  /// Links of a disjoint-set forest; during the search for edges, the group of each point.
+  std::vector<uint32_t> groups_;
+  std::vector<Edge> nearest_;  ///< Where `to` is of the same group or kNone, `square` is a lower bound.
   std::vector<std::array<uint32_t, 2>> edges_;
 };
 
