@@ -88,7 +88,7 @@ def cgal_segmentation_arrays(
     expansion: Literal["all", "first"] | None = "all",
     **options: Unpack[BackendOptions],
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """The same in memory, without files and codes.
+    """Like cgal_segmentation(), but in memory, without files and return codes.
 
     vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`, and None.
 
@@ -104,7 +104,7 @@ def cgal_segmentation_arrays(
 
 
 def _read_triangles(path: str) -> asdf_vk.Mesh | int:
-    """The mesh, or the code of the failure."""
+    """Returns the mesh, or the code of the failure."""
     try:
         with open(path, "rb") as file:
             start = file.read(_COUNTS_LIMIT)
@@ -125,7 +125,7 @@ def _read_triangles(path: str) -> asdf_vk.Mesh | int:
 
 
 def _write_whole(texts: dict[str, str]) -> None:
-    """Writes beside the files, and renames when all are complete."""
+    """Writes temporary files beside the files, and renames them when all are complete."""
     suffix = f".{os.getpid()}-{threading.get_ident()}.tmp"
     try:
         for path, text in texts.items():
@@ -151,7 +151,7 @@ pickle.dump(outcome, sys.stdout.buffer)
 
 
 def _in_new_process(path: str, clusters: int, smoothness: float, options: dict[str, Any]) -> int:
-    """For a forked process, which has no threads and devices of its parent. Raises what the new process raised."""
+    """For a forked process, which has no threads and devices of its parent. Raises what the new process raises."""
     search_path = os.pathsep.join(entry or os.getcwd() for entry in sys.path)
     done = subprocess.run(
         [sys.executable, "-c", _CHILD],

@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-/// "Literal["paper", "cgal"]"
+/// The type of a keyword, for example "Literal["paper", "cgal"]".
 std::string keywordType(const OptionRow& row) {
   if (row.keywordType != nullptr) return row.keywordType;
   if (isFlag(row)) return "bool";
@@ -72,8 +72,7 @@ int main(int argc, char** argv) {
   const std::string text =
       "\"\"\"Keywords of the options. Written by the build from src/describe/computation_options.cpp.\"\"\"\n\n"
       "from __future__ import annotations\n\nfrom typing import Literal, TypedDict\n" +
-      keywordClass("ComputeOptions",
-                   "Options of the computation. None, as well as leaving an option out, is its default.",
+      keywordClass("ComputeOptions", "Options of the computation. None stands for the default of an option.",
                    computationRows(), &computation) +
       keywordClass("SessionOptions", "Options of a session.", sessionRows(), &session);
   return std::ofstream(argv[1]) << text << std::flush ? 0 : 1;

@@ -4,7 +4,7 @@
     values = asdf_vk.shape_diameter(vertices, faces)    # float32 (m,), in the unit of the mesh, NaN = no value
     labels = asdf_vk.segment(vertices, faces)           # int32 (m,)
 
-`vertices` is (n, 3) float, `faces` (m, 3) int; an object with both (trimesh.Trimesh) serves as well.
+`vertices` is (n, 3) float, `faces` (m, 3) int. Instead of both, pass an object that has them (trimesh.Trimesh).
 """
 
 from __future__ import annotations
@@ -55,6 +55,6 @@ __all__ = [
     "write_points",
 ]
 
-for _name in __all__:  # In tracebacks and in help(): the module that users import.
+for _name in __all__:  # Tracebacks and help() name the module that users import.
     if callable(globals()[_name]):
         globals()[_name].__module__ = __name__

@@ -1,4 +1,4 @@
-"""Arrays of the caller as the library needs them: checked, and copied only where type or layout differ."""
+"""Checks arrays of the caller, and copies them only where the library needs another type or layout."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import _core
 from ._errors import error_of
 
-# A mesh for the extension: its own Mesh, or vertices and faces.
+# A mesh as the extension takes it: its class Mesh, or vertices and faces.
 MeshArgument = Union["_core.Mesh", "tuple[NDArray[Any], NDArray[np.uint32]]"]
 
 _MAX_ROW_COUNT = 2**32 - 1  # Indices have 32 bits.
@@ -41,7 +41,7 @@ def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
 def polygon_arrays(
     vertices: Any, corners: Any, first_corner: Any
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32], NDArray[np.uint32]]:
-    """Arguments of mesh_of_polygons(), checked."""
+    """Returns the checked arguments of mesh_of_polygons()."""
     points = _native(points_array(vertices, "vertices"), np.float64, "vertices")
     arrays = []
     for value, name, allowed in ((corners, "corners", len(points) - 1), (first_corner, "first_corner", np.size(corners))):
@@ -60,18 +60,18 @@ def polygon_arrays(
 
 
 def points_array(value: Any, name: str) -> NDArray[Any]:
-    """(n, 3) float32 or float64, C-contiguous; other real numbers become float64. Not checked for NaN."""
+    """Returns (n, 3), C-contiguous: float32 for float16 and float32, otherwise float64. NaN is allowed."""
     array = _rows(as_array(value, name, "fiu", "real numbers"), name)
     return _native(array, np.float32 if array.dtype in (np.float32, np.float16) else np.float64, name)
 
 
 def float_points(value: Any, name: str = "points") -> NDArray[np.float64]:
-    """(n, 3) float64, C-contiguous."""
+    """Returns (n, 3) float64, C-contiguous."""
     return _native(points_array(value, name), np.float64, name)
 
 
 def pairs_array(points: Any, normals: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Points and normals, both (k, 3) float64."""
+    """Returns points and normals, both (k, 3) float64."""
     pair = float_points(points), float_points(normals, "normals")
     if len(pair[0]) != len(pair[1]):
         raise error_of("arraySize", f"there are {len(pair[0])} points and {len(pair[1])} normals")
@@ -79,7 +79,7 @@ def pairs_array(points: Any, normals: Any) -> tuple[NDArray[np.float64], NDArray
 
 
 def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
-    """(count,) float64."""
+    """Returns (count,) float64."""
     array = as_array(value, name, "fiu", "real numbers")
     if array.shape != (count,):
         raise error_of("arraySize", f"{name} has the shape {array.shape}, not ({count},)")
@@ -87,7 +87,7 @@ def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
 
 
 def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
-    """A mask of faces: (count,) bool, or indices of faces."""
+    """Returns a mask of faces, (count,) uint8. value: a mask, (count,) bool, or indices of faces."""
     array = as_array(value, "faces", "bfiu", "bool (a mask) or indices of faces")
     if array.size == 0:
         array = np.zeros(0, np.int64)
@@ -107,12 +107,12 @@ def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
     mask = np.zeros(count, np.uint8)
     mask[array] = 1
     if mask.sum() != array.size:
-        raise error_of("optionConflict", f"faces has {array.size} integers with repeats; a mask has the type bool")
+        raise error_of("optionConflict", f"faces has {array.size} integers, some repeated; a mask has the type bool")
     return mask
 
 
 def field_array(value: Any, name: str) -> NDArray[Any]:
-    """An array to write: bool and uint8 as uint8, other integers as uint32 (-1 as 0xffffffff), reals as float64."""
+    """Returns an array: bool and uint8 as uint8, other integers as uint32 (-1: 2**32 - 1), real numbers as float64."""
     array = as_array(value, f"field {name}", "bfiu", "numbers")
     if array.ndim not in (1, 2):
         raise error_of("arraySize", f"field {name} has the shape {array.shape}, not (items,) or (items, components)")
@@ -140,7 +140,7 @@ def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
     if np.ma.isMaskedArray(value) and np.ma.getmaskarray(value).any():
         raise error_of("arrayType", f"{name} is a masked array with masked entries; fill or remove them")
     if array.dtype.kind not in kinds:
-        if array.size == 0:  # Of any type: [] is an array of float64.
+        if array.size == 0:  # An empty array may have any type: [] is an array of float64.
             return np.zeros(array.shape, np.uint8)
         if array.ndim == 0 and array.dtype == object:
             raise error_of("arrayType", f"{name} is an object of type {type(value).__name__}, not an array of {wanted}")
@@ -149,7 +149,7 @@ def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
 
 
 def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
-    """(n, 3); (0, 3) also for []."""
+    """Returns (n, 3); (0, 3) also for []."""
     if array.shape == (0,):
         return array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -160,7 +160,7 @@ def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
-    """The array itself where its type, byte order, alignment and layout fit, else a copy."""
+    """Returns the array itself where its type, byte order, alignment and layout fit, otherwise a copy."""
     try:
         with np.errstate(over="ignore"):
             return np.require(array, dtype, ["C_CONTIGUOUS", "ALIGNED"])
@@ -188,7 +188,7 @@ def _indices(value: Any, vertex_count: int) -> NDArray[np.uint32]:
 
 
 def _require_finite(vertices: NDArray[Any], faces: NDArray[np.uint32]) -> None:
-    """Vertices of no face may have any coordinates."""
+    """Raises InputError for a face with a non-finite vertex. Vertices without a face may be non-finite."""
     if np.isfinite(vertices).all():
         return
     wrong = ~np.isfinite(vertices).all(axis=1)

@@ -1,4 +1,4 @@
-"""One computation, for the free functions and for Scene."""
+"""Runs one computation, for the free functions and for Scene."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from . import _core
 from ._errors import MeshWarning, error_of
 from ._options import Progress, checked_progress
 
-_STACK_LEVEL = 4  # The caller of the public function.
+_STACK_LEVEL = 4  # Warnings name the line that calls the public function.
 
 
 def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
-    """Removes `progress` from the options and returns it. Only the names of `allowed` may be left."""
+    """Removes `progress` from the options and returns it. Raises UsageError for a name that is not in `allowed`."""
     progress = checked_progress(options.pop("progress", None))
     for name in options:
         if name not in allowed:
@@ -27,7 +27,7 @@ def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progres
 
 
 def method_of(method: Any) -> str:
-    """The value of the option `segment`."""
+    """Returns the value of the option `segment` for a method."""
     if method is not None and (not isinstance(method, str) or method not in ("parts", "cgal")):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
     return method or "parts"
@@ -54,12 +54,12 @@ def computed(
 
 
 def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) -> NDArray[Any]:
-    """The field per face, or with per="vertex" per vertex."""
+    """Returns the field per face; per vertex if the options have per="vertex"."""
     return result.array(name, options.get("per") == "vertex")
 
 
 def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
-    """The options, which measure the shape diameter too."""
+    """Returns the options, with measure="both" where only the thickness would be measured."""
     measure = options.get("measure")
     has_limit = measure is None and options.get("thinner_than") is not None
     is_thickness = isinstance(measure, str) and measure == "thickness"

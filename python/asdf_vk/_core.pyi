@@ -18,5 +18,5 @@ class Mesh:
     @property
     def unit(self) -> str: ...
 
-# The rest is used by this package only.
+# Only this package uses the other names.
 def __getattr__(name: str) -> Any: ...

@@ -36,13 +36,13 @@ class ArrayTypeError(InputError, TypeError):
 
 
 class DeviceError(Error, RuntimeError):
-    """No usable device, or the device was lost or is too small."""
+    """There is no usable device, or the device was lost or is too small."""
 
 
 class OutputError(Error, OSError):
     """A result cannot be written."""
 
-    def __str__(self) -> str:  # OSError would print its number.
+    def __str__(self) -> str:  # OSError would print an error number.
         return str(self.args[0])
 
 
@@ -51,7 +51,7 @@ class CancelledError(Error):
 
 
 class MeshWarning(UserWarning):
-    """A property of the mesh or of its values that results may depend on.
+    """Warns of a property of the mesh or of its values that may affect the results.
 
     code: name of the warning in the library, for example "missingValues".
     """
@@ -74,7 +74,7 @@ _CLASS_OF_KIND: dict[str, type[Error]] = {
 
 
 def error_of(code: str, message: str, details: dict[str, str] | None = None) -> Error:
-    """The exception for an error code of the library, with a message of one line: a repr() in it may have more."""
+    """Returns the exception for an error code. Joins the lines of the message: a repr() in it may have several."""
     message = " ".join(line.strip() for line in message.splitlines())
     if code == "arrayType":
         return ArrayTypeError(message, code, details)

@@ -18,23 +18,23 @@ Mesh = _core.Mesh
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Reads PLY, OFF, OBJ, STL, GLB, glTF or 3MF. All faces, in file order.
+    """Reads a PLY, OFF, OBJ, STL, GLB, glTF or 3MF file. Keeps all faces, in file order.
 
-    The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. Of a file with other
-    faces than triangles, `faces` is a triangulation, `face_of_triangle` (m,) the face of the file of each triangle,
-    and functions return a value per face of the file (`face_count`). Raises InputError.
+    The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. If the file has faces
+    that are not triangles, `faces` is their triangulation, and `face_of_triangle` (m,) has the face of the file for
+    each triangle. Functions then return a value per face of the file, `face_count` in all. Raises InputError.
     """
     return _core.read_mesh(_path(path))
 
 
 def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: ArrayLike) -> Mesh:
-    """A Mesh of faces with any number of corners, for example of Blender or VTK.
+    """Makes a Mesh of faces with any number of corners, for example from Blender or VTK.
 
-    vertices: (n, 3). corners: (k,) indices of vertices, those of a face counter-clockwise seen from outside.
+    vertices: (n, 3). corners: (k,) indices of vertices; a face has its corners counter-clockwise seen from outside.
     first_corner: (m + 1,), ascending from 0 to k: face i has the corners corners[first_corner[i]:first_corner[i + 1]].
 
-    Functions return a value per face: of several triangles the least thickness, or the mean by area. Arrays are copied.
-    Raises InputError.
+    Functions return a value per face. A face of several triangles has the least of their thicknesses; other values are
+    means weighted by area. Arrays are copied. Raises InputError.
     """
     return _core.mesh_of_polygons(*polygon_arrays(vertices, corners, first_corner))
 
@@ -53,13 +53,13 @@ def write(
     """Writes results: data in .ply, .vtu, .glb, .obj, .npy, .npz, .csv, a page in .html, or a picture in .png.
 
     mesh: a Mesh, an object with `vertices` and `faces`, or a tuple of these two arrays.
-    fields: a result of compute(), or arrays by name, per face: (items,) or (items, 3). The first field of real
-        numbers is the quality and the colour of a .ply.
-    further: more of them: a page shows several results of one mesh; the other formats hold one.
-    vertex_fields: arrays by name, per vertex; of an Info its own.
-    format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png"; empty: by the extension.
-    labels: of a page, the names of its results; by default their numbers.
-    picture_of: the field that a picture shows; empty: the segments, else the first field.
+    fields: a result of compute(), or a mapping from names to arrays per face, (items,) or (items, 3). The first field
+        of real numbers is the quality of a .ply; without segments it also gives the colours.
+    further: further results of the same mesh, for a page. The other formats hold one result.
+    vertex_fields: a mapping from names to arrays per vertex; None: the vertex fields of `fields` if it is an Info.
+    format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png"; empty: the extension decides.
+    labels: names of the results on a page; by default the name of the file, with a number if there are several.
+    picture_of: the field that a picture shows; empty: the segments, otherwise the first field.
 
     The file is replaced atomically. Raises OutputError, InputError, UsageError.
     """
@@ -124,7 +124,7 @@ def write_points(
     components: (k,) integers: each component is a tree of .swc, as by info.fields["component"] of
         compute(centres=True); None: one tree.
 
-    A tree is the minimum spanning tree of its points, and its root the one with the greatest radius.
+    A tree is the minimum spanning tree of its points. Its root is the point with the greatest radius.
     Raises OutputError, InputError, UsageError.
     """
     target = _path(path)
@@ -144,7 +144,7 @@ def _arrays_of(fields: Mapping[str, ArrayLike] | Info | None) -> dict[str, NDArr
     if isinstance(fields, Info):
         fields = fields.fields
     if not hasattr(fields, "items"):
-        raise error_of("optionOutOfRange", f"fields of type {type(fields).__name__} are no mapping of names to arrays")
+        raise error_of("optionOutOfRange", f"fields of type {type(fields).__name__} do not map names to arrays")
     arrays = {}
     for name, array in fields.items():
         if not isinstance(name, str) or not name.isprintable():

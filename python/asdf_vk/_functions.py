@@ -20,23 +20,23 @@ if TYPE_CHECKING:
 
 
 def _computed(vertices: Any, faces: Any, options: dict[str, Any], **implied: Any) -> _core.ComputedFields:
-    """Removes the options of the backend from `options`."""
+    """Computes on the session of the backend options, and removes these options."""
     session = session_of(options)
     mesh = mesh_argument(vertices, faces)
     return computed(lambda own, progress: session._opened.compute(mesh, own, progress), options, implied)
 
 
 def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]) -> Info:
-    """Everything that the options name, in one computation: fields and report.
+    """Computes everything that the options name in one pass: fields and report.
 
     vertices: (n, 3) float32 or float64, or an object with `vertices` and `faces` (Mesh, trimesh.Trimesh).
     faces: (m, 3) int32, uint32 or int64 indices, counter-clockwise seen from outside. Other integer types are
         converted. float64 and 32-bit integers are used in place.
     options: measure="thickness" or "both", segment="parts" or "cgal", centres=True and per="vertex" add fields;
-        docs/python.md explains all.
+        docs/python.md explains all options.
 
-    Returns the report with all fields by name: info.fields["sdf"]. Raises InputError, UsageError, DeviceError,
-    CancelledError. Issues MeshWarning.
+    Returns the report with all fields by name, for example info.fields["sdf"]. Raises InputError, UsageError,
+    DeviceError, CancelledError. Issues MeshWarning.
     """
     return info_of(_computed(vertices, faces, dict(options)))
 
@@ -48,7 +48,7 @@ def shape_diameter(
 
     vertices, faces: as for compute(), which also returns the report.
     options: seeds (faces that cast rays: 0.1, 5000, "10%", "all" or "auto"), rays, cone_angle, recipe, max_error, orient,
-        backend, threads, progress, ... (docs/python.md). per="vertex": the means over the faces of each vertex.
+        backend, threads, progress, ... (docs/python.md). per="vertex": the mean over the faces of each vertex.
 
     Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value. Raises and warns as compute().
     """
@@ -61,13 +61,13 @@ def thickness(
 ) -> NDArray[np.float32]:
     """Wall thickness: diameter of the largest ball that touches a face from inside, clear of opposing walls.
 
-    vertices, faces: as for compute(). All faces are measured, whatever `seeds` is. Options of its own:
-    thinner_than: judge whether any point of the surface is thinner than this (unit of the mesh), and list the thin
-        regions; compute(..., measure="thickness", thinner_than=X).thickness has the verdict and the regions.
+    vertices, faces: as for compute(). All faces are measured; `seeds` has no effect. Further options:
+    thinner_than: judge whether any point of the surface is thinner than this length (unit of the mesh), and find the
+        thin regions. compute(..., measure="thickness", thinner_than=X).thickness has the verdict and the regions.
     allow_sharp_edges: leave thin regions with a sharp edge or tip out of the verdict. Needs thinner_than.
 
-    Returns float32 (m,) or (n,), at the barycentres, in the unit of the mesh, NaN = no value. Raises and warns as
-    compute().
+    Returns float32 (m,) at the barycentres, or (n,) with per="vertex", in the unit of the mesh, NaN = no value. Raises
+    and warns as compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, given, measure="thickness"), "thickness", given)
@@ -83,9 +83,11 @@ def segment(
     """Segments of the surface: parts by shape diameter and line of sight, or CGAL's segmentation.
 
     vertices, faces: as for compute().
-    method="parts": parts: that many, 1 to 100; None finds the number. detail: 0.1 to 10, more means more parts.
-    method="cgal": clusters of values, 2 to 100, default 5; smoothness, default 0.26; expansion of "all" clusters,
-        or of the "first" as CGAL 5.5.1. CGAL's values need definition="cgal" too; see asdf_vk.compat.cgal.
+    method="parts" has the options parts (number of parts, 1 to 100; None: automatic) and detail (0.1 to 10; greater
+        values give more parts).
+    method="cgal" has the options clusters (of values, 2 to 100, default 5), smoothness (default 0.26) and expansion
+        ("all" clusters, or only the "first" as in CGAL 5.5.1). Segments of CGAL's values need definition="cgal" too;
+        see asdf_vk.compat.cgal.
 
     Returns int32 (m,) or (n,), labels 0 to k - 1 ascending by mean value, -1 for a face without a triangle. Raises
     and warns as compute().
@@ -101,8 +103,8 @@ def skeleton_points(
 
     vertices, faces, options: as for shape_diameter().
 
-    Returns points, float64 (m, 3), and radii, float32 (m,), half of the shape diameters, both NaN where a face
-    has no value. Raises and warns as compute().
+    Returns points, float64 (m, 3), and radii, float32 (m,), half of the shape diameters. Both are NaN
+    where a face has no value. Raises and warns as compute().
     """
     given = dict(options)
     return skeleton_of(_computed(vertices, faces, given, centres=True), given)
@@ -117,14 +119,14 @@ def radii(
     progress: Progress | None = None,
     **options: Unpack[BackendOptions],
 ) -> NDArray[np.float64]:
-    """Radius of the largest ball around each point inside of the shape, as of the nodes of a skeleton.
+    """Radius of the largest ball in the shape that is centred at each point, for example at nodes of a skeleton.
 
     vertices, faces: as for shape_diameter(); faces is None where `vertices` is an object with both.
-    points: (k, 3). orient: inverted closed components, as for asdf_vk.Scene, which saves time for several calls.
+    points: (k, 3). orient: as for asdf_vk.Scene. Scene.radii() saves time for several calls.
     options: session, or backend, device, require_gpu and threads.
 
-    Returns float64 (k,), in the unit of the mesh: the distance to the surface behind the nearest face, NaN in front of
-    it or outside of the bounding box. Surfaces inside of the shape, as of parts that overlap, stop the ball too.
+    Returns float64 (k,), in the unit of the mesh: the distance to the nearest face. NaN for a point in front of this
+    face or outside of the bounding box. Surfaces inside of the shape, as where parts overlap, stop the ball too.
     Raises InputError, UsageError, DeviceError, CancelledError.
     """
     with Scene(vertices, faces, orient=orient, **options) as scene:

@@ -15,14 +15,14 @@ from ._shown import table_of
 
 @dataclass(frozen=True, eq=False)
 class Info(Report):
-    """Report of a computation, and its fields."""
+    """Report and fields of a computation."""
 
     fields: dict[str, NDArray[Any]] = field(repr=False)
-    """Per face: "sdf" float32, "seed" uint8 (1 where rays were cast), "error" float32 (expected error), ..."""
+    """Fields per face: "sdf" float32, "seed" uint8 (1 where rays were cast), "error" float32 (expected error), ..."""
     vertex_fields: dict[str, NDArray[Any]] = field(repr=False)
-    """Per vertex, with per="vertex"."""
+    """Fields per vertex, with per="vertex"."""
     reversed_faces: NDArray[np.int64] = field(repr=False)
-    """Faces whose orientation was reversed, ascending."""
+    """Indices of the faces whose orientation was reversed, ascending."""
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
@@ -40,7 +40,7 @@ class Info(Report):
 
 
 def info_of(computed: _core.ComputedFields) -> Info:
-    """Makes all arrays."""
+    """Returns the report with the arrays of all fields."""
 
     def arrays(per_vertex: bool) -> dict[str, NDArray[Any]]:
         return {name: computed.array(name, per_vertex) for name in computed.names(per_vertex)}

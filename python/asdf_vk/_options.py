@@ -14,14 +14,14 @@ Progress = Callable[[float, str], Optional[bool]]
 
 
 def checked_progress(progress: Any) -> Progress | None:
-    """The callback, or None."""
+    """Returns the callback or None. Raises UsageError for any other value."""
     if progress is not None and not callable(progress):
         raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
     return progress
 
 
 class ConeOptions(TypedDict, total=False):
-    """Options of Scene.at(): those of the cone of rays, as in ComputeOptions."""
+    """Options of the cone of rays for Scene.at(), as in ComputeOptions."""
 
     definition: Literal["paper", "cgal"] | None
     rays: int | None
@@ -47,7 +47,7 @@ class SceneOptions(ComputeOptions, CallOptions, total=False):
 
 
 class BackendOptions(SessionOptions, total=False):
-    """The backend of a call: a session, or that of the free functions for these options. None is the default."""
+    """The backend of a call: `session`, or the session that the free functions keep for the other options."""
 
     session: Session | None
 

@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
 
 class Scene:
-    """A mesh prepared once for many queries: geometry and hierarchy, and the tracers on the device of a session.
+    """A mesh prepared once for many queries: geometry, bounding volume hierarchy, and tracers of a session.
 
     vertices, faces: as for shape_diameter(). Arrays are copied.
-    orient: inverted closed components: "keep", "auto" (reverse them) or "flip" (reverse all faces).
+    orient: "keep", "auto" (reverse inverted closed components) or "flip" (reverse all faces).
     options: session, or backend, device, require_gpu and threads.
 
     `faces=` of the methods is a region: a mask, (m,) bool, or indices of faces. Rays are cast by faces of the region
     only and hit the whole mesh; the other faces have no value.
-    Any number of threads may use it; one computation of a session runs at a time.
+    Any number of threads may use a scene; one computation of a session runs at a time.
     """
 
     def __init__(
@@ -44,13 +44,13 @@ class Scene:
         session = session_of(settings)
         split_progress(settings, ())
         mesh = mesh_argument(vertices, faces)
-        if isinstance(mesh, tuple):  # The scene outlives the call, in which the caller may change the arrays.
+        if isinstance(mesh, tuple):  # The scene outlives the call; the caller may change the arrays then.
             mesh = mesh[0].copy(), mesh[1].copy()
         self._open: _core.Scene | None = _core.Scene(
             session._opened, mesh, {"orient": orient}, checked_progress(progress)
         )
         self.face_count: int = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
-        """Faces of the mesh: functions return a value for each."""
+        """Number of faces. Functions return a value for each face."""
 
     def close(self) -> None:
         """Releases the memory of the scene."""
@@ -72,13 +72,13 @@ class Scene:
         return self._open
 
     def at(self, points: ArrayLike, normals: ArrayLike, **options: Unpack[PointOptions]) -> NDArray[np.float32]:
-        """Shape diameter at points: a cone of rays around minus the normal.
+        """Shape diameter at points, by a cone of rays around the reversed normal.
 
         points: (k, 3), on the surface or inside. normals: (k, 3), outwards, of any length above 0.
         options: definition, rays, cone_angle, false_hit_angle, outlier_deviations, cone_rotation, progress.
 
-        Returns float32 (k,), in the unit of the mesh, NaN = no value. A point starts 1e-5 of the diagonal of the
-        bounding box inside, so that it does not hit the surface that it lies on.
+        Returns float32 (k,), in the unit of the mesh, NaN = no value. Rays start inside of the
+        point by 1e-5 of the diagonal of the bounding box, so that they do not hit the surface at the point.
         """
         settings: dict[str, Any] = dict(options)
         progress = split_progress(settings, ConeOptions.__annotations__)
@@ -93,7 +93,7 @@ class Scene:
         return self._opened.distance(float_points(points), False, checked_progress(progress))
 
     def radii(self, points: ArrayLike, *, progress: Progress | None = None) -> NDArray[np.float64]:
-        """Radius of the largest ball around each point inside of the shape; as asdf_vk.radii()."""
+        """Radius of the largest ball in the shape that is centred at each point. Like asdf_vk.radii()."""
         return self._opened.distance(float_points(points), True, checked_progress(progress))
 
     def _computed(self, faces: ArrayLike | None, options: dict[str, Any], **implied: Any) -> _core.ComputedFields:
@@ -102,31 +102,31 @@ class Scene:
         return computed(lambda own, progress: scene.compute(own, mask, progress), options, implied)
 
     def compute(self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]) -> Info:
-        """As asdf_vk.compute(), of the whole mesh or of a region (faces)."""
+        """Like asdf_vk.compute(), for the whole mesh or for a region (faces)."""
         return info_of(self._computed(faces, dict(options)))
 
     def shape_diameter(
         self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]
     ) -> NDArray[np.float32]:
-        """As asdf_vk.shape_diameter(), of the whole mesh or of a region (faces)."""
+        """Like asdf_vk.shape_diameter(), for the whole mesh or for a region (faces)."""
         given = dict(options)
         return values_of(self._computed(faces, with_diameter(given)), "sdf", given)
 
     def thickness(self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]) -> NDArray[np.float32]:
-        """As asdf_vk.thickness(), of the whole mesh or of a region (faces)."""
+        """Like asdf_vk.thickness(), for the whole mesh or for a region (faces)."""
         given = dict(options)
         return values_of(self._computed(faces, given, measure="thickness"), "thickness", given)
 
     def segment(
         self, *, method: Literal["parts", "cgal"] | None = "parts", **options: Unpack[SceneOptions]
     ) -> NDArray[np.int32]:
-        """As asdf_vk.segment(), of the whole mesh."""
+        """Like asdf_vk.segment(), for the whole mesh."""
         given = dict(options)
         return values_of(self._computed(None, given, segment=method_of(method)), "segment", given)
 
     def skeleton_points(
         self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]
     ) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-        """As asdf_vk.skeleton_points(), of the whole mesh or of a region (faces)."""
+        """Like asdf_vk.skeleton_points(), for the whole mesh or for a region (faces)."""
         given = dict(options)
         return skeleton_of(self._computed(faces, given, centres=True), given)

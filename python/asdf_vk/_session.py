@@ -23,11 +23,11 @@ class Device:
     kind: str
     usable: bool
     reason: str
-    """"chosen" by default, or the reason why it is ranked lower or rejected."""
+    """Reason "chosen" for the default device; for others, why they are ranked lower or rejected."""
 
 
 def devices() -> list[Device]:
-    """Every Vulkan device of this machine. Empty without a Vulkan loader."""
+    """Returns the Vulkan devices of this machine; an empty list without a Vulkan loader."""
     return [Device(**device) for device in _core.devices()]
 
 
@@ -35,12 +35,12 @@ class Session:
     """A device with its pipelines, kept for any number of meshes.
 
     backend: "auto" (Vulkan, else the CPU), "vulkan", "cpu" (single precision) or "reference" (double precision).
-    device: Vulkan device, an index or a part of a name; empty: the highest rank.
-    require_gpu: fail where the CPU would trace.
-    threads: CPU threads; 0: the number of cores. Results do not depend on it.
-    None is the default of each.
+    device: a Vulkan device, by index or by a part of its name; empty: the device of the highest rank.
+    require_gpu: raise DeviceError where the CPU would trace.
+    threads: number of CPU threads; 0: the number of cores. Results do not depend on the number.
+    None stands for the default of an option.
 
-    Any number of threads may use it; one computation runs at a time. Raises DeviceError.
+    Any number of threads may use a session; one computation runs at a time. Raises DeviceError.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class Session:
 
     @property
     def device_lines(self) -> list[str]:
-        """The chosen device and the reason; then a line per device that was not chosen."""
+        """First line: the chosen device and the reason. Then one line per device that was not chosen."""
         return self._opened.device_lines
 
     @property
@@ -93,14 +93,14 @@ class Session:
 
 
 def flag_of(value: Any, name: str) -> bool:
-    """Checks a flag; None: False."""
+    """Returns a flag; False for None. Raises UsageError for other types."""
     if value is not None and not isinstance(value, (bool, np.bool_)):
         raise error_of("optionOutOfRange", f"{name}={value!r} is not True or False")
     return bool(value)
 
 
 def thread_count(threads: Any) -> int:
-    """Checks a number of CPU threads; 0, as well as None: the number of cores."""
+    """Returns a checked number of CPU threads; 0 and None mean the number of cores."""
     return _core.session_key({"threads": threads})[3]
 
 
@@ -109,7 +109,7 @@ _default_sessions_lock = threading.Lock()
 
 
 def _renew_lock() -> None:
-    """In a forked process, where the thread that holds the lock does not exist."""
+    """Replaces the lock in a forked process, where the thread that holds it does not exist."""
     global _default_sessions_lock
     _default_sessions_lock = threading.Lock()
 
@@ -139,7 +139,7 @@ _BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
 
 
 def session_of(options: dict[str, Any]) -> Session:
-    """The session that `options` name or describe; removes these options."""
+    """Returns the session that `options` name or describe, and removes these options."""
     session = options.pop("session", None)
     given = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
     described = {name: value for name, value in given.items() if value is not None}

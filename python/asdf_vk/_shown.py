@@ -1,4 +1,4 @@
-"""What pages, and reports in a notebook, say about a result."""
+"""Texts about a result, for pages and for reports in a notebook."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def summary_of(report: Report) -> list[tuple[str, str]]:
-    """Titles and values of the rows of a table."""
+    """Returns the title and the value of each row of a table."""
     counts = {"faces": report.face_count, "vertices": report.vertex_count, "components": report.component_count}
     rows = [("Mesh", ", ".join(f"{name}: {count:,}" for name, count in counts.items()))]
     for title, values in (("Diameter", report.sdf), ("Thickness", report.thickness)):
@@ -36,7 +36,7 @@ def table_of(report: Report) -> str:
 
 
 def texts_of(report: Report | None, name: str, label: str, face_count: int) -> dict[str, object]:
-    """The texts of a layer of a page; report: of the result, where it has one."""
+    """Returns the texts of a layer of a page. report: the report of the result, if it has one."""
     summary, sentence = [("Mesh", f"faces: {face_count:,}")], ""
     warnings: list[str] = []
     defects: list[str] = []

@@ -3,9 +3,9 @@
 Install: Edit, Preferences, Add-ons, Install, this file; then the sidebar of the 3D view (N) has a tab "asdf-vk". In a
 script: `bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.8)`.
 
-Results are on the mesh: attributes of the domain FACE (sdf, thickness, least_thickness, segment), the colour attribute
-"asdf-vk", thin faces as the selection, and a material per part. Lengths are those of the world, scale included, in
-units of Blender. Modifiers are not applied.
+Results are stored on the mesh: attributes of the domain FACE (sdf, thickness, least_thickness, segment), the colour
+attribute "asdf-vk", and a material per part. Thin faces are selected. Lengths are measured in the world, scale
+included, in units of Blender. Modifiers are not applied.
 """
 
 import sys
@@ -35,14 +35,14 @@ VIRIDIS = np.array(  # sRGB at 0, 1/4, ... 1.
 )
 GREY, RED = (0.5, 0.5, 0.5), (0.85, 0.1, 0.1)
 MEASURES = (
-    ("DIAMETER", "Shape Diameter", "How thick the shape is behind each face: the mean of many rays"),
+    ("DIAMETER", "Shape Diameter", "How thick the shape is behind each face: the mean length of many rays"),
     ("THICKNESS", "Wall Thickness", "Thickness of the wall at each face; faces below the limit are selected"),
-    ("PARTS", "Parts", "The parts of the shape, with a material each"),
+    ("PARTS", "Parts", "The parts of the shape, each with a material"),
 )
 
 
 def module():
-    """The Python package asdf_vk. Raises ImportError with what to do."""
+    """Imports the Python package asdf_vk. Raises ImportError with a remedy."""
     addon = bpy.context.preferences.addons.get(__name__)
     if addon and addon.preferences.folder:
         folder = str(Path(bpy.path.abspath(addon.preferences.folder)).expanduser())
@@ -60,7 +60,7 @@ def module():
 
 
 def mesh_of(asdf_vk, obj):
-    """The faces of the object in the world, as the package needs them, and whether their orientation is reversed."""
+    """Returns the faces of the object in the world as a Mesh of asdf_vk, and whether their orientation is reversed."""
     mesh = obj.data
     if not mesh.polygons:
         raise ValueError(f"{obj.name} has no faces")
@@ -79,7 +79,7 @@ def mesh_of(asdf_vk, obj):
 
 
 class Computation(threading.Thread):
-    """asdf_vk.compute() in a thread of its own; progress() and cancel() are for the main thread."""
+    """asdf_vk.compute() in a thread of its own. The main thread reads `fraction` and sets `is_cancelled`."""
 
     def __init__(self, asdf_vk, mesh, options) -> None:
         super().__init__(daemon=True)
@@ -89,9 +89,9 @@ class Computation(threading.Thread):
     def run(self) -> None:
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # The operator shows them.
+                warnings.simplefilter("ignore")  # The operator shows the warnings.
                 self.info = self.asdf_vk.compute(self.mesh, progress=self.report, **self.options)
-        except Exception as error:  # Shown by the operator.
+        except Exception as error:  # The operator shows the error.
             self.error = error
 
     def report(self, fraction: float, stage: str) -> bool:
@@ -100,12 +100,12 @@ class Computation(threading.Thread):
 
 
 def linear(colours):
-    """Of sRGB."""
+    """Converts sRGB to linear colours."""
     return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
 
 
 def colours_of(values, limit: float):
-    """Viridis from the 1st to the 99th percentile; red below the limit; grey without a value."""
+    """Linear colours: viridis from the 1st to the 99th percentile, red below the limit, grey without a value."""
     colours = np.tile(GREY, (len(values), 1))
     has_value = np.isfinite(values)
     if has_value.any():
@@ -118,14 +118,14 @@ def colours_of(values, limit: float):
 
 
 def colour_of_part(part: int):
-    """Hues a golden angle apart, linear."""
+    """Linear colour of a part. Hues of successive parts are a golden angle apart."""
     hue = (0.05 + part * 0.381966) % 1 * 6
     channels = [0.25 + 0.65 * min(max(abs((hue + shift) % 6 - 3) - 1, 0), 1) for shift in (0, 4, 2)]
     return linear(np.array(channels))
 
 
 def set_attribute(mesh, name: str, values) -> None:
-    """A FACE attribute of numbers, which replaces one of the same name."""
+    """Adds a FACE attribute of numbers. Replaces an attribute of the same name."""
     if name in mesh.attributes:
         mesh.attributes.remove(mesh.attributes[name])
     is_real = values.dtype.kind == "f"
@@ -134,7 +134,7 @@ def set_attribute(mesh, name: str, values) -> None:
 
 
 def set_colours(mesh, colours) -> None:
-    """The same colour at all corners of a face."""
+    """Adds the colour attribute, with the same colour at all corners of a face."""
     if COLOURS in mesh.color_attributes:
         mesh.color_attributes.remove(mesh.color_attributes[COLOURS])
     attribute = mesh.color_attributes.new(COLOURS, "BYTE_COLOR", "CORNER")
@@ -161,7 +161,7 @@ def select_faces(mesh, selected) -> None:
 
 
 def set_materials(mesh, segments) -> None:
-    """A material per part, in place of those of the mesh."""
+    """Replaces the materials of the mesh by a material per part."""
     mesh.materials.clear()
     for part in range(int(segments.max()) + 1):
         name = f"part {part}"
@@ -195,7 +195,7 @@ def main_field(info):
 
 
 def show(context, mesh, info, measure: str, limit: float) -> str:
-    """Puts the result on the mesh, and returns it as a sentence."""
+    """Stores the result on the mesh. Returns a sentence about the result."""
     for name, values in info.fields.items():
         set_attribute(mesh, name, values)
     if measure == "PARTS":
@@ -210,7 +210,7 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
         set_colours(mesh, colours_of(least, lowest))
         text = f"least thickness {length(context, report.min, limit)}"
         if limit > 0:
-            thin = least < lowest  # NaN is not below.
+            thin = least < lowest  # NaN is not below the limit.
             select_faces(mesh, thin)
             context.tool_settings.mesh_select_mode = (False, False, True)
             verdict = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}[report.verdict]
@@ -228,10 +228,10 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
 class Options:
     """Properties of the operator and of the panel."""
 
-    limit: FloatProperty(name="Limit", description="Thinner is thin; 0: no limit", min=0, unit="LENGTH", precision=4)
+    limit: FloatProperty(name="Limit", description="Least allowed thickness; 0: none", min=0, unit="LENGTH", precision=4)
     allow_sharp_edges: BoolProperty(name="Allow sharp edges", description="Thin places at a sharp edge do not count")
-    parts: IntProperty(name="Parts", description="Number of parts; 0: it is found", min=0, max=100)
-    all_faces: BoolProperty(name="Trace all faces", description="Slower, nothing is interpolated")
+    parts: IntProperty(name="Parts", description="Number of parts; 0: automatic", min=0, max=100)
+    all_faces: BoolProperty(name="Trace all faces", description="Slower; no value is interpolated")
 
 
 class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
@@ -247,7 +247,7 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         return context.mode == "OBJECT" and context.object is not None and context.object.type == "MESH"
 
     def start(self, context) -> bool:
-        """Prepares the computation; reports why it cannot."""
+        """Prepares the computation. On failure, reports the reason and returns False."""
         try:
             asdf_vk = module()
             mesh, is_mirrored = mesh_of(asdf_vk, context.object)
@@ -279,7 +279,7 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
                 self.report({"ERROR"}, f"asdf-vk: {error}")
             return {"CANCELLED"}
         if len(main_field(info)) != len(self.object.data.polygons):
-            self.report({"ERROR"}, "asdf-vk: the mesh was changed meanwhile")
+            self.report({"ERROR"}, "asdf-vk: the mesh was changed during the computation")
             return {"CANCELLED"}
         for warning in info.warnings:
             self.report({"WARNING"}, f"asdf-vk: {warning.message}")
@@ -294,7 +294,7 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         return self.finish(context)
 
     def invoke(self, context, event):
-        """Computes in the background; the window stays alive."""
+        """Computes in the background; the window stays responsive."""
         if bpy.app.background:
             return self.execute(context)
         if not self.start(context):
@@ -305,14 +305,14 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):
-        """Blender ends."""
+        """Cancels the computation when Blender ends."""
         self.computation.is_cancelled = True
 
     def modal(self, context, event):
         if event.type == "ESC":
             self.computation.is_cancelled = True
         if event.type in {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "MOUSEMOVE"}:
-            return {"PASS_THROUGH"}  # Turn and zoom.
+            return {"PASS_THROUGH"}  # The user may turn and zoom the view.
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         fraction = self.computation.fraction
@@ -332,7 +332,7 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
 
 
 class Settings(Options, bpy.types.PropertyGroup):
-    """Those of the panel."""
+    """Options of the panel."""
 
 
 class VIEW3D_PT_asdf_vk(bpy.types.Panel):

@@ -1,8 +1,9 @@
 """Macro of FreeCAD 0.20 and later: checks the wall thickness of the selected shape in mm.
 
-Copy this file into the folder of macros (Macro, Macros, User macros location), select a solid or a mesh, and run it. A
-panel takes the limit. The result is a mesh with the colours of its thickness, red where it is thinner than the limit,
-and a group of places: a click on one, in the panel or in the tree, shows it. In a script, also of freecadcmd:
+Copy this file into the folder of macros (Macro, Macros, User macros location), select a solid or a mesh, and run the
+macro. The limit is entered in a panel. The result is a group with a mesh in the colours of its thickness, red where it
+is thinner than the limit, and with the thin places. A click on a place, in the panel or in the tree, shows the place.
+In a script, also with freecadcmd:
 
     import asdf_vk_freecad
     report = asdf_vk_freecad.check(document.Body, 0.8).thickness
@@ -19,8 +20,8 @@ import MeshPart
 import numpy as np
 import Part
 
-PLACE_COUNT = 50  # At most so many places are listed.
-TRIANGLE_COUNT = 40000  # Triangles are divided up to this number, so that colours show where on a plane a wall is thin.
+PLACE_COUNT = 50  # Greatest number of listed places.
+TRIANGLE_COUNT = 40000  # Triangles are divided up to this number, to show where on a plane a wall is thin.
 VIRIDIS = np.array(  # At 0, 1/4, ... 1.
     [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
 )
@@ -29,7 +30,7 @@ VERDICTS = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}
 
 
 def module():
-    """The Python package asdf_vk. Raises ImportError with what to do."""
+    """Imports the Python package asdf_vk. Raises ImportError with a remedy."""
     try:
         import asdf_vk
     except ImportError as error:
@@ -80,7 +81,7 @@ def triangles_of(obj, deviation: float):
 
 
 def divided(vertices, triangles):
-    """Each triangle in four, until edges are below a sixtieth of the size; the surface stays as it is."""
+    """Divides each triangle into four until no edge is longer than 1/60 of the diagonal. The surface is unchanged."""
     longest = np.linalg.norm(np.ptp(vertices, axis=0)) / 60
     while 4 * len(triangles) <= TRIANGLE_COUNT:
         ends = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
@@ -98,7 +99,7 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
     """Checks the walls of an object, and adds the result to its document.
 
     limit: mm. deviation: greatest distance of the triangles from curved faces, mm; a wall between two curved faces can
-    look thinner by twice as much. progress: called with a fraction from 0 to 1 and a text; False cancels.
+    look thinner by twice this length. progress: called with a fraction from 0 to 1 and a text; False cancels.
     Returns the report of asdf_vk.compute(): .thickness.verdict, .thickness.min, .thickness.regions, .fields.
     Raises ImportError, ValueError, asdf_vk.Error; after asdf_vk.CancelledError the document is unchanged.
     """
@@ -138,7 +139,7 @@ def result_of(obj):
 
 
 def add_result(obj, vertices, triangles, info, limit: float) -> None:
-    """Adds a group with the coloured mesh and the places to the document; replaces that of an earlier check."""
+    """Adds a group with the coloured mesh and the places to the document. Replaces the group of an earlier check."""
     document = obj.Document
     old = result_of(obj)
     if old is not None:
@@ -195,7 +196,7 @@ def show_place(place) -> None:
         camera = FreeCADGui.activeDocument().activeView().getCameraNode()
     except (ImportError, RuntimeError):
         return
-    if hasattr(camera, "height"):  # Orthographic: some of the neighbourhood too.
+    if hasattr(camera, "height"):  # An orthographic view also shows some of the neighbourhood.
         result = place.InList[0].Group[0].Mesh.BoundBox
         camera.height.setValue(max(camera.height.getValue(), 0.4 * result.DiagonalLength))
 
@@ -228,7 +229,7 @@ class Panel:
         self.places.currentRowChanged.connect(self.go_to)
 
     def run(self) -> None:
-        """Checks; the dialog with the progress can cancel."""
+        """Checks the object. The progress dialog can cancel."""
         from PySide import QtCore, QtGui
 
         dialog = QtGui.QProgressDialog("Checking walls", "Cancel", 0, 100, self.form)
@@ -269,7 +270,7 @@ class Panel:
 
 
 def show_panel():
-    """What the macro does."""
+    """Opens the panel for the selected object. The macro calls it."""
     import FreeCADGui
 
     selection = FreeCADGui.Selection.getSelection()

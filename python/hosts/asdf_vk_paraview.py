@@ -9,8 +9,8 @@ In ParaView: Tools, Manage Plugins, Load New. In pvpython, pvbatch and the Pytho
 The filters are in the menu Filters, asdf-vk. ParaView 5.11 with Python 3.11, as in Debian 12, loads Python plug-ins
 after this import only, because it imports a function that Python 3.11 removed.
 
-Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has the same as
-functions for scripts of VTK and PyVista.
+Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has
+functions with the same results for scripts of VTK and PyVista.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class SurfaceFilter(VTKPythonAlgorithmBase):
 @smproperty.input(name="Input")
 @smdomain.datatype(dataTypes=["vtkPolyData"], composite_data_supported=False)
 class ShapeDiameter(SurfaceFilter):
-    """Cell arrays: sdf, and seed: 1 where rays were cast."""
+    """Cell arrays: sdf, and seed, which is 1 where rays were cast."""
 
     @smproperty.intvector(name="TraceAllFaces", label="Trace All Faces", default_values=0)
     @smdomain.xml(YES_OR_NO)
@@ -89,9 +89,9 @@ class ShapeDiameter(SurfaceFilter):
 @smproperty.input(name="Input")
 @smdomain.datatype(dataTypes=["vtkPolyData"], composite_data_supported=False)
 class WallThickness(SurfaceFilter):
-    """Cell arrays: thickness at the barycentre, least_thickness over all points of the cell, and with a limit thin: 1
-    where the latter is below it. Field data with a limit: verdict, and least_thickness_of_part. Lengths have the unit
-    of the points.
+    """Cell arrays: thickness at the barycentre, and least_thickness over all points of the cell. With a limit also the
+    cell array thin, which is 1 where least_thickness is below the limit, and the field data verdict and
+    least_thickness_of_part. Lengths have the unit of the points.
     """
 
     def __init__(self) -> None:
@@ -127,7 +127,7 @@ class WallThickness(SurfaceFilter):
 @smproperty.input(name="Input")
 @smdomain.datatype(dataTypes=["vtkPolyData"], composite_data_supported=False)
 class ShapeParts(SurfaceFilter):
-    """Cell arrays: segment, the number of the part from 0; sdf and seed."""
+    """Cell arrays: segment (number of the part, from 0), sdf and seed."""
 
     def __init__(self) -> None:
         super().__init__(segment="parts")

@@ -20,11 +20,11 @@ namespace asdfvk::python {
 template <typename T>
 [[nodiscard]] std::span<const T> entriesOf(const pybind11::array& array);
 
-/// A view of a Mesh, or of a tuple of vertices (#V x 3 double or float) and faces (#F x 3 uint32), which must outlive
-/// it. Throws Error{ArrayType} for anything else.
+/// A view of a Mesh, or of a tuple of vertices (#V x 3 double or float) and faces (#F x 3 uint32). The object must
+/// outlive the view. Throws Error{ArrayType} for anything else.
 [[nodiscard]] MeshView viewOf(const pybind11::object& mesh);
 
-/// An array that views `data` and keeps `owner` alive. Read-only.
+/// A read-only array that views `data` and keeps `owner` alive.
 template <typename T>
 [[nodiscard]] pybind11::array_t<T> viewAsArray(const T* data, std::vector<pybind11::ssize_t> shape,
                                                const pybind11::handle& owner) {
@@ -33,16 +33,15 @@ template <typename T>
   return array;
 }
 
-/// The fields of dictionaries of names and arrays of doubles, bytes or uint32, (items,) or (items, components). Throws
-/// as entriesOf().
+/// The fields of two dictionaries from names to arrays of doubles, bytes or uint32, (items,) or (items, components).
+/// Throws like entriesOf().
 [[nodiscard]] std::vector<Field> fieldsOf(const pybind11::dict& perFace, const pybind11::dict& perVertex);
 
-/// The numbers as float32. Errors: see requireSingles().
+/// The numbers as float32. Throws like requireSingles().
 [[nodiscard]] pybind11::array_t<float> singles(std::span<const double> numbers, const std::string& name);
 
-/// The array of a field, (items,) or (items, components), with memory of its own. Real numbers become float32 where
-/// `single` is set and the field has one component, see singles(), and double otherwise; uint32 becomes int32, in which
-/// 0xffffffff is -1.
+/// A copy of a field as an array, (items,) or (items, components). Real numbers become float32, by singles(), if
+/// `single` is set and the field has one component; otherwise double. uint32 becomes int32: 0xffffffff becomes -1.
 [[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
 
 /// An array that owns the entries.

@@ -4,15 +4,15 @@
 
 namespace asdfvk::python {
 
-/// Mesh, readers and writers.
+/// Adds Mesh, the readers and the writers.
 void bindFiles(pybind11::module_& module);
 
-/// Adds write_picture(path, mesh, fields, name), name: of the field or empty for the first one, and write_page(path,
-/// mesh, layers), layers: pairs of fields and of texts with the keys name, label, summary, error_sentence, warnings,
+/// Adds write_picture(path, mesh, fields, name) and write_page(path, mesh, layers). name: name of the field; empty: the
+/// first field. layers: pairs of fields and of texts with the keys name, label, summary, error_sentence, warnings,
 /// defects.
 void bindShown(pybind11::module_& module);
 
-/// ComputedFields, Session and Scene.
+/// Adds ComputedFields, Session and Scene.
 void bindScenes(pybind11::module_& module);
 
 /// Adds the functions of asdf_vk/cgal.h: postprocess_sdf(mesh, values, threads, progress) -> (normalized, min, max) and

@@ -46,8 +46,8 @@ py::object faceOfTriangle(const py::object& self) {
   return viewAsArray(reinterpret_cast<const int32_t*>(faces.data()), {static_cast<py::ssize_t>(faces.size())}, self);
 }
 
-/// vertices: 3 #V doubles. Face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1]; the
-/// caller has checked all indices.
+/// vertices: 3 #V doubles. Face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1].
+/// Precondition: all indices are in range.
 Mesh meshOfPolygons(const py::array& vertices, const py::array& corners, const py::array& firstCorner) {
   const std::span<const double> numbers = entriesOf<double>(vertices);
   const std::span<const uint32_t> allCorners = entriesOf<uint32_t>(corners), first = entriesOf<uint32_t>(firstCorner);
@@ -91,7 +91,7 @@ py::tuple stateOf(const Mesh& mesh) {
 }
 
 Mesh meshOf(const py::tuple& state) {
-  if (state.size() != 8) throw Error(ErrorCode::ArraySize, "the pickled mesh has not eight members");
+  if (state.size() != 8) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have eight members");
   size_t i = 0;
   const auto read = [&](auto& entries) {
     const auto bytes = state[i++].cast<std::string_view>();
@@ -118,12 +118,12 @@ void bindFiles(py::module_& module) {
       .def_property_readonly("faces", facesOf,
                              "(m, 3) int32 triangles, counter-clockwise seen from outside; read-only.")
       .def_property_readonly("face_count", &Mesh::inputFaceCount,
-                             "Faces of the file. Functions return a value for each.")
+                             "Number of faces of the file. Functions return a value for each face.")
       .def_property_readonly("face_of_triangle", faceOfTriangle,
-                             "(m,) int32, the face of the file of each triangle; None where all are triangles.")
+                             "(m,) int32, the face of the file of each triangle; None if all faces are triangles.")
       .def_property_readonly(
           "unit", [](const Mesh& self) { return self.unit; },
-          "Unit of length that the file states (3MF, glTF), as \"mm\"; empty for the others.")
+          "Unit of length that the file states (3MF, glTF), for example \"mm\"; empty for other formats.")
       .def("__repr__",
            [](const Mesh& self) {
              return "<asdf_vk.Mesh, " + std::to_string(self.vertices.size()) + " vertices, " +

@@ -7,7 +7,8 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Stops the unwinding by a destructor: inside of another exception's handler, a catch of it would end the process.
+/// The destructor blocks an unwinding thread for ever: a catch inside of the handler of another exception would end the
+/// process.
 class UnwindingStop {
  public:
   UnwindingStop() = default;

@@ -4,7 +4,8 @@
 
 /// Before Python 3.14, a finalising interpreter ends daemon threads that take the GIL by pthread_exit(), which unwinds
 /// the stack. Functions that are noexcept or catch everything then end the process, and destructors release Python
-/// objects without the GIL. Such a thread stops in the functions below instead, until the process ends, as in 3.14.
+/// objects without the GIL. In the functions below such a thread waits for the end of the process instead, as in Python
+/// 3.14.
 namespace asdfvk::python {
 
 /// Releases the GIL for its lifetime, like pybind11's gil_scoped_release.
@@ -20,7 +21,7 @@ class GilRelease {
   PyThreadState* state_;
 };
 
-/// callable(*arguments). For functions in Python, which release the GIL at any time. Throws error_already_set.
+/// Calls callable(*arguments), a Python function, which may release the GIL at any time. Throws error_already_set.
 [[nodiscard]] pybind11::object callPython(const pybind11::handle& callable, const pybind11::tuple& arguments);
 
 }  // namespace asdfvk::python

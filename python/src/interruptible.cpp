@@ -54,11 +54,11 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
-/// Threads that run tasks. They are kept to the end of the process, as many as were ever busy at once: TBB 2021.8 loses
-/// some 10 KB with each thread that used it while the processors were busy, and then ended.
+/// Threads that run tasks; as many as tasks ever ran at once. They are kept to the end of the process, because TBB
+/// 2021.8 leaks some 10 KB with each thread that used it while the processors were busy, and then ended.
 class Workers {
  public:
-  /// `task` may be destroyed later than its future is ready.
+  /// `task` may be destroyed after its future is ready.
   void run(std::packaged_task<void()> task) {
     {
       const std::lock_guard lock(mutex_);
@@ -98,7 +98,7 @@ class Workers {
 };
 
 Workers& workers() {
-  // Not destroyed at exit, when threads still wait in it.
+  // Not destroyed at exit, because threads still wait in it.
   static auto* workers = new Workers;
   return *workers;
 }

@@ -8,18 +8,18 @@
 
 namespace asdfvk::python {
 
-/// Runs `work` on a worker thread, without the GIL, and waits for it. The calling thread polls for signals and
-/// calls `progress` (None, or a callable of a fraction from 0 to 1 and the name of a stage) every 20 ms. An exception
-/// of either requests a stop and is thrown once `work` has ended; so is Error{Cancelled} when `progress` returns False
-/// (bool or numpy.bool_). Throws what `work` throws.
+/// Runs `work` on a worker thread, without the GIL, and waits for it. The calling thread polls for signals and calls
+/// `progress` (None, or a callable of a fraction from 0 to 1 and the name of a stage) every 20 ms. An exception of a
+/// signal handler or of `progress` requests a stop and is thrown once `work` has ended. If `progress` returns False
+/// (bool or numpy.bool_), Error{Cancelled} is thrown in the same way. Throws what `work` throws.
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
 
-/// At the end of the process, when no thread can return to Python: stops all `work`, which daemon threads have left
-/// behind, and waits for its end. Destructors of libraries at the exit would take away what it uses.
+/// Stops all `work` that daemon threads have left behind, and waits for its end. For the end of the process, when no
+/// thread can return to Python: after it, destructors of libraries release what `work` uses.
 void stopAtExit();
 
-/// Throws Error{ForkedProcess} in a process that was forked after the first call: it has no threads
-/// or devices of its parent.
+/// Throws Error{ForkedProcess} in a process that was forked after the first call. Such a process has no threads or
+/// devices of its parent.
 void requireSameProcess();
 
 /// Whether requireSameProcess() would throw.

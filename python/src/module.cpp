@@ -1,4 +1,4 @@
-// asdf_vk._core: the public library for the Python package, which validates arrays and names.
+// asdf_vk._core: the library for the Python package. The package validates arrays and names.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -17,7 +17,7 @@ using namespace pybind11::literals;
 namespace asdfvk::python {
 namespace {
 
-/// Raises the class of asdf_vk._errors for the kind of the error.
+/// Raises the exception class of asdf_vk._errors that fits the kind of the error.
 void raise(const Error& error) {
   const py::object make = py::module_::import("asdf_vk._errors").attr("error_of");
   const py::object exception =
@@ -49,7 +49,7 @@ const char* nameOfKind(ErrorKind kind) {
   return "";
 }
 
-/// The kind of each error code, by names.
+/// A dictionary from names of error codes to names of error kinds.
 py::dict errorKinds() {
   py::dict kinds;
   for (int i = 0; i <= static_cast<int>(ErrorCode::Cancelled); ++i) {
@@ -74,7 +74,7 @@ py::list devices() {
 }  // namespace
 }  // namespace asdfvk::python
 
-// Called below, by PyInit__core().
+// PyInit__core() below calls the function of the macro.
 #define PyInit__core asdfvkInitialiseCore
 PYBIND11_MODULE(_core, module) {
   using namespace asdfvk;
@@ -99,7 +99,7 @@ PYBIND11_MODULE(_core, module) {
 #undef PyInit__core
 
 extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
-  // pybind11 2 waits for ever for the GIL where a sub-interpreter is the first to use it.
+  // pybind11 2 waits forever for the GIL if a sub-interpreter is the first to use it.
   if (PyInterpreterState_Get() == PyInterpreterState_Main()) return asdfvkInitialiseCore();
   PyErr_SetString(PyExc_ImportError,
                   "asdf_vk can be imported by the main interpreter of a process only, not by sub-interpreters");

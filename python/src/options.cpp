@@ -13,7 +13,7 @@ namespace {
 
 constexpr OptionSpelling kSpelling = OptionSpelling::SnakeCase;
 
-/// A whole number of Python or NumPy; a number beyond uint64 as a real one.
+/// An integer of Python or NumPy as an option value. An integer beyond uint64 becomes a real number.
 OptionValue wholeOf(const py::handle& object) {
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
   if (index) {
@@ -31,11 +31,11 @@ OptionValue textOf(const py::handle& object) {
   Py_ssize_t size = 0;
   if (const char* text = PyUnicode_AsUTF8AndSize(object.ptr(), &size))
     return std::string(text, static_cast<size_t>(size));
-  PyErr_Clear();  // Half of a surrogate pair.
+  PyErr_Clear();  // An unpaired surrogate has no UTF-8.
   return {};
 }
 
-/// std::monostate for an object of another type.
+/// The option value of an object; std::monostate for an object of an unsupported type.
 OptionValue valueOf(const py::handle& object) {
   if (isFlag(object)) return PyObject_IsTrue(object.ptr()) == 1;
   if (PyUnicode_Check(object.ptr())) return textOf(object);

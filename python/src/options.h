@@ -9,9 +9,9 @@
 
 namespace asdfvk::python {
 
-/// Options by their names in Python, with what they imply. None is the default. Throws Error{UnknownName} for an
-/// unknown key or choice, Error{OptionOutOfRange} for a value of the wrong type or outside of its range,
-/// Error{OptionConflict} for options that contradict each other.
+/// Options from a dictionary of their Python names, with the options that they imply. None stands for the default.
+/// Throws Error{UnknownName} for an unknown key or choice, Error{OptionOutOfRange} for a value of the wrong type or
+/// outside of its range, Error{OptionConflict} for options that contradict each other.
 [[nodiscard]] Options optionsOf(const pybind11::dict& values);
 [[nodiscard]] SessionSettings sessionOf(const pybind11::dict& values);
 

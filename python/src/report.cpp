@@ -14,7 +14,7 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// "faceCount" -> "face_count"
+/// Converts "faceCount" to "face_count".
 std::string snakeCase(const std::string& key) {
   std::string text;
   for (const unsigned char c : key) {
@@ -51,7 +51,7 @@ py::object objectOf(const std::vector<T>& items) {
   return tuple;
 }
 
-/// Numbers and flags, and the dataclass of a structure of the report.
+/// The Python object of a value of the report: a number, a flag, or the dataclass of a structure.
 template <typename T>
 py::object objectOf(const T& value) {
   if constexpr (std::is_arithmetic_v<T>) {

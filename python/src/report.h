@@ -10,7 +10,7 @@
 
 namespace asdfvk::python {
 
-/// Bytes that are not UTF-8, as in names of files, become surrogates, as by os.fsdecode().
+/// The text as a str. Bytes that are not UTF-8, as in names of files, become surrogates, like in os.fsdecode().
 [[nodiscard]] pybind11::str textOf(const std::string& text);
 
 [[nodiscard]] pybind11::dict dictOf(const std::vector<ErrorDetail>& details);

@@ -30,7 +30,7 @@ std::unique_ptr<ComputedFields> computed(SharedSession& session, const py::objec
   return std::make_unique<ComputedFields>(std::move(*result));
 }
 
-/// A scene with what it refers to: the session and the arrays of the mesh.
+/// A scene with the session and the arrays of the mesh, to which the scene refers.
 class SharedScene {
  public:
   SharedScene(std::shared_ptr<SharedSession> session, const py::object& mesh, const py::dict& options,
@@ -87,7 +87,7 @@ class SharedScene {
     return asArray(std::move(values));
   }
 
-  /// points: #P x 3 double. Returns #P double: radii, or distances.
+  /// points: #P x 3 double. Returns #P double: radii if givesRadii, otherwise distances.
   [[nodiscard]] py::array_t<double> distance(const py::array& points, bool givesRadii, const py::object& progress) {
     const std::span<const double> places = entriesOf<double>(points);
     std::vector<double> distances;
@@ -99,7 +99,7 @@ class SharedScene {
     return asArray(std::move(distances));
   }
 
-  /// origins, directions: #R x 3 double. Returns #R double, and #R input faces, -1 for none.
+  /// origins, directions: #R x 3 double. Returns #R lengths (double), and #R input faces, -1 for no hit.
   [[nodiscard]] py::tuple firstHits(const py::array& origins, const py::array& directions, const py::object& progress) {
     const std::span<const double> starts = entriesOf<double>(origins), axes = entriesOf<double>(directions);
     Scene::RayHits hits;

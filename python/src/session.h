@@ -14,7 +14,7 @@
 
 namespace asdfvk::python {
 
-/// The fields and the report of a computation. Arrays are made when they are read.
+/// The fields and the report of a computation. An array is made when it is read.
 class ComputedFields {
  public:
   explicit ComputedFields(Result&& result) : result_(std::move(result)) {}
@@ -27,10 +27,10 @@ class ComputedFields {
   Result result_;
 };
 
-/// Session for Python: any number of threads may call it, one computation at a time.
+/// A session for Python. Any number of threads may call it; one computation runs at a time.
 class SharedSession {
  public:
-  /// Throws Error{ForkedProcess} and as Session().
+  /// Throws Error{ForkedProcess} and the errors of Session().
   explicit SharedSession(const SessionSettings& settings);
   /// In a forked process nothing is released: the threads of the device do not exist there.
   ~SharedSession();
@@ -39,16 +39,18 @@ class SharedSession {
 
   [[nodiscard]] const Session& session() const { return *session_; }
 
-  /// Runs `work` when no other thread uses the session, see runInterruptibly().
+  /// Runs `work` when no other thread uses the session; see runInterruptibly().
   void run(const std::function<void(Session&, const RunControl&)>& work, const pybind11::object& progress);
-  /// Destroys a scene of this session, at once or, while another thread uses the session, before the next use.
+  /// Destroys a scene of this session. While another thread uses the session, the scene is destroyed before the next
+  /// use.
   void release(std::unique_ptr<Scene> scene);
 
  private:
   std::unique_ptr<Session> session_;
   uint32_t threadCount_;
   std::timed_mutex mutex_;
-  std::mutex releasedMutex_;  ///< Guards `released_`; locked before `mutex_` is tried, never while it is waited for.
+  /// Guards `released_`. May be locked before a try to lock `mutex_`, but not during a wait for it.
+  std::mutex releasedMutex_;
   std::vector<std::unique_ptr<Scene>> released_;  ///< Destroyed before the session.
 };
 

@@ -30,7 +30,7 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Gives the names of results their label and unit.
+/// Sets the label and the unit of a field that has the name of a field of results.
 void describe(Field& field) {
   for (const FieldRow& row : fieldRows())
     if (row.name == field.name && static_cast<size_t>(row.type) == field.values.index()) {
@@ -39,8 +39,8 @@ void describe(Field& field) {
     }
 }
 
-/// The fields of one component, the segments first. Throws Error{OptionConflict} where there is none or its size does
-/// not fit, and as requireSingles().
+/// The fields of one component, the segments first. Throws Error{OptionConflict} if there is none or if the size of one
+/// does not fit, and the errors of requireSingles().
 std::vector<Field> shownFields(const py::dict& perFace, uint64_t faceCount) {
   std::vector<Field> fields = fieldsOf(perFace, {});
   std::erase_if(fields, [](const Field& field) { return field.componentCount != 1; });
@@ -68,7 +68,7 @@ Result shownResult(const MeshView& mesh, const RunControl& control) {
   return result;
 }
 
-/// field: its name; empty: the first one.
+/// field: name of the field; empty: the first field.
 void writePicture(const std::filesystem::path& path, const py::object& mesh, const py::dict& perFace,
                   const std::string& field) {
   requireSameProcess();

@@ -1,4 +1,4 @@
-"""Normals of an object with `vertices` and `faces`, as of a trimesh.Trimesh."""
+"""Normals of an object with `vertices` and `faces`, for example of a trimesh.Trimesh."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .._errors import error_of
 
 
 def face_normals(mesh: Any) -> NDArray[np.float64]:
-    """(m, 3), outwards, of any length; those of degenerate faces may be 0. Those of the object where it has them."""
+    """Returns (m, 3), outwards, of any length: `mesh.face_normals`, or computed. Degenerate faces may have 0."""
     if hasattr(mesh, "face_normals"):
         return _checked(mesh.face_normals, "face_normals", len(mesh.faces))
     a, b, c = _corners(mesh)
@@ -21,7 +21,7 @@ def face_normals(mesh: Any) -> NDArray[np.float64]:
 
 
 def vertex_normals(mesh: Any) -> NDArray[np.float64]:
-    """(n, 3): those of the object where it has them; else unit means over the faces, weighted by their angles."""
+    """Returns (n, 3): `vertex_normals` of the object, or unit means over the faces, weighted by their angles."""
     if hasattr(mesh, "vertex_normals"):
         return _checked(mesh.vertex_normals, "vertex_normals", len(mesh.vertices))
     a, b, c = _corners(mesh)
@@ -47,7 +47,7 @@ def _corners(mesh: Any) -> NDArray[np.float64]:
 
 
 def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows of length 1; NaN for 0."""
+    """Scales rows to length 1; a row of length 0 becomes NaN."""
     with np.errstate(invalid="ignore"):
         scaled: NDArray[np.float64] = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
     return scaled

@@ -10,12 +10,12 @@ CGAL 5.5.1 and contain none of its code. What differs:
 - A missing value is NaN in results; CGAL has -1. Both are accepted in arguments.
 - All clusters are expanded by default, as some versions of CGAL do; expansion="first" is the rule
   of CGAL 5.5.1.
-- Meshes need not be manifold. Faces are neighbours across an edge of two faces of equal
-  orientation; an edge of more faces is divided as CGAL's readers do by splitting vertices. CGAL's
-  readers also reverse faces of such meshes.
+- Meshes need not be manifold. Two faces of equal orientation are neighbours across an edge that no
+  other face has. An edge of more faces is divided in the way in which CGAL's readers split
+  vertices. CGAL's readers also reverse faces of such meshes.
 - Fewer different values than clusters, and a mesh without any value, are errors (InputError, codes
   "tooFewValues" and "noValues"); CGAL does not end, or crashes.
-- None is the default of each keyword.
+- None stands for the default of each keyword.
 - number_of_clusters is 2 to 100, smoothing_lambda 0 to 1000, number_of_rays 1 to 1024.
 """
 
@@ -61,14 +61,15 @@ def sdf_values(
     cone_angle: full opening angle in radians, above 0 and below pi; rounded to 1e-9 degrees.
     number_of_rays: per face, 1 to 1024.
     postprocess: apply sdf_values_postprocessing().
-    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The others are
-        interpolated; their segments differ from CGAL's.
+    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The values of
+        the other faces are interpolated; segments then differ from CGAL's.
     progress: called with a fraction from 0 to 1 and the name of the stage; False cancels.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
-    Returns float64 (m,), and the least and greatest value. Post-processed: values in [0, 1] and no
-    NaN; the two are those of the smoothed values, in the unit of the mesh. Otherwise all are in the
-    unit of the mesh, NaN = no value, and the two are NaN where no face has a value.
+    Returns the values, float64 (m,), and a pair of the least and the greatest value. Post-processed
+    values are in [0, 1], without NaN; the pair is then that of the smoothed values before they are
+    mapped to [0, 1], in the unit of the mesh. Other values, and their pair, are in the unit of the
+    mesh, NaN = no value; the pair is NaN where no face has a value.
     Raises InputError, UsageError, DeviceError, CancelledError. Issues MeshWarning.
     """
     try:
@@ -108,11 +109,11 @@ def sdf_values_postprocessing(
     """CGAL's sdf_values_postprocessing(): fills missing values, smooths, and maps to [0, 1].
 
     vertices, faces: as for sdf_values(); faces is None where `vertices` is an object with both.
-    sdf_values: (m,), at least 0 and finite; NaN and -1 are missing values. Not changed.
+    sdf_values: (m,), at least 0 and finite; NaN and -1 are missing values. The array is not changed.
     threads: CPU threads; 0: the number of cores. progress: as for sdf_values().
 
-    Returns float64 (m,) in [0, 1], and the least and greatest value before that, in the unit of
-    `sdf_values`. Where the smoothed values are all equal, they stay as they are.
+    Returns float64 (m,) in [0, 1], and a pair of the least and the greatest smoothed value, in the
+    unit of `sdf_values`. If all smoothed values are equal, they are not mapped to [0, 1].
     Raises InputError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
@@ -137,16 +138,16 @@ def segmentation_from_sdf_values(
 
     vertices, faces: as for sdf_values_postprocessing().
     sdf_values: (m,), post-processed: 0 to 1. NaN and -1 are missing values, which are filled as by
-        sdf_values_postprocessing(). Not changed.
+        sdf_values_postprocessing(). The array is not changed.
     number_of_clusters: 2 to 100. A cluster has any number of segments.
     smoothing_lambda: weight of the boundaries, 0 to 1000; CGAL's manual has 0 to 1.
     output_cluster_ids: return the clusters instead of the segments.
-    expansion: clusters that the graph cut expands: "all", or the "first" only as CGAL 5.5.1.
+    expansion: clusters that the graph cut expands: "all", or only the "first" as in CGAL 5.5.1.
     threads, progress: as for sdf_values_postprocessing().
 
-    Returns int32 (m,) and the number of segments: labels 0 to k - 1, ascending by mean value; or
-    the clusters and `number_of_clusters`. Equal labels need values equal to about 1e-5 of the
-    range: noise of 1e-3 may change many.
+    Returns int32 (m,), labels 0 to k - 1 ascending by mean value, and k, the number of segments; or
+    the clusters and `number_of_clusters`. The labels are CGAL's if the values are CGAL's to about
+    1e-5 of the range. Noise of 1e-3 may change many labels.
     Raises InputError, UsageError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
@@ -166,7 +167,7 @@ def segmentation_from_sdf_values(
 def values_and_segments(
     vertices: Any, faces: ArrayLike | None, segmentation: dict[str, Any], options: dict[str, Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Post-processed values and segments, without warnings; options: of the backend."""
+    """Returns post-processed values and segments, without warnings. options: of the backend."""
     computed = _computed(vertices, faces, {"segment": "cgal", **segmentation}, options, None)
     return computed.array("normalized", single=False), computed.array("segment")
 
@@ -187,7 +188,7 @@ def _computed(
 
 
 def _values_of(sdf_values: ArrayLike, mesh: MeshArgument) -> NDArray[np.float64]:
-    """(m,), with NaN for missing values."""
+    """Returns (m,) values with NaN for missing values."""
     count = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
     values = values_array(sdf_values, "sdf_values", count)
     return np.where(values == _MISSING, np.nan, values) if (values == _MISSING).any() else values

@@ -3,20 +3,21 @@
     from asdf_vk.compat import meshparty
     values = meshparty.shape_diameter_function(mesh_inds, mesh)
 
-Parameters and defaults are those of MeshParty (CAVEconnectome/MeshParty, meshparty/ray_tracing.py);
-nothing of it is imported, and the function follows its definition only:
+Parameters and defaults are MeshParty's (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). Nothing
+of MeshParty is imported. The function computes MeshParty's definition:
 
-- A ray starts one unit of length below its vertex, at vertex - vertex normal: MeshParty's meshes are
-  in nanometres. A mesh that is about one unit large needs a scale before.
+- A ray starts one unit of length below its vertex, at vertex - vertex normal. MeshParty's meshes are
+  in nanometres; a mesh that is about one unit large must be scaled first.
 - num_points directions: a Vogel disk of radius 1 at the height 1 / tan(cone_angle) above the start,
-  around minus the vertex normal. cone_angle is half of the opening angle, in radians.
-- Each ray counts up to its first hit, with the weight 1 / angle, the angle between the ray and the
-  normal of the face that it hits. Dropped are rays with an angle below median - s or above
-  max(median + s, pi / 2): the median and the standard deviation s are those of the cone.
-- The value is the weighted mean of the lengths from the starts; NaN where nothing is hit.
+  around the reversed vertex normal. cone_angle is half of the opening angle, in radians.
+- The length of a ray is the distance from its start to its first hit. Its weight is 1 / angle, with
+  the angle between the ray and the normal of the face that it hits. A ray is dropped if its angle
+  is below median - deviation, or above both median + deviation and a right angle. Median and standard
+  deviation are those of the angles of the cone.
+- The value is the weighted mean of the lengths; NaN if no ray hits.
 
-What differs: hits are found in double precision, Embree's in float32; where no ray of any cone hits,
-all values are NaN, and MeshParty fails.
+What differs: hits are found in double precision, Embree's in float32. Where no ray of any cone hits,
+all values are NaN; MeshParty fails.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ def shape_diameter_function(
 
     mesh_inds: (k,) indices of vertices.
     mesh: a meshparty.trimesh_io.Mesh, a trimesh.Trimesh, or any object with `vertices` and `faces`;
-        its `vertex_normals` and `face_normals` are used where it has them.
+        its `vertex_normals` and `face_normals` are used if they exist.
     num_points: rays per vertex. cone_angle: half of the opening angle, in radians, above 0 and below pi.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
@@ -86,14 +87,14 @@ def shape_diameter_function(
 
 
 def _directions(count: int, cone_angle: float) -> NDArray[np.float64]:
-    """(count, 3), around z."""
+    """Returns unit directions around z, (count, 3)."""
     turn = math.pi * (3 - math.sqrt(5)) * np.arange(count)  # The golden angle.
     radius = np.sqrt(np.arange(count) / count)
     return unit(np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full(count, 1 / math.tan(cone_angle))], axis=1))
 
 
 def _frames(axes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(k, 3, 3): rotations by the polar angle around y, then by the azimuth around z, which move z to the axes."""
+    """Returns rotations of z to the axes, (k, 3, 3): by the polar angle around y, then by the azimuth around z."""
     x, y, cos_theta = axes.T
     theta, phi = np.arccos(np.clip(cos_theta, -1, 1)), np.arctan2(y, x)
     sin_theta, sin_phi, cos_phi = np.sin(theta), np.sin(phi), np.cos(phi)
@@ -112,7 +113,7 @@ def _values(
     disk: NDArray[np.float64],
     of_faces: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Values of cones: starts and axes (k, 3)."""
+    """Returns the values of cones with the given starts and axes, both (k, 3)."""
     values = np.full(len(starts), np.nan)
     with np.errstate(invalid="ignore"):
         usable = np.isfinite(_frames(axes)).all(axis=(1, 2)) & np.isfinite(starts).all(axis=1)
@@ -130,7 +131,7 @@ def _values(
 def _means(
     lengths: NDArray[np.float64], angles: NDArray[np.float64], weights: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Weighted means of rows, by the rule of outliers; rays with the angle NaN do not count."""
+    """Returns the weighted mean of each row without its outliers. Rays with the angle NaN do not count."""
     means = np.full(len(angles), np.nan)
     some = np.isfinite(angles).any(axis=1)
     lengths, angles, weights = lengths[some], angles[some], weights[some]

@@ -3,15 +3,15 @@
     from asdf_vk.compat import trimesh
     values = trimesh.thickness(mesh, points)
 
-Parameters and defaults are those of trimesh 4; nothing of trimesh is imported. What differs:
+Parameters and defaults are those of trimesh 4; nothing of trimesh is imported. As in trimesh, a value
+is infinite if nothing is hit or no wall opposes. What differs:
 
-- "max_sphere": the ball is stopped by opposing walls only (docs/thickness.md); trimesh's by any
-  wall, so that its values fall to 0 at every convex edge. Inside of a closed component, no value is
-  greater than the diameter of its largest ball. trimesh stops where the radius changes by less than
-  1e-6 of the diagonal; values here are exact for the facets.
-- "ray": the ray starts 1e-5 of the diagonal of the bounding box below the point, and its length is
-  counted from there.
-- Nothing is hit, or no wall opposes: infinite, as there.
+- "max_sphere": only opposing walls stop the ball (docs/thickness.md). In trimesh any wall stops it, so
+  that values fall to 0 at every convex edge. Inside of a closed component, no value is greater than
+  the diameter of the largest ball in the component. trimesh stops where the radius changes by less
+  than 1e-6 of the diagonal; values here are exact for the facets.
+- "ray": the ray starts 1e-5 of the diagonal of the bounding box below the point. Its length is
+  measured from this start.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ def thickness(
     """Thickness of a mesh at points of its surface.
 
     mesh: a trimesh.Trimesh, or any object with `vertices` (n, 3) and `faces` (m, 3).
-    points: (k, 3). exterior: outside of the mesh instead of inside, trimesh's "reach".
-    normals: (k, 3), outwards, of any length above 0; None: those of the nearest face of each point,
-        from `mesh.face_normals` where the mesh has them.
+    points: (k, 3). exterior: measure outside of the mesh instead of inside, trimesh's "reach".
+    normals: (k, 3), outwards, of any length above 0; None: the normal of the face nearest to each
+        point, from `mesh.face_normals` if the mesh has them.
     method: "max_sphere": diameter of the largest ball that touches the point; "ray": length of the
-        ray along minus the normal.
+        ray along the reversed normal.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
     Returns float64 (k,), in the unit of the mesh. Raises InputError, UsageError, DeviceError.
@@ -59,7 +59,7 @@ def thickness(
         raise error_of("unknownName", f"method={method!r} is unknown; the names are max_sphere, ray")
     exterior = flag_of(exterior, "exterior")
     places = points_array(points, "points").astype(np.float64)
-    # Triangles also of a Mesh with polygons: normals are those of triangles.
+    # Also the triangles of a Mesh with polygons, because normals belong to triangles.
     triangles = getattr(mesh, "vertices", mesh), getattr(mesh, "faces", None)
     with Scene(*triangles, orient="flip" if exterior else "keep", **options) as scene:
         if normals is None:
@@ -69,6 +69,6 @@ def thickness(
             axes = -axes
         if method == "max_sphere":
             values = scene._opened.thickness_at(places, axes, {}, None)
-        else:  # One ray on the axis, which drops no hit by the direction of the face that it hits.
+        else:  # One ray on the axis. No hit is dropped for the direction of its face.
             values = scene.at(places, axes, rays=1, cone_angle=0.01, false_hit_angle=0).astype(np.float64)
     return np.where(np.isnan(values), np.inf, values)

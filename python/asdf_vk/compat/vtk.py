@@ -1,10 +1,10 @@
 """Cell arrays for surfaces of VTK, ParaView and PyVista.
 
     from asdf_vk.compat import vtk
-    vtk.thickness(dataset, thinner_than=0.8)    # dataset has the cell array "thickness" then
+    vtk.thickness(dataset, thinner_than=0.8)    # adds the cell array "thickness"
 
-`dataset` is a vtkPolyData; pyvista.PolyData is one. Polygons have one value each. Cells that are no faces (vertices,
-lines) have NaN, or -1 as segment.
+`dataset` is a vtkPolyData, for example a pyvista.PolyData. Each polygon has one value. Cells that are not faces
+(vertices, lines) have NaN, or the segment -1.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ __all__ = ["add_array", "compute", "mesh_of", "segment", "shape_diameter", "thic
 
 
 def mesh_of(dataset: Any) -> Mesh:
-    """The faces of a vtkPolyData, in their order. Raises InputError."""
+    """Returns the faces of a vtkPolyData, in their order. Raises InputError."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if not hasattr(dataset, "GetPolys"):
@@ -46,7 +46,7 @@ def mesh_of(dataset: Any) -> Mesh:
 
 
 def compute(dataset: Any, **options: Unpack[FunctionOptions]) -> Info:
-    """asdf_vk.compute(); the dataset gets a cell array for each field, and replaces one of the same name."""
+    """Calls asdf_vk.compute() and adds a cell array for each field. Replaces cell arrays of the same names."""
     info = compute_mesh(mesh_of(dataset), **options)
     for name, values in info.fields.items():
         add_array(dataset, name, values)
@@ -69,7 +69,7 @@ def segment(dataset: Any, **options: Unpack[FunctionOptions]) -> NDArray[np.int3
 
 
 def add_array(dataset: Any, name: str, values: NDArray[Any]) -> None:
-    """Adds a cell array of a value per face. The cells of a vtkPolyData are vertices, then lines, then faces."""
+    """Adds a cell array with a value per face. The cells of a vtkPolyData are vertices, then lines, then faces."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
     before = dataset.GetNumberOfVerts() + dataset.GetNumberOfLines()
