@@ -12,7 +12,7 @@ namespace asdfvk::python {
 class GilRelease {
  public:
   GilRelease();
-  /// Throws nothing. With noexcept, the compiler may omit the destructor that stops the unwinding.
+  /// Throws nothing. With noexcept, the compiler may omit the destructor that blocks the unwinding.
   ~GilRelease() noexcept(false);
   GilRelease(const GilRelease&) = delete;
   GilRelease& operator=(const GilRelease&) = delete;

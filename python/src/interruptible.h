@@ -15,7 +15,7 @@ namespace asdfvk::python {
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
 
 /// Stops all `work` that daemon threads have left behind, and waits for its end. For the end of the process, when no
-/// thread can return to Python: after it, destructors of libraries release what `work` uses.
+/// thread can return to Python, because destructors of libraries then release what `work` uses.
 void stopAtExit();
 
 /// Throws Error{ForkedProcess} in a process that was forked after the first call. Such a process has no threads or

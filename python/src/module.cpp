@@ -74,7 +74,7 @@ py::list devices() {
 }  // namespace
 }  // namespace asdfvk::python
 
-// PyInit__core() below calls the function of the macro.
+// The macro defines asdfvkInitialiseCore(), which PyInit__core() below calls.
 #define PyInit__core asdfvkInitialiseCore
 PYBIND11_MODULE(_core, module) {
   using namespace asdfvk;

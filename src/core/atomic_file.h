@@ -67,7 +67,7 @@ class AtomicFile {
   size_t used_ = 0;
 };
 
-/// The file or missing file that the symbolic links at the end of the path lead to.
+/// The path with the symbolic links at its end resolved. The file itself need not exist.
 [[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
 
 /// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain.

@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// A task for an idle thread of the parallel loops. wait() and the destructor run it on the calling thread if no thread
-/// has begun it. Before that, a parallel loop of the creating thread may run it too, except within callIsolated().
+/// A task for an idle thread of the parallel loops. If no thread has begun it, wait() and the destructor run it on the
+/// calling thread. A parallel loop of the creating thread may run it earlier, except within callIsolated().
 class BackgroundTask {
  public:
   explicit BackgroundTask(std::function<void()> body);

@@ -42,7 +42,7 @@ template <typename T>
     if (!(condition)) ::asdfvk::failCheck(__FILE__, __LINE__, #condition); \
   } while (false)
 
-/// Throws CheckFailure unless `left op right`, two numbers; the message prints both. For example
+/// Throws CheckFailure unless `left op right` holds for two numbers. The message has both numbers. For example
 /// ASDFVK_CHECK_OP(a, <=, b).
 #define ASDFVK_CHECK_OP(left, op, right)                                                                   \
   do {                                                                                                     \

@@ -9,8 +9,8 @@
 
 #include "core/function_ref.h"
 
-/// Parallel loops, run by TBB. Only parallel.cpp includes TBB, because its headers have 94,000 lines; it therefore
-/// defines BackgroundTask and ThreadLimit too.
+/// Parallel loops, run by TBB. Only parallel.cpp includes TBB, because its headers have 94,000 lines. Therefore
+/// parallel.cpp also defines BackgroundTask and ThreadLimit.
 namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
@@ -58,7 +58,7 @@ void forEachInParallel(size_t count, const Body& body) {
   });
 }
 
-/// forEachInParallel() for few and long bodies: each may run on a thread of its own.
+/// Like forEachInParallel(), for few long calls: each may run on a thread of its own.
 template <typename Body>
 void forEachTask(size_t count, const Body& body) {
   forEachRange(count, 1, [&](size_t begin, size_t end) {

@@ -19,7 +19,7 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// Uniform in [0, bound), without bias. Precondition: bound > 0.
+  /// A uniformly distributed number in [0, bound), without bias. Precondition: bound > 0.
   [[nodiscard]] uint32_t index(uint32_t bound) {
     const uint32_t threshold = (0u - bound) % bound;
     for (;;) {
@@ -28,7 +28,7 @@ class Random {
     }
   }
 
-  /// Uniform in [0, 1).
+  /// A uniformly distributed number in [0, 1).
   [[nodiscard]] double real() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
   /// Shuffles by the algorithm of Fisher and Yates.

@@ -12,7 +12,7 @@
 /// Operators are element-wise and round like the scalar operators: results have the same bits on every instruction set.
 /// Compilers split a vector that is wider than the registers.
 ///
-/// Code for several instruction sets is called through dispatch(). All its functions that take or return vectors are
+/// Code for several instruction sets is called through dispatch(). In it, all functions that take or return vectors are
 /// always inlined, so that they are compiled for the instruction set of their caller and need no calling convention.
 /// Their definitions must precede their callers: otherwise GCC ignores the attribute.
 #define ASDFVK_ALWAYS_INLINE __attribute__((always_inline))
@@ -24,8 +24,7 @@ using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
 using Double4 = double __attribute__((vector_size(32)));
 
-/// The vector type of signed integers with as many lanes as V and of the same size. As a mask: -1 for true, 0 for
-/// false.
+/// The vector type of signed integers with as many lanes as V, of the same size. As a mask: -1 for true, 0 for false.
 template <typename V>
 using IntsOf = decltype(V{} == V{});
 
@@ -100,7 +99,8 @@ template <typename V>
   return reinterpret_cast<V>(mask & reinterpret_cast<IntsOf<V>>(a));
 }
 
-/// The bitwise or of all 64-bit words of a vector. With 32-bit lanes, its upper half is the or of the odd lanes.
+/// The bitwise or of all 64-bit words of a vector. With 32-bit lanes, the upper half of the result is the or of the odd
+/// lanes.
 template <typename Ints>
 ASDFVK_ALWAYS_INLINE inline uint64_t orLanes(const Ints& lanes) {
   if constexpr (sizeof(Ints) > 16) {

@@ -39,12 +39,12 @@ struct SolverCheckReport {
 };
 inline constexpr double kSolverTolerance = 1e-3;
 
-/// What a device is, whether its kernels compute the values of the reference, and how fast.
+/// Facts about a device, whether its kernels compute the values of the reference, and how fast they are.
 struct DeviceReport {
   std::vector<std::string> deviceLines;  ///< See Session::deviceLines().
-  std::optional<Error> failure;          ///< Why there is no Vulkan device, or what the validation layers report.
-  std::optional<DeviceFacts> device;     ///< Unset without a Vulkan device.
-  VulkanTraceChoice choice;              ///< The default variant of the device.
+  std::optional<Error> failure;  ///< The reason why there is no Vulkan device, or the report of the validation layers.
+  std::optional<DeviceFacts> device;  ///< Unset without a Vulkan device.
+  VulkanTraceChoice choice;           ///< The default variant of the device.
   std::string defaultSolver;
   uint64_t faceCount = 0;  ///< Faces of the generated mesh.
   uint32_t rayCount = 0;   ///< Rays per cone.

@@ -70,7 +70,8 @@ class CylinderGrid {
 }  // namespace
 
 GeneratedShape makeCylinder(uint64_t faceCount, double radius, double length) {
-  // The discs have 12 r^2 faces, the mantle 12 r per layer. r gives edges of equal length, the layers give the count.
+  // The discs have 12 r^2 faces, the mantle 12 r per layer. r is chosen for edges of equal length, the layers for the
+  // count.
   const double layersPerRing = length / radius * (3 / std::numbers::pi);
   const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
   const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));

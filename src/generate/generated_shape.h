@@ -12,8 +12,8 @@ namespace asdfvk {
 struct GeneratedShape {
   Mesh mesh;
   std::vector<uint32_t> part;  ///< #F, part of the face; 0 where a shape has one part only.
-  std::vector<float>
-      diameter;  ///< #F, true local diameter of the shape at the face, in the unit of the mesh; 0: unknown.
+  /// #F, true local diameter of the shape at the face, in the unit of the mesh; 0: unknown.
+  std::vector<float> diameter;
 };
 
 /// Range of requested face counts. The result is within about 15 % of the requested count. Below some hundred faces it

@@ -211,8 +211,8 @@ class SurfaceNets {
   const CapsuleUnion& field_;
   const BrickLattice& lattice_;
   std::vector<BrickCells> cells_;
-  std::vector<std::array<uint32_t, 6>>
-      neighbours_;  ///< Per vertex, across the cell's sides; kNone where there is none.
+  /// Per vertex: the vertices of the cells across the six sides of its cell; kNone where there is none.
+  std::vector<std::array<uint32_t, 6>> neighbours_;
   GeneratedShape shape_;
 };
 

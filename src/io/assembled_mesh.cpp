@@ -23,7 +23,7 @@ Placement Placement::after(const Placement& inner) const {
 }
 
 AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize) {
-  // Limits are divided instead of counts multiplied, because the product of a count of a hostile file may overflow.
+  // Limits are divided instead of multiplying counts, because the counts of a hostile file may overflow in a product.
   constexpr uint64_t kMaxBytesPerByte = 64;
   const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * fileSize);
   if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||

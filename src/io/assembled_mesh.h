@@ -36,9 +36,9 @@ inline constexpr uint64_t kMaxInstanceBytes = uint64_t{1} << 30;
 /// Joins the placed parts of a file into one mesh. Parts share no vertices, so that each is a component of its own.
 class AssembledMesh {
  public:
-  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} where 32 bits do
-  /// not number them, Error{InputTooLarge} where instances take more than kMaxInstanceBytes and more than 64 times the
-  /// file.
+  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} where 32-bit
+  /// indices do not suffice, Error{InputTooLarge} where instances take more than kMaxInstanceBytes and more than 64
+  /// times the file.
   AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize);
 
   /// Reverses the faces of a mirrored part, so that its outside stays outside.

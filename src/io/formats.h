@@ -22,13 +22,14 @@ enum class Match { None, Possible, Certain };
 struct FileFormat {
   std::string_view name;                       ///< Lower case.
   std::array<std::string_view, 4> extensions;  ///< Lower case, without the dot; unused entries are empty.
-  /// Null for a format that is only written.
+  /// Detects the format from the content of a file. Null for a format that is only written.
   Match (*detect)(std::span<const char> bytes) = nullptr;
 
   /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Throws Error{UnreadableInput}
   /// for a file that is truncated, has further bytes after its end, has an index out of range, or has no face with
-  /// three corners; Error{MeshTooLarge}. Memory: at most 64 times the size of the input and a few MB. Faces other than
-  /// triangles are triangulated and stored in Mesh::polygons (mesh/input_faces.h).
+  /// three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h. Memory: at most 64 times the size
+  /// of the input and a few MB. Faces other than triangles are triangulated and stored in Mesh::polygons
+  /// (mesh/input_faces.h).
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.

@@ -67,7 +67,7 @@ class GltfFile {
   /// Item `index` of an array of the document, for example of "nodes".
   [[nodiscard]] const GltfJson& item(const char* array, uint64_t index, std::string_view where) const;
 
-  /// The accessor of that index, opened for vectors of three numbers or for indices.
+  /// The accessor of the given index, opened for vectors of three numbers or for indices.
   [[nodiscard]] GltfAccessor vectors(uint64_t accessor) const;
   [[nodiscard]] GltfAccessor indices(uint64_t accessor) const;
 

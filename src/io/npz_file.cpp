@@ -45,7 +45,7 @@ void putCommonHeader(AtomicFile& file, const ZipMember& member) {
   for (const uint16_t word : {kZipVersion, uint16_t{0}, uint16_t{0}, uint16_t{0}, kFirstDate}) file.put(word);
   for (const uint32_t number : {member.checksum, member.size, member.size}) file.put(number);
   file.put(static_cast<uint16_t>(member.name.size()));
-  file.put(uint16_t{0});  // Extra fields.
+  file.put(uint16_t{0});  // No extra fields.
 }
 
 void putCentralHeader(AtomicFile& file, const ZipMember& member) {
@@ -110,10 +110,10 @@ void writeNpz(AtomicFile& file, const ResultView& result) {
   for (const ZipMember& member : members) putCentralHeader(file, member);
   file.put(kEndSignature);
   for (const size_t count : {size_t{0}, size_t{0}, members.size(), members.size()})
-    file.put(static_cast<uint16_t>(count));  // Disks, then members.
+    file.put(static_cast<uint16_t>(count));  // Numbers of disks, then numbers of members.
   file.put(static_cast<uint32_t>(directorySize));
   file.put(static_cast<uint32_t>(offset));
-  file.put(uint16_t{0});  // Comment.
+  file.put(uint16_t{0});  // No comment.
 }
 
 }  // namespace

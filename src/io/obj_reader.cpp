@@ -131,7 +131,7 @@ Mesh parseObj(std::span<const char> bytes) { return ObjReader(bytes).read(); }
 
 }  // namespace
 
-// In obj_writer.cpp.
+// Defined in obj_writer.cpp.
 void writeObj(AtomicFile& file, const ResultView& result);
 void writeObjMaterials(AtomicFile& file, const ResultView& result);
 bool hasObjMaterials(const ResultView& result);

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// The colour of a part: one of twelve colours, or a darker one for the parts after the twelfth. Grey for no part
+/// The colour of a part: one of twelve colours, or for later parts a darker shade of one. Grey for no part
 /// (4294967295).
 [[nodiscard]] Rgba colourOfPart(uint32_t part);
 /// For example "part 3"; "no part" for 4294967295.

@@ -30,8 +30,8 @@ uint64_t binaryFaceCount(std::span<const char> bytes) {
   return count;
 }
 
-/// Whether the size is exactly that of a binary STL. A text never has this size, because four printable bytes are a
-/// huge face count.
+/// Whether the size is exactly that of a binary STL. No text has this size: four printable bytes would be a huge face
+/// count.
 bool hasBinarySize(std::span<const char> bytes) {
   return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + binaryFaceCount(bytes) * kFaceSize;
 }

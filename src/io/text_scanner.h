@@ -49,9 +49,9 @@ class TextScanner {
   /// The next word as a 64-bit integer.
   [[nodiscard]] int64_t integer(std::string_view expected);
 
-  /// Throws if the line has another word.
+  /// Throws if the line has another word. after: the item before it, for the message.
   void requireLineEnd(std::string_view after);
-  /// Throws if the text has another word.
+  /// Throws if the text has another word. after: the item before it, for the message.
   void requireEnd(std::string_view after);
   void skipLine();
   /// Precondition: the next byteCount bytes belong to one word.

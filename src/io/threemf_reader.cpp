@@ -28,11 +28,11 @@ namespace {
 
 constexpr std::string_view kCoreNamespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 constexpr std::string_view kModelRelationship = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-constexpr uint32_t kMaxNesting = 64;  // Nested components.
+constexpr uint32_t kMaxNesting = 64;  // Levels of nested components.
 
 struct UnitRow {
-  std::string_view name;  // In the file.
-  std::string_view unit;  // In kLengthUnits.
+  std::string_view name;  // Name in the file.
+  std::string_view unit;  // Name in kLengthUnits.
 };
 constexpr std::array<UnitRow, 6> kModelUnits{
     {{"millimeter", "mm"}, {"micron", "um"}, {"centimeter", "cm"}, {"meter", "m"}, {"inch", "in"}, {"foot", "ft"}}};

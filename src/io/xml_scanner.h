@@ -34,7 +34,7 @@ class XmlScanner {
     return attributes_;
   }
 
-  /// Throws Error{UnreadableInput} at the last tag.
+  /// Throws Error{UnreadableInput} with the byte of the last tag.
   [[noreturn]] void fail(std::string_view reason) const;
 
  private:

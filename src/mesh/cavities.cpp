@@ -56,7 +56,7 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
   return height > p.z;
 }
 
-/// The other components around each sample, ascending.
+/// For each sample the other components around it, ascending.
 std::vector<Surrounding> surroundingsOf(const ClosedComponents& closed, std::span<const Sample> samples) {
   std::vector<Vec3d> origins;
   std::vector<Point2> points;

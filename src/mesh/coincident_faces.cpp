@@ -41,7 +41,7 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
   return lowest;
 }
 
-/// A face in the bucket of its lowest vertex. otherVertices: the other two, in the order of the winding.
+/// A face in the bucket of its lowest vertex. otherVertices: its other two vertices, in the order of the winding.
 struct FaceKey {
   uint64_t otherVertices = 0;
   uint32_t face = 0;

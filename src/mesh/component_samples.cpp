@@ -41,7 +41,7 @@ class Sampler {
     pointCount_ = std::clamp(kMaxPointCount / std::max(wantedCount, size_t{1}), kLeastPointCount, kGreatestPointCount);
   }
 
-  /// Grouped by component, ascending.
+  /// The samples, grouped by component, ascending.
   [[nodiscard]] std::vector<Sample> samples() {
     std::vector<Sample> samples;
     forEachFace([&](uint32_t face, State& state) { survey(face, state); });

@@ -61,7 +61,7 @@ class Survey {
     });
   }
 
-  /// Precondition: the face has edges.
+  /// Precondition: the face has entries in the table of edges.
   [[nodiscard]] bool isProper(uint32_t face) const {
     return hasDistinctVertices_ || hasDistinctVertices(mesh_.faces[face]);
   }

@@ -36,7 +36,8 @@ enum class EdgeKind : uint8_t {
 /// Results of one pass over the edges of a mesh.
 struct EdgeSurvey {
   DualGraph graph;  ///< See buildDualGraph().
-  /// #F x 3: entry 3 f + i is the edge from corner i of the proper face f to the next corner. Regular for other faces.
+  /// #F x 3: entry 3 f + i is the kind of the edge from corner i of face f to the next corner. Regular where f is not
+  /// proper.
   std::vector<EdgeKind> edgeKinds;
   uint64_t boundaryEdgeCount = 0;
   uint64_t nonManifoldEdgeCount = 0;

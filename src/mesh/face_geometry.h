@@ -31,7 +31,7 @@ struct FaceGeometry {
 /// The box of the vertices with finite coordinates, whether faces use them or not.
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
-/// Faces closer to each other than this distance are in contact. Unit: half of the longest side of the mesh.
+/// Faces closer to each other than this distance are in contact. Unit: half of the longest side of the bounding box.
 /// Coordinates in float32 cannot resolve such a distance. It also covers the rounding of parts that touch and are
 /// rotated.
 inline constexpr double kContactDistance = 0x1p-20;

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Collects the faces of a file in file order, with any corner counts, and triangulates them when all vertices are
+/// Collects the faces of a file in file order, with any numbers of corners, and triangulates them when all vertices are
 /// read. Stores plain triangles until the first face that is not a triangle.
 class InputFaces {
  public:
@@ -21,9 +21,9 @@ class InputFaces {
     return polygons_.isEmpty() ? triangles_.size() : polygons_.firstCorner.size() - 1;
   }
 
-  /// Sets mesh.faces and mesh.polygons. Preconditions: mesh.vertices is complete and every corner is below its size.
-  /// Throws Error{UnreadableInput} where there are no faces or none has three corners, Error{MeshTooLarge} for more
-  /// than 2^32 - 1 faces or triangles.
+  /// Sets mesh.faces and mesh.polygons. Preconditions: mesh.vertices is complete and every corner is below the vertex
+  /// count. Throws Error{UnreadableInput} where there are no faces or none has three corners, Error{MeshTooLarge} for
+  /// more than 2^32 - 1 faces or triangles.
   void moveTo(Mesh& mesh) { moveTo(mesh.vertices, mesh); }
   void moveTo(std::span<const Vec3d> vertices, Mesh& mesh);
 

@@ -42,7 +42,7 @@ void requirePolygons(const MeshView& view) {
                 fmt::format("the first corners of the polygons do not ascend from 0 to {}", view.corners().size()));
 }
 
-/// Checks a mesh of polygons.
+/// Checks the triangulation of a mesh of polygons.
 void requireTriangulation(const Mesh& mesh) {
   if (mesh.polygons.isEmpty()) return;
   requireAtMost(kMaxTriangleCount, mesh.faces.size(), "triangles");

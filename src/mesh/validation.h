@@ -16,7 +16,8 @@ namespace asdfvk {
 /// kMaxIndexCount and kMaxTriangleCount, Error{IndexOutOfRange} for faces with an index at or above the vertex count.
 void requireValidArrays(const MeshView& view);
 
-/// Faces with an index at or above the vertex count. All functions that take a TriangleMesh require it to be 0.
+/// Number of faces with an index at or above the vertex count. All functions that take a TriangleMesh require it to be
+/// 0.
 [[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh);
 
 /// Precondition: all arguments describe the same mesh.

@@ -22,7 +22,7 @@ double distanceToLine(const Pixel& p, const Pixel& a, const Pixel& b) {
   return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-/// Blends `colour` where distance(pixel) is below half of `width`, within the box of the two points.
+/// Blends `colour` where distance(pixel) is below half of `width`, within the bounding box of `low` and `high`.
 template <typename Distance>
 void stroke(Image& image, const Pixel& low, const Pixel& high, double width, const Rgb& colour,
             const Distance& distance) {

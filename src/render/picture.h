@@ -16,7 +16,7 @@ namespace asdfvk {
 
 inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 
-/// What render() draws. Holds views of the arrays only.
+/// What render() draws. Holds views of its arrays.
 struct Picture {
   const TraceScene& scene;
   /// #F: faces in the colours of colourOf(), grey for NaN, and a colour bar. Empty: light grey faces, and no bar.
@@ -32,8 +32,8 @@ struct Picture {
 };
 
 /// Renders on the CPU with depth buffers: parallel projection, white background, soft light. The result has the same
-/// bits for any number of threads. Only the background is drawn where rays can hit no face, because the mesh has no
-/// face with an area. Precondition: every index of a face is below the vertex count. Throws Error{Cancelled}.
+/// bits for any number of threads. If no face has an area, only the background is drawn. Precondition: every index of a
+/// face is below the vertex count. Throws Error{Cancelled}.
 [[nodiscard]] Image render(const Picture& picture, const RunControl& control = {});
 
 }  // namespace asdfvk

@@ -14,8 +14,9 @@ struct PictureStyle {
   double textScale = 1;            ///< See Picture::textScale.
 };
 
-/// The requested view with its up direction set. If the request has none, it is z for a file `input` that is an STL,
-/// otherwise guessUp(). findsThin: bestViewOf() the thin places sets the angles. Precondition: result.scene is set.
+/// The requested view with its up direction set. If the request has none, the direction is z if the file `input` is an
+/// STL, otherwise guessUp(). If findsThin, bestViewOf() chooses the angles for the thin places. Precondition:
+/// result.scene is set.
 [[nodiscard]] View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin);
 
 // Precondition of both functions: result.scene is set. Both throw Error{Cancelled}.

@@ -25,7 +25,7 @@ class SkyLight {
   struct Source {
     SampleGrid grid;
     double radiance = 0;
-    double reach = 0;           ///< Distance behind a surface at which its shadow ends. The shadow fades up to there.
+    double reach = 0;           ///< Distance behind a surface up to which its shadow fades; there it ends.
     std::vector<float> depths;  ///< Per texel, the depth of the surface that is nearest to the light.
   };
 

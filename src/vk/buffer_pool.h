@@ -41,7 +41,7 @@ class BufferPool {
 class PooledBuffer {
  public:
   PooledBuffer() = default;
-  /// A buffer of byteCount bytes or more. Throws as Buffer::Buffer().
+  /// A buffer of byteCount bytes or more. Throws the errors of Buffer::Buffer().
   PooledBuffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, MemoryKind kind)
       : pool_(&device.pool()), entry_(device.pool().take(byteCount, usage, kind)) {}
   ~PooledBuffer() {

@@ -44,7 +44,7 @@ struct DeviceFacts {
 /// llvmpipe before Mesa 25 silently ends all loops of an invocation after this many iterations, counted for the lanes
 /// of a subgroup together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS).
 inline constexpr uint32_t kMaxLoopIterationCount = 65'535;
-/// driverInfo: of the driver llvmpipe, for example "Mesa 22.3.6 (LLVM 15.0.6)".
+/// driverInfo: the driver information of llvmpipe, for example "Mesa 22.3.6 (LLVM 15.0.6)".
 [[nodiscard]] bool llvmpipeEndsLongLoops(std::string_view driverInfo);
 
 struct DeviceRequest {

@@ -33,7 +33,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog* log) {
   return info;
 }
 
-// VK_EXT_layer_settings, which the headers of Debian 12 do not have.
+// The headers of Debian 12 do not have VK_EXT_layer_settings.
 constexpr const char* kLayerSettings = "VK_EXT_layer_settings";
 
 struct LayerSetting {

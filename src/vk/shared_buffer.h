@@ -13,7 +13,7 @@ class SharedBuffer {
  public:
   enum class Host { Writes, Reads };
 
-  /// usage: by the kernels. host: whether the host writes or reads the buffer.
+  /// usage: flags of the use by kernels. host: whether the host writes or reads the buffer.
   SharedBuffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, Host host)
       : device_(device),
         buffer_(device, byteCount,
