@@ -164,7 +164,7 @@ def set_materials(mesh, segments) -> None:
     """Replaces the materials of the mesh by a material per part."""
     mesh.materials.clear()
     for part in range(int(segments.max()) + 1):
-        name = f"part {part}"
+        name = f"asdf-vk part {part}"
         material = bpy.data.materials.get(name) or bpy.data.materials.new(name)
         material.diffuse_color = (*colour_of_part(part), 1)
         material.use_nodes = True

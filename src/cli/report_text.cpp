@@ -72,8 +72,10 @@ std::string shortErrorRow(const Report& report) {
                            : "nothing to compare: the reference traced the rays");
   }
   const ErrorEstimate& estimate = *report.estimatedError;
-  return fmt::format("about {:.2g} % of the range on average, {} % of the value in the median", 100 * estimate.average,
-                     twoDigits(estimate.relativeMedian));
+  std::string text = fmt::format("about {:.2g} % of the range on average", 100 * estimate.average);
+  if (estimate.relativeMedian > 0)  // 0 where most faces cast rays: it would suggest that there are no errors.
+    text += fmt::format(", {} % of the value in the median", twoDigits(estimate.relativeMedian));
+  return text;
 }
 
 /// "7 (5 to 9 at nearby detail); the largest 53, 16 and 7.1 % of the area"

@@ -59,13 +59,14 @@ std::string verdictOf(const ThicknessReport& thickness) {
   if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
   switch (*thickness.verdict) {
     case ThicknessVerdict::Failed:
-      return fmt::format("FAIL: thinner than {:g}: {}", *thickness.thinnerThan, leastText(thickness));
+      return fmt::format("FAIL: thinner than {}: {}", limitText(*thickness.thinnerThan), leastText(thickness));
     case ThicknessVerdict::Passed:
-      return fmt::format("PASS: nowhere thinner than {:g}{}", *thickness.thinnerThan, sharpException(thickness));
+      return fmt::format("PASS: nowhere thinner than {}{}", limitText(*thickness.thinnerThan),
+                         sharpException(thickness));
     case ThicknessVerdict::NotJudged:
       break;
   }
-  return fmt::format("NOT JUDGED: none of the judged faces is thinner than {:g}", *thickness.thinnerThan);
+  return "NOT JUDGED: none of the judged faces is thinner than " + limitText(*thickness.thinnerThan);
 }
 
 /// Adds a row with title and heading, then rows for at most kListedCount items.
@@ -115,14 +116,15 @@ ReportRows thicknessRows(const Report& report) {
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));
   if (!thickness.regions.empty())
-    addList("thin",
-            fmt::format("{} below {:g}: area {} ({:.3g} %)", counted(thickness.regions.size(), "region"),
-                        *thickness.thinnerThan, lengthText(thickness.thinArea), 100 * thickness.thinAreaShare),
-            thickness.regions, regionText, thickness, rows);
+    addList(
+        "thin",
+        fmt::format("{} below {}: area {} ({:.3g} %)", counted(thickness.regions.size(), "region"),
+                    limitText(*thickness.thinnerThan), lengthText(thickness.thinArea), 100 * thickness.thinAreaShare),
+        thickness.regions, regionText, thickness, rows);
   if (!thickness.sharpEdges.empty())
     addList("sharp", sharpHeading(thickness), thickness.sharpEdges, edgeText, thickness, rows);
   if (const auto& ball = thickness.greatestSection)
-    rows.emplace_back("section", fmt::format("{}, the diameter of the largest ball inside, centre {}",
+    rows.emplace_back("section", fmt::format("{}, the diameter (to 0.1 %) of the largest ball inside, centre {}",
                                              lengthText(ball->diameter), pointText(ball->centre)));
   if (std::isnan(thickness.median)) return rows;
   std::string text = fmt::format("by area p1 {}, p5 {}, p50 {}, p95 {}, max {}", lengthText(thickness.percentile1),

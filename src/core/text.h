@@ -62,14 +62,17 @@ template <typename T>
   return value;
 }
 
-/// A diameter, thickness or area in a report, a picture or a legend. It has four significant digits, or up to nine where a
-/// length that differs from `limit` would otherwise have the text of `limit`.
+/// A diameter, thickness or area in a report, a picture or a legend. It has four significant digits, or up to nine
+/// where a length that differs from `limit` would otherwise have the text of `limit`.
 [[nodiscard]] inline std::string lengthText(double length, std::optional<double> limit = {}) {
   for (int digits = 4; limit && digits <= 9; ++digits)
     if (std::string text = fmt::format("{:.{}g}", length, digits); text != fmt::format("{:.{}g}", *limit, digits))
       return text;
   return fmt::format("{:.4g}", length);
 }
+
+/// A limit of lengths: nine significant digits, without the rounding of a conversion of units.
+[[nodiscard]] inline std::string limitText(double limit) { return fmt::format("{:.9g}", limit); }
 
 /// The greatest number of bytes that appendNumber() writes.
 inline constexpr size_t kNumberTextSize = 32;

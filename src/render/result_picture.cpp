@@ -35,7 +35,7 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
 
 /// For example "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", or "nowhere thinner than 0.8: least 1.2".
 std::string legendOf(const ThicknessReport& thickness) {
-  const std::string limit = fmt::format("thinner than {:g}", *thickness.thinnerThan);
+  const std::string limit = "thinner than " + limitText(*thickness.thinnerThan);
   const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);
   if (thickness.regions.empty())
     return fmt::format("{}nowhere {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "",

@@ -110,7 +110,7 @@ TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, 
              "  sharp     2 sharp edges or tips: thinner than any limit; --allow-sharp-edges leaves them out\n"
              "            tip of 12.2 degrees at (5, 5, 5), face 4\n"
              "            edge of 30 degrees, length 60, at (0, 0, 5), face 7\n"
-             "  section   4, the diameter of the largest ball inside, centre (30, 5, 2.5)\n"
+             "  section   4, the diameter (to 0.1 %) of the largest ball inside, centre (30, 5, 2.5)\n"
              "  thickness by area p1 1.1, p5 2, p50 2, p95 2, max 4\n"
              "  mesh      ");
   thickness.allowsSharpEdges = true;

@@ -29,6 +29,12 @@ TEST_CASE("groupDigits puts a comma before every third digit from the end") {
   CHECK(groupDigits(std::numeric_limits<uint64_t>::max()) == "18,446,744,073,709,551,615");
 }
 
+TEST_CASE("a limit has the digits that were given, without the rounding of a conversion") {
+  CHECK(limitText(0.8) == "0.8");
+  CHECK(limitText(0.8 * 1e-3) == "0.0008");
+  CHECK(limitText(0.1234568) == "0.1234568");
+}
+
 TEST_CASE("a length has four digits, and as many more as it takes to differ from a limit") {
   CHECK(lengthText(1.23456) == "1.235");
   CHECK(lengthText(12345.6) == "1.235e+04");

@@ -122,7 +122,7 @@ obj = add("figure", figure.vertices, figure.faces)
 bpy.ops.object.asdf_vk(measure="PARTS")
 segments = attribute(obj, "segment")
 checks.same_bits("segment", segments.astype(np.uint32), computed(obj, "segment", "--segment"))
-checks.that("a material per part", [m.name for m in obj.data.materials] == [f"part {i}" for i in range(segments.max() + 1)])
+checks.that("a material per part", [m.name for m in obj.data.materials] == [f"asdf-vk part {i}" for i in range(segments.max() + 1)])
 checks.that("material of each face", [p.material_index for p in obj.data.polygons] == segments.tolist())
 colours = {tuple(round(c, 4) for c in m.diffuse_color) for m in obj.data.materials}
 checks.that("the colours of the parts differ", len(colours) == segments.max() + 1 > 3)
