@@ -1,6 +1,6 @@
 #version 450
-// The starts of the cones of seed faces by the paper's definition, one per lane, from the triangles of the hierarchy
-// (the twin of coneStartOfFace() in src/trace/cone_tracer.h).
+// Computes the starts of the cones of seed faces for Definition::Paper from the triangles of the hierarchy, one cone
+// per lane. The twin of coneStartOfFace() in src/trace/cone_tracer.h.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 

@@ -14,8 +14,9 @@ RayFrame makeRayFrame(vec3 direction) {
                   vec3(b, s + direction.y * direction.y * a, -direction.y), direction);
 }
 
-// Coordinates across the ray. They depend on the vertex and the ray only; `precise` makes them, and the edge functions
-// computed from them, bit-identical in both triangles of an edge, so that no ray passes between them.
+// Coordinates across the ray. They depend on the vertex and the ray only. `precise` makes the coordinates, and the edge
+// functions computed from them, bit-identical in both triangles of an edge. No ray therefore passes between the
+// triangles.
 vec2 acrossRay(RayFrame frame, vec3 v) {
   precise vec2 p =
       vec2(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z, frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z);
@@ -25,8 +26,8 @@ vec2 acrossRay(RayFrame frame, vec3 v) {
 // The distance along the ray to the triangle. Corners are relative to the origin of the ray. The distance is negative
 // where the ray misses the triangle or hits it within the contact distance (Cone in src/cone/cone.h). For a hit on the
 // outer side, kOuterSideFactor contact distances are added. Rays hit both sides and the edges of the triangle. The
-// distance is computed from the plane with `normal`, which may have any length: weights of the corners by the edge
-// functions would be inexact in a triangle that is long and narrow.
+// distance is computed from the plane with `normal`, which may have any length. Interpolation between the corners would
+// be inexact in a long and narrow triangle.
 float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float contactDistance) {
   const vec2 a = acrossRay(frame, v0);
   const vec2 b = acrossRay(frame, v1);

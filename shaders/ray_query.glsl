@@ -68,9 +68,9 @@ vec3 stepsOf(DeviceWideNode node) {
 }
 
 // A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared as integers,
-// by their bits: the order of non-negative floats, and the reverse order of negative floats. All distances of a box
-// behind the origin are negative: by bits its exit is below its entry, so it is not entered. A minimum of floats takes
-// three instructions on llvmpipe because of NaNs, which do not occur here. kWideBoxMargin includes the margin for
+// by their bits. This is the order of non-negative floats, and the reverse order of negative floats. All distances of a
+// box behind the origin are negative: by bits its exit is below its entry, so it is not entered. A minimum of floats
+// takes three instructions on llvmpipe because of NaNs, which do not occur here. kWideBoxMargin includes the margin for
 // rounding.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const ivec4 enter = max(max(floatBitsToInt(distancesTo(near.x, perByte.x, start.x)),

@@ -1,6 +1,6 @@
 // The lengths of the rays of cones, which trace_reduce.comp reduces to values. Workgroup (x, y) traces kLanesPerCone
-// rays, from ray y kLanesPerCone on, of kConesPerWorkgroup cones: with one lane per cone, neighbouring lanes trace the
-// same ray of neighbouring seeds. These rays visit nearly the same nodes.
+// rays, from ray y kLanesPerCone on, of kConesPerWorkgroup cones. With one lane per cone, neighbouring lanes trace the
+// same ray of neighbouring seeds; such rays visit nearly the same nodes.
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
@@ -38,9 +38,9 @@ float distanceOf(Hit hit, vec3 normal, vec3 direction) {
   return dot(normal, direction) < 0.0 ? hit.distance - kOuterSideFactor * push.contactDistance : hit.distance;
 }
 
-// The length of a ray; kDropped for a miss and for a false hit. A false hit is recognised by the angle between the
-// normal of the hit face and the normal of the seed face (minus the axis) or, for CGAL, between the normal of the hit
-// face and the ray.
+// The length of a ray; kDropped for a miss and for a false hit. Whether a hit is false depends on the angle between two
+// normals: of the hit face and of the seed face (minus the axis). In CGAL's definition it depends on the angle between
+// the normal of the hit face and the ray.
 float validLength(Hit hit, vec3 axis, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.primitive);

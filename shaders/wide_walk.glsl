@@ -22,8 +22,9 @@ uint permuteNibbles(uint bits, bvec3 isNegative) {
 uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
 
 // Inner children of one node that are still to be entered. `base` is the childBase of the node. `bits` has bit 4 p + 3
-// for each of them, p = its slot ^ the octant of the ray, so that the lowest bit is the nearest child, and bit 4 s + 2
-// for each slot s of the node with an inner child. `bits` is 0 if the ray enters none of them.
+// for each of these children, where p = slot of the child ^ octant of the ray: the lowest of these bits is the nearest
+// child. It also has bit 4 s + 2 for each slot s of the node with an inner child. `bits` is 0 if the ray enters no
+// inner child.
 struct Group {
   uint base, bits;
 };
@@ -85,10 +86,10 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   return lowest == 0u ? otherwise : primitive;
 }
 
-// With kPostponesTriangles, tests of triangles are postponed until a lane of the subgroup has triangles of three nodes:
-// with tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
+// With kPostponesTriangles, tests of triangles are postponed until a lane of the subgroup has triangles of three nodes.
+// With tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
 // time, which hides the latency of loading them. Without kPostponesTriangles, a lane with triangles waits until each
-// lane of the subgroup has triangles or has no node left (Aila and Laine 2009), which needs fewer registers.
+// lane of the subgroup has triangles or has no node left (Aila and Laine 2009). This needs fewer registers.
 Hit findNearestHit(Query query) {
   uint stackBases[kStackSize];
   uint stackBits[kStackSize];

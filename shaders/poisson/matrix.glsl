@@ -1,4 +1,4 @@
-// The matrix S: bindings 0 to 2 of every kernel that multiplies by it.
+// The matrix S: bindings 0 to 2 of every kernel that multiplies by S.
 layout(set = 0, binding = 0) readonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer TailColumns { uint tailColumns[]; };
 layout(set = 0, binding = 2) readonly buffer TailCouplings { float tailCouplings[]; };

@@ -1,5 +1,5 @@
-// The approximations of src/core/simd.h and src/predict/prediction_kernel.cpp, so that both kernels have the same
-// systematic errors.
+// The approximations of src/core/simd.h and src/predict/prediction_kernel.cpp, so that the kernels of device and CPU
+// have the same systematic errors.
 
 // 1 / sqrt(x) for positive x, relative error 1e-3.
 float approximateRsqrt(float x) {

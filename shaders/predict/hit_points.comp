@@ -23,8 +23,8 @@ shared float middles[2];
 
 PredictionRay loadRay(uint ray) { return decodePredictionRay(tableBlocks[ray]); }
 
-// Each lane computes the ranks of its rays among all; the rays of the two middle ranks determine the median (the same
-// ray twice for an odd count). Returns the number of valid rays and their mean.
+// Each lane computes the ranks of its rays among all rays; the rays of the two middle ranks determine the median (the
+// same ray twice for an odd count). Returns the number of valid rays and their mean.
 void findMiddles(uint lane, out uint validCount, out float mean) {
   validCount = 0u;
   mean = 0.0;

@@ -16,7 +16,7 @@ layout(set = 0, binding = 2) readonly buffer Work { uint work[]; };  // See Pred
 layout(set = 0, binding = 3) buffer Values { uint values[]; };       // Per face: the bits of a length, or kNoValueBits.
 layout(push_constant) uniform Push { PredictionPush push; };
 
-const float kMinSquaredLength = 1e-37;  // The inverse of its root is finite.
+const float kMinSquaredLength = 1e-37;  // The inverse of the square root is finite.
 
 // The seeds of the current face.
 uint seeds[kMaxContributingSeedCount];

@@ -2,9 +2,11 @@
 // texels (format rgba32ui); floats are stored as their bits. Coordinates are normalised, see Normalization.
 //
 //   node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
-//   byte  0  origin.xyz  exponents                       texel 0
-//   byte 16  childBase  triangleBase  childBits  unused  texel 1
-//   byte 32  x: lower of slots 0-3, 4-7, upper likewise  texel 2, texels 3 and 4 for y and z
+//   byte  0  origin.xyz  exponents                            texel 0
+//   byte 16  childBase  triangleBase  childBits  unused       texel 1
+//   byte 32  x: lower[0-3] lower[4-7] upper[0-3] upper[4-7]   texel 2
+//   byte 48  y: the same                                      texel 3
+//   byte 64  z: the same                                      texel 4
 //
 // Node 0 is the root. On each axis the box of the child in slot s spans origin + lower[s] * scale to origin + upper[s]
 // * scale. lower[s] and upper[s] are bytes. `scale` is a power of two; its biased exponent is byte 0 (x), 1 (y) or 2
@@ -15,9 +17,9 @@
 // order of slot ^ q.
 //
 //   triangle, 48 bytes, in primitive order
-//   byte  0  v0.xyz  faceIndex                           texel 0
-//   byte 16  v1.xyz  normalU                             texel 1
-//   byte 32  v2.xyz  normalV                             texel 2
+//   byte  0  v0.xyz  faceIndex                                texel 0
+//   byte 16  v1.xyz  normalU                                  texel 1
+//   byte 32  v2.xyz  normalV                                  texel 2
 //
 // normalU and normalV are the octahedral encoding of the normal (Cigolle et al. 2014). The normal is computed from the
 // double-precision mesh, because the normal of the rounded corners would be noise on small faces.

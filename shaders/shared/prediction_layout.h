@@ -12,8 +12,8 @@ using glsl::vec3;
 #endif
 
 // A ray represents the surface around its hit point. This surface fills one solid angle seen from the seed and another
-// one seen from the virtual cone. The ratio of the two is limited to this factor and its inverse: beyond, the point is
-// close to one of the origins and far from the other, and the surface around it is not a disc.
+// one seen from the virtual cone. The ratio of the two is limited to this factor and its inverse. At greater ratios,
+// the point is close to one of the origins and far from the other, and the surface around it is not a disc.
 const float kMaxSolidAngleChange = 4.0f;
 
 // The outlier rule is applied twice: to the lengths of all seeds together (pooled), and to the lengths in the cone of
@@ -62,9 +62,9 @@ struct PredictionSeed {
   uint face;
 };
 
-// The hit point of a ray, 32 bytes. Each seed has one PredictionPoint per ray, after a first one that describes the
-// seed: its barycentre, its face, its normal and, in solidAngleRatio, the median length of its valid rays (0 if there
-// are none).
+// The hit point of a ray, 32 bytes. The points of a seed are a PredictionPoint for the seed itself, then one per ray.
+// The point of the seed has its barycentre, its face, its normal and, in solidAngleRatio, the median length of its
+// valid rays (0 if there are none).
 const uint kPredictionPointBlockCount = 2u;
 struct PredictionPoint {
   vec3 position;

@@ -188,8 +188,8 @@ struct Placement {
 };
 
 // Assigns destinations to the runs of a subtree and writes the nodes above them. The parent determines the index of a
-// node; its descendants start at `next`: the pair of children, then all nodes below the left child, then all below the
-// right child. Returns the index after the subtree.
+// node. The descendants of the node start at `next`: first the two children, then all nodes below the left child, then
+// all nodes below the right child. Returns the index after the subtree.
 uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::span<BvhNode> nodes,
                std::vector<Placement>& placements) {
   if (!subtree.left) {

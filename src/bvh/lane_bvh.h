@@ -32,8 +32,8 @@ struct alignas(64) LaneBlock {
 };
 static_assert(sizeof(LaneBlock) == 320);
 
-/// The hierarchy for the lanes of a CPU, in float32: corners are rounded to nearest, boxes are equal to those of the
-/// Bvh. Node 0 is the root; there is no node without triangles.
+/// The hierarchy for the lanes of a CPU, in float32: corners are rounded to nearest, and boxes are the boxes of the
+/// Bvh. Node 0 is the root; `nodes` is empty without triangles.
 struct LaneBvh {
   UnsetVector<LaneNode> nodes;
   UnsetVector<LaneBlock> blocks;

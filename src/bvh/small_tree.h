@@ -13,8 +13,8 @@ namespace asdfvk {
 /// Largest number of triangles of a SmallTree.
 inline constexpr size_t kMaxSmallTreeCount = 8;
 
-/// A hierarchy over few triangles, built by agglomerative clustering: each pass merges the pairs of clusters that are
-/// mutual nearest neighbours (Meister and Bittner 2018, but with all clusters as candidates). The distance of two
+/// A hierarchy over few triangles, built by agglomerative clustering (Meister and Bittner 2018, but with all clusters
+/// as candidates). Each pass merges the pairs of clusters that are mutual nearest neighbours. The distance of two
 /// clusters is the area of their common box. For this number of triangles it is faster than top-down splitting, and the
 /// tree has no higher cost.
 class SmallTree {

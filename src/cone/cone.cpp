@@ -81,8 +81,8 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
 
 }  // namespace
 
-/// Distance, by rounding to float32, of a point on a face from the plane of the face. Rays at the rim of the cone have
-/// the longest way through this distance.
+/// Distance, by rounding to float32, of a point on a face from the plane of the face. A ray at the rim of the cone
+/// leaves the plane at the smallest angle, and so travels farthest within this distance.
 constexpr double kFloatPlaneError = 0x1p-22;
 constexpr double kMaxContactDistance = 0x1p-16;
 

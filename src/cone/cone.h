@@ -88,9 +88,9 @@ struct LengthWindow {
 /// kMaxRayCount lengths.
 [[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule);
 
-/// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of those in keptWindow(). It is
-/// kNoValue without valid rays, and if no length is in the window; the latter is possible only if rule.deviations is
-/// below 1. lengths and weights have one entry per valid ray, in the order of the cone.
+/// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of the lengths in keptWindow().
+/// Returns kNoValue if there is no valid ray, or if the window contains no length, which is possible only if
+/// rule.deviations is below 1. lengths and weights have one entry per valid ray, in the order of the cone.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
                                const OutlierRule& rule = {});
 

@@ -8,8 +8,8 @@
 namespace asdfvk {
 namespace {
 
-// Added to the cosine of the angle from which walls oppose each other, so that walls at exactly this angle, such as
-// those of a hexagonal prism at 120 degrees, oppose each other despite rounding. The slack is 0.07 degrees at 120
+// Added to the cosine of the angle from which walls oppose each other. With it, walls at exactly this angle oppose each
+// other despite rounding, such as the walls of a hexagonal prism at 120 degrees. The slack is 0.07 degrees at 120
 // degrees and 2.6 degrees at 180 degrees.
 constexpr double kOpposingWallSlack = 1e-3;
 

@@ -106,9 +106,9 @@ class LeastBall {
     limit_ = std::min(limit_, withRounding(diameter));
   }
 
-  /// The least ball at a point of the face. If the ball that touches the plane of the wall touches it outside of the
-  /// wall, the least ball touches an edge that faces this place, because the diameter is a convex function of the point
-  /// of the wall.
+  /// The least ball at a point of the face. The diameter is a convex function of the point of the wall. If the ball for
+  /// the plane of the wall touches the plane outside of the wall, the least ball therefore touches an edge that faces
+  /// this place.
   void offerPoint(const Vec3d& p, double offset) {
     const double side = offset < 0 ? -1 : 1, radius = std::abs(offset) / (1 + side * dot(wall_.normal, axis_));
     const Vec3d touched = p + radius * (axis_ + side * wall_.normal);

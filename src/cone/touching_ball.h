@@ -26,15 +26,15 @@ struct PlaneTriangle {
   return offset < 0 ? -2 * offset / (1 - dot(normal, axis)) : 2 * offset / (1 + dot(normal, axis));
 }
 
-/// The least ball that touches the face at any of its points and has a point of the wall on its surface. With a point p
-/// of the face, a point q of the wall, v = q - p and the inward normal m = -face.normal, the diameter is |v|^2 / dot(v,
-/// m); the result has the least diameter over all p and q. Points of the wall with a depth dot(v, m) of at most
-/// `minDepth`, which is above 0, are ignored. Where the least diameter is above `limit`, the diameter of the result is
-/// any number above `limit`, or infinite. The bits of the diameter are the same for all limits above it.
+/// The least ball that touches the face at any of its points and has a point of the wall on its surface. The diameter
+/// is |v|^2 / dot(v, m), where v = q - p for a point p of the face and a point q of the wall, and m = -face.normal is
+/// the inward normal. The result has the least diameter over all p and q. Points of the wall with a depth dot(v, m) of
+/// at most `minDepth`, which is above 0, are ignored. Where the least diameter is above `limit`, the diameter of the
+/// result is any number above `limit`, or infinite. The bits of the diameter are the same for all limits above it.
 ///
 /// The balls of diameter T that touch the face fill a convex set: the face, shifted by T/2 along m and then extended by
-/// T/2. If a wall has exactly one point in common with this set, a ball touches the wall at a corner; or, from a corner
-/// or an edge of the face, at a point of an edge or of the interior. Each of these cases has a closed form; the least
+/// T/2. For the least diameter, a wall has exactly one point in common with this set. This point is a corner of the
+/// wall, or the ball touches the face at a corner or an edge. Each of these cases has a closed form, so that the least
 /// of all is exact.
 [[nodiscard]] TouchingBall leastTouchingBall(const PlaneTriangle& face, const PlaneTriangle& wall, double minDepth,
                                              double limit = std::numeric_limits<double>::infinity());

@@ -23,7 +23,7 @@ struct HeldOutFaces {
 
 /// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is proportional to
 /// its error indicator, but at most 1. Ordered pivotal method (Deville and Tille 1998, "Unequal probability sampling
-/// without replacement through a splitting method"; Chauvet 2012): neighbours in the list exclude each other, so that
+/// without replacement through a splitting method"; Chauvet 2012). Neighbours in the list exclude each other, so that
 /// the sample is spread over the list.
 /// indicator: #F, above 0. Returns ascending faces if the candidates are ascending.
 [[nodiscard]] HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator,

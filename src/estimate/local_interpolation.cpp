@@ -11,8 +11,8 @@
 namespace asdfvk {
 namespace {
 
-// Residual at which the iteration ends, relative to the residual of the start. The difference between start and
-// solution is the error that is measured; this is therefore the relative precision of the error.
+// Residual at which the iteration ends, relative to the residual of the start. The measured error is the difference
+// between start and solution. kLocalReduction is therefore the relative precision of the measured error.
 constexpr double kLocalReduction = 3e-3;
 constexpr uint32_t kMaxLocalIterations = 1000;
 constexpr uint32_t kConstrainedRow = std::numeric_limits<uint32_t>::max();

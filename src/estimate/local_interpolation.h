@@ -13,7 +13,7 @@ namespace asdfvk {
 struct SolvedInterpolation {
   const DualGraph& graph;
   std::span<const double> weights;      ///< One per arc.
-  std::span<const double> constraints;  ///< NaN for a face without one.
+  std::span<const double> constraints;  ///< NaN for a face without a constraint.
   std::span<const double> guide;        ///< A field; the equation includes its divergenceOf(). May be empty.
   std::span<const double> divergence;   ///< Further divergence; may be empty.
   std::span<const double> solution;     ///< The solution with all seeds; `constraints` has fewer seeds.
@@ -21,8 +21,8 @@ struct SolvedInterpolation {
 
 /// The values that the interpolation has at `faces` with `constraints` only. The effect of a constraint decays within a
 /// few cells of other constraints. The equation is therefore solved around each of the faces separately, up to the
-/// nearest kLocalConstraintCount constraints; farther away the values are those of `solution`. Returns #faces, NaN
-/// where no constraint and no solution is near. The result does not depend on the number of threads.
+/// nearest kLocalConstraintCount constraints. Farther away, values are taken from `solution`. Returns #faces, NaN where
+/// no constraint and no solution is near. The result does not depend on the number of threads.
 [[nodiscard]] std::vector<double> interpolateLocally(const SolvedInterpolation& solved,
                                                      std::span<const uint32_t> faces);
 

@@ -21,7 +21,8 @@ struct TracerNeeds {
   bool hits = false;  ///< The hits of the rays.
 };
 
-/// Makes tracers, and predictors if it can: a Vulkan device with its pipelines, the CPU, or the reference.
+/// Makes tracers, and on a device also predictors. A backend is a Vulkan device with its pipelines, the CPU, or the
+/// reference.
 class Backend {
  public:
   virtual ~Backend() = default;

@@ -66,7 +66,7 @@ Vec3d unitVector(const Vec3d& v) {
 void requireNoConflict(const Options& options, Orientation orientation, bool hasRegion) {
   if (options.orientation != Orientation::Keep && options.orientation != orientation)
     throw Error(ErrorCode::OptionConflict,
-                "the scene was prepared with another orientation; leave that of the options at Keep");
+                "the scene was prepared with another orientation; leave the orientation of the options at Keep");
   if (!hasRegion) return;
   if (options.segmentation != Segmentation::None)
     throw Error(ErrorCode::OptionConflict, "a region has no segments; segment the whole mesh");

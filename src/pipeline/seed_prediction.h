@@ -33,7 +33,7 @@ class SeedPrediction {
   [[nodiscard]] bool predictsOnDevice() const;
   DevicePredictor* devicePredictor();
   void continueOnCpu(const Error& failure);
-  /// Calls run(device), with null where the CPU predicts or the device fails.
+  /// Calls run(device). device: null if the CPU predicts; after a failure of the device, run(null) is called.
   template <typename Run>
   void runWithDevice(const Run& run);
 

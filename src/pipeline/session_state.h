@@ -50,7 +50,7 @@ auto SessionState::compute(bool mayReplace, const RunControl& control, const Com
   RunControl watched = control;
   if (control.progress)
     watched.progress = [&](double fraction) {
-      done = std::max(done, fraction);  // A solver that replaces one on the device begins anew.
+      done = std::max(done, fraction);  // A solver of the CPU that replaces a solver of the device begins anew.
       control.progress(done);
     };
   while (true) {

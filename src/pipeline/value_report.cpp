@@ -12,9 +12,9 @@
 namespace asdfvk {
 namespace {
 
-// The range of the values is not a good scale for errors in two cases: the robust range is below this share of the
-// range, or the median relative error is large and far above the average error over the range. No clean mesh is near
-// these limits (docs/accuracy.md).
+// The range of the values is not a good scale for errors in two cases. Either the robust range is below this share of
+// the range, or the median relative error is large and far above the average error over the range. No clean mesh is
+// near these limits (docs/accuracy.md).
 constexpr double kMinRobustShare = 0.1, kLargeRelativeError = 0.1, kMaxRelativeOverAverage = 5;
 
 /// The warning about faces without a value, with its likely causes. values: #F.

@@ -20,8 +20,8 @@
 namespace asdfvk {
 namespace {
 
-/// While it exists, lavapipe creates devices with as many threads as ThreadLimit allows, if that is less than the
-/// default.
+/// While this object exists, lavapipe creates devices with the number of threads that ThreadLimit allows, if this
+/// number is below the default.
 class LavapipeThreads {
  public:
   LavapipeThreads() : lock_(mutex()) {
@@ -103,7 +103,7 @@ class VulkanBackend final : public Backend {
   void requireRight(const TracerCheck& check, const char* computed) const {
     if (!check.isRefuted()) return;
     throw Error(ErrorCode::NoUsableDevice,
-                fmt::format("{} computes wrong {}: {} of {} of a generated mesh differ from those of the CPU",
+                fmt::format("{} computes wrong {}: {} of {} of a generated mesh have other results than on the CPU",
                             deviceName(), computed, check.differingCount, counted(check.comparedCount, "face")));
   }
 

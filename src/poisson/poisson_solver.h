@@ -20,7 +20,7 @@ class Device;
 
 /// One interpolation on a dual graph: arguments of buildPoissonSystem(). The solver may release the vectors.
 struct GraphProblem {
-  std::span<const double> constraints;  ///< #F, NaN for a face without one.
+  std::span<const double> constraints;  ///< #F, NaN for a face without a constraint.
   std::vector<double> firstGuess;       ///< #F; non-finite entries are replaced by the mean of the constraints.
   std::span<const double> guide;   ///< #F, or empty: a field; the equation includes its divergenceOf(). A device starts
                                    ///< from the finite entries of the field.

@@ -49,10 +49,10 @@ struct PoissonSystem {
 ///
 /// weights: one per arc, see arcWeights(); > 0, finite, equal in both directions. Several arcs between two faces count
 /// as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a
-/// constrained face (Dirichlet), NaN elsewhere. divergence: #F, or empty for none; non-finite entries count as 0. It is
-/// minus the curvature for the paper's guidance, and divergenceOf(field) for guidance by any field: if the constraints
-/// are values of the field, the field is the solution. componentOf: #F, see Components::componentOf. firstGuess: #F, or
-/// empty; non-finite entries are replaced by the constraintMean.
+/// constrained face (Dirichlet), NaN elsewhere. divergence: #F, or empty for none; non-finite entries count as 0. For
+/// the paper's guidance it is minus the curvature. For guidance by a field it is divergenceOf(field): if the
+/// constraints are values of the field, the field is the solution. componentOf: #F, see Components::componentOf.
+/// firstGuess: #F, or empty; non-finite entries are replaced by the constraintMean.
 [[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                                std::span<const double> constraints, std::span<const double> divergence,
                                                std::span<const uint32_t> componentOf,

@@ -103,8 +103,8 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
   }
 }
 
-/// Copies the values of faces that are in the same cell as before, if the contributing seeds are the same too. The
-/// other faces become the remaining faces.
+/// Copies the values of faces that were in this cell in the earlier prediction, if the contributing seeds are
+/// unchanged. The other faces become the remaining faces.
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
   const std::span<const uint32_t> faces = input_.cells.faces[cell];
   remainingFaces_.assign(faces.begin(), faces.end());

@@ -75,10 +75,10 @@ struct ReplacedValue {
   double value;
 };
 
-/// Adds the seeds in `hits` that have no cell in the prediction yet. The cell of such a seed is made of the faces
-/// around it that are nearer to it than to the seed of their cell, and only these faces are predicted again. The other
-/// faces keep their values, although a new seed may be near. Arguments and errors as in predictValues(). Returns the
-/// values that were replaced, by ascending face.
+/// Adds the seeds in `hits` that have no cell in the prediction yet. The cell of a new seed takes those faces around
+/// the seed that are nearer to it than to the seed of their current cell. Only these faces are predicted again. The
+/// other faces keep their values, although a new seed may be near. Arguments and errors as in predictValues(). Returns
+/// the values that were replaced, by ascending face.
 [[nodiscard]] std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                                   const SeedHitsView& hits, const PredictionOptions& options,
                                                   Prediction& prediction, DevicePredictor* device = nullptr,

@@ -23,7 +23,7 @@ bool claim(uint32_t& cellOfFace, uint32_t cell) {
   return false;
 }
 
-/// Breadth-first, all faces at one distance from the seeds in parallel.
+/// Breadth-first search. All faces at one distance from the seeds are processed in parallel.
 std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uint32_t> seeds) {
   ASDFVK_CHECK_OP(seeds.size(), <, size_t{kClaimed} - 1);
   std::vector<uint32_t> cellOf(graph.faceCount(), kNoCell);

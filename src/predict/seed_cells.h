@@ -34,8 +34,8 @@ struct SeedCells {
 /// empty.
 [[nodiscard]] SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds);
 
-/// For each cell: the cell itself, then the nearest of the cells that share an edge with it, at most neighbourCount, by
-/// ascending distance between the barycentres of the seeds.
+/// For each cell a row: the cell itself, then at most neighbourCount of the cells that share an edge with it, the
+/// nearest first. Distances are between the barycentres of the seeds.
 class NearestCells {
  public:
   NearestCells() = default;

@@ -40,8 +40,8 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
   return std::max(kMinArcLength, static_cast<float>(std::sqrt(squaredRadii / sampleCount)));
 }
 
-// If the start radius was too small it is multiplied by kRadiusGrowth, at most kMaxGrowthCount times, and then set to
-// infinity: if there are fewer seeds than components, no finite radius is large enough.
+// A start radius that was too small is multiplied by kRadiusGrowth, at most kMaxGrowthCount times, and then set to
+// infinity. If there are fewer seeds than components, no finite radius is large enough.
 constexpr int kMaxGrowthCount = 4;
 constexpr float kRadiusGrowth = 1.5f;
 
@@ -52,7 +52,7 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
   if (count == 0) return {};
   Random random(randomSeed);
   random.shuffle(std::span<uint32_t>(waiting));
-  // A start radius that is too large costs only time; one that is too small leaves gaps.
+  // A start radius that is too large only costs time; a start radius that is too small leaves gaps.
   float startRadius = 1.25f * estimateDiskRadius(domain.graph, lengths, waiting, count, random.next());
   SurfaceDistances distances(domain.graph, lengths);
   for (int growthCount = 0;; ++growthCount) {

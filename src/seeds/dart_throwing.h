@@ -19,8 +19,8 @@ struct ThrownDarts {
 };
 
 /// Hierarchical dart throwing (McCool and Fiume, "Hierarchical Poisson disk sampling distributions", 1992) on the dual
-/// graph: at each radius every candidate face, in order, becomes a dart if its distance to every dart is at least the
-/// radius; then the radius decreases. Difference from the paper: a face is skipped until the radius is at most its
+/// graph. At each radius every candidate face, in order, becomes a dart if its distance to every dart is at least the
+/// radius. Then the radius decreases. Difference from the paper: a face is skipped until the radius is at most its
 /// distance to the darts, so that small steps of the radius cost no more than large ones.
 ///
 /// waiting: the candidate faces, in order. count: at most their number.

@@ -53,7 +53,7 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 
 /// Blue noise with arcs stretched by the square root of the density, so that the spacing is proportional to
 /// density^-1/2. On smooth meshes the number of seeds per face is proportional to the density within 10 to 20 % while
-/// at most a tenth of the faces are seeds; with more seeds the dense parts are saturated.
+/// at most a tenth of the faces are seeds. With more seeds, all faces of the dense parts are seeds.
 [[nodiscard]] SampleSeedsByDensity weightedBlueNoiseSeeds;
 
 /// Farthest-point sampling (Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985) in the
@@ -64,7 +64,7 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 [[nodiscard]] SampleSeeds farthestPointSeeds;
 
 /// Normal-space sampling (Rusinkiewicz and Levoy, "Efficient variants of the ICP algorithm", 2001; future work of the
-/// ASDF paper): each bin of normals has the same number of seeds, existing seeds included, as long as it has
+/// ASDF paper). Each bin of normals has the same number of seeds, existing seeds included, as long as it has
 /// candidates. The choice within a bin is random. Interpolation from these seeds has larger errors than from a random
 /// selection.
 [[nodiscard]] SampleSeeds normalSpaceSeeds;

@@ -22,10 +22,10 @@ inline constexpr double kConvexAngleDegrees = 20;
 inline constexpr float kMinArcLength = 0x1p-20f;
 inline constexpr float kMaxArcLength = 0x1p+20f;
 
-/// The length of each arc, aligned with graph.neighbours, the same in both directions: sqrt(1 + (a / s)^2), where a is
-/// the dihedral angle of the edge and s one of the constants above. Lengths have no unit; the length is 1 between
-/// coplanar faces. The angles are those of signedDihedralAngle(): a degenerate face counts as coplanar with its
-/// neighbour, and the angle between faces of opposite winding is the angle between their normals.
+/// The length of each arc, in the order of graph.neighbours and equal in both directions. It is sqrt(1 + (a / s)^2),
+/// where a is the dihedral angle of the edge and s one of the constants above. Lengths have no unit; the length is 1
+/// between coplanar faces. Angles are computed by signedDihedralAngle(). It treats a degenerate face as coplanar with
+/// its neighbour. Between faces of opposite winding it returns the angle between their normals.
 [[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry);
 
 /// The distance of each face to the nearest of a growing set of seeds. The search for shortest paths from a new seed

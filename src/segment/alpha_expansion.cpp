@@ -28,8 +28,8 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
-  // A label needs no further expansion if nothing has changed since its last one. The label of the last change needs
-  // none either, because an expansion is optimal for its label.
+  // Expanding a label again changes nothing if no face has changed since its last expansion. This includes the label of
+  // the last change, because an expansion is optimal for its label.
   uint32_t unchangedCount = 0;
   for (uint32_t round = 0; round < limits.maxRoundCount; ++round)
     for (uint32_t label = 0; label < labelCount; ++label) {

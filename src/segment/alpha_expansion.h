@@ -22,8 +22,8 @@ struct LabelProblem {
   std::span<const double> dataCosts;  ///< #F x labelCount, by face; infinite where a label is forbidden, never NaN.
   std::span<const LabelEdge> edges;   ///< Several edges between two faces add up.
 
-  /// Instead of dataCosts, for few allowed labels per face: those of face f are choices[firstChoices[f]] ..
-  /// choices[firstChoices[f + 1] - 1], others are forbidden.
+  /// Replaces dataCosts where few labels per face are allowed: face f may have the labels of choices[firstChoices[f]]
+  /// to choices[firstChoices[f + 1] - 1].
   struct Choice {
     uint32_t label;
     double cost;
@@ -48,8 +48,8 @@ struct LabelProblem {
 /// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
 /// Expanding a label gives it to the set of faces that lowers the energy most; among several such sets, to the one with
 /// the fewest faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih:
-/// What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face that may not have the label has no
-/// node: it is visited once while the graph is built. Deterministic. An object reuses its memory.
+/// What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face that may not take the label has no node.
+/// Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {

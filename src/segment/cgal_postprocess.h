@@ -33,7 +33,7 @@ struct CgalValues {
 ///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
 /// where R = 1 + floor(sqrt(#F / 2000)), and sigma_f is 1.5 times the root mean square of v_g - v_f. Precondition: the
 /// values and their squares are finite. `control` is polled every 256 faces. Throws Error{Cancelled}. Sums have the
-/// order of a breadth-first search, so that the result has the same bits on any number of threads, and with any
+/// order of a breadth-first search. The result therefore has the same bits on any number of threads, and with any
 /// instruction set where exp() has the bits of core/lane_exp.h.
 [[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                                  const RunControl& control = {},

@@ -21,7 +21,8 @@ bool isTraversedBothWays(const TriangleMesh& mesh, uint32_t first, uint32_t seco
 uint32_t umbrellaOf(const TriangleMesh& mesh, const FaceNeighbours& neighbours, uint32_t corner) {
   const uint32_t vertex = mesh.faces[corner / 3][corner % 3];
   uint32_t lowest = corner;
-  for (const uint32_t step : {0u, 2u})  // Across the edge that begins at the vertex, then across the one that ends.
+  // Across the edge that begins at the vertex, then across the edge that ends there.
+  for (const uint32_t step : {0u, 2u})
     for (uint32_t at = corner;;) {
       const uint32_t next = neighbours[at / 3][(at % 3 + step) % 3];
       if (next == kNoNeighbour) break;

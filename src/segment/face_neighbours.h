@@ -15,12 +15,12 @@ inline constexpr uint32_t kNoNeighbour = std::numeric_limits<uint32_t>::max();
 using FaceNeighbours = std::vector<std::array<uint32_t, 3>>;
 
 /// The neighbours in a manifold, consistently oriented surface. Two faces are neighbours across an edge if exactly
-/// these two have it and traverse it in opposite directions. An edge of more faces is first divided, like CGAL's
-/// readers do by splitting vertices: two of its faces keep a common edge if neighbours connect them around both of its
-/// ends. There is kNoNeighbour at boundary edges, at edges between faces of opposite winding, and at all edges of faces
-/// with a repeated vertex or a non-finite corner. Such faces are not counted at any edge. Vertices are compared by
-/// index. Two faces that share several edges are neighbours across each. Precondition: every index of a face is below
-/// the vertex count.
+/// these two have it and traverse it in opposite directions. An edge of more faces is first divided; CGAL's readers do
+/// the same by splitting vertices. Two of its faces keep a common edge if neighbours connect them around both ends of
+/// the edge. There is kNoNeighbour at boundary edges, at edges between faces of opposite winding, and at all edges of
+/// faces with a repeated vertex or a non-finite corner. Such faces are not counted at any edge. Vertices are compared
+/// by index. Two faces that share several edges are neighbours across each of them. Precondition: every index of a face
+/// is below the vertex count.
 [[nodiscard]] FaceNeighbours findFaceNeighbours(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

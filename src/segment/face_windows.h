@@ -24,8 +24,8 @@ class FaceWindows {
   void setBlock(std::span<const uint32_t> block, uint32_t ringCount);
 
   /// The faces around face i of the block, in the order of a breadth-first search that takes neighbours in their order.
-  /// Face i is first; faces [ringEnds[r - 1], ringEnds[r]) are those of ring r. `window` gets them as indices into
-  /// faces(), and has room for faces().size() + 1. ringEnds: ringCount + 1.
+  /// Face i is first; faces [ringEnds[r - 1], ringEnds[r]) are in ring r. `window` gets them as indices into faces(),
+  /// and has room for faces().size() + 1. ringEnds: ringCount + 1.
   void search(uint32_t i, std::span<uint32_t> window, std::span<uint32_t> ringEnds);
 
   /// The faces around the block. Face 0 stands for a neighbour that does not exist, and face 1 + i is face i of the

@@ -41,7 +41,8 @@ class MaxFlow::Search {
         begin_(begin),
         count_(end - begin) {}
 
-  /// Routes flow along the trees of a forest, from the leaves to the roots, before the search: most of it ends nearby.
+  /// Routes flow along the trees of a forest, from the leaves to the roots, before the search: most flow has a short
+  /// way.
   void routeAlongForest();
   /// Makes every node with a terminal capacity the root of a tree.
   void plant();

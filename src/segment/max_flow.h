@@ -9,9 +9,9 @@ namespace asdfvk {
 
 /// Maximum flow and minimum cut between two terminals, source and sink, by the method of Y. Boykov and V. Kolmogorov:
 /// An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search
-/// trees grow from the terminals; where they touch, flow is augmented; subtrees that are cut off are adopted by other
-/// parents of their tree, the nearest to the terminal first, or become free. Before the search, flow is routed along
-/// the trees of a forest, which halves the time of graphs of meshes.
+/// trees grow from the terminals. Where they touch, flow is augmented. A subtree that is cut off gets another parent in
+/// its tree, preferably the one nearest to the terminal; if there is none, its nodes become free. Before the search,
+/// flow is routed along the trees of a forest, which halves the time of graphs of meshes.
 ///
 /// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then pairs of ranges
 /// are solved, which continue from the trees of their parts, and so on (J. Liu, J. Sun: Parallel Graph-cuts by Adaptive

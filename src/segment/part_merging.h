@@ -103,7 +103,7 @@ class PartMerging {
   }
 
   MergeWeights weights_;
-  std::vector<Region> regions_;  ///< One per patch; merged ones are not alive.
+  std::vector<Region> regions_;  ///< One per patch; not alive if merged into another region.
   std::vector<Border> borders_;
   std::vector<PairSums> pairs_;
   std::vector<uint32_t> regionOf_;  ///< Per patch.

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-/// Soft clustering of numbers by a Gaussian mixture that is initialised by k-means++: the method, the random numbers
-/// and the limits of CGAL's segmentation_from_sdf_values(), derived from its outputs (version 5.5.1; no code of CGAL).
+/// Soft clustering of numbers by a Gaussian mixture that is initialised by k-means++. Method, random numbers and limits
+/// are those of CGAL's segmentation_from_sdf_values(), derived from its outputs (version 5.5.1; no code of CGAL).
 namespace asdfvk {
 
 /// Clusters ascend by mean.

@@ -12,8 +12,8 @@
 namespace asdfvk {
 
 /// The distance of each face to the nearest source along arcs, and the label of that source. Dijkstra's algorithm with
-/// buckets instead of a heap: faces within a bucket are processed in the order in which they were added, and a face
-/// whose distance decreases later is processed again. Deterministic. An object reuses its memory.
+/// buckets instead of a heap. Faces within a bucket are processed in the order in which they were added. A face whose
+/// distance decreases later is processed again. Deterministic. An object reuses its memory.
 class SurfaceFront {
  public:
   using Arc = PartSurface::Arc;
@@ -50,7 +50,7 @@ class SurfaceFront {
       for (size_t i = 0; i < bucket.size(); ++i) {
         const Entry entry = bucket[i];
         if (entry.distance > distances_[entry.face]) continue;
-        if (bucketOf(entry.distance) > current_) {  // It was beyond the last bucket.
+        if (bucketOf(entry.distance) > current_) {  // The entry was beyond the last bucket.
           put(entry);
           continue;
         }

@@ -8,21 +8,21 @@
 #include "asdf_vk/options.h"
 #include "mesh/dual_graph.h"
 
-/// Bilateral filter (Tomasi and Manduchi 1998) of a field on faces: the last step of the shape diameter function of
-/// Shapira, Shamir and Cohen-Or 2008 and of the ASDF paper (section 3), where it reduces the differences between poses;
-/// here it reduces the noise of few rays per face. Steps of the values between parts are kept. The value of a face
-/// becomes the mean of the values v_g of the faces g within R rings of the dual graph with the weights
+/// Bilateral filter (Tomasi and Manduchi 1998) of a field on faces. It is the last step of the shape diameter function
+/// of Shapira, Shamir and Cohen-Or 2008 and of the ASDF paper (section 3). There it reduces the differences between
+/// poses; here it reduces the noise of few rays per face. Steps of the values between parts are kept. The value of a
+/// face becomes the mean of the values v_g of the faces g within R rings of the dual graph with the weights
 ///   exp(-ring(g)^2 / (2 (R / 2)^2)) exp(-(v_g - v_f)^2 / (2 sigma_f^2)),
 /// where sigma_f is the root mean square of the differences v_g - v_f in the window, f included.
-/// CGAL's sdf_values() filters likewise by default (Bilateral_filtering in
-/// Surface_mesh_segmentation/internal/Filters.h) with three differences: its range Gaussian has width 1.5 sigma_f; its
-/// window has 1 + floor(sqrt(faceCount / 2000)) rings, 3 for 10,000 faces and 8 for 100,000; and faces without a value
+/// CGAL's sdf_values() has a similar filter by default (Bilateral_filtering in
+/// Surface_mesh_segmentation/internal/Filters.h) with three differences. Its range Gaussian has the width 1.5 sigma_f.
+/// Its window has 1 + floor(sqrt(faceCount / 2000)) rings: 3 for 10,000 faces and 8 for 100,000. Faces without a value
 /// receive a value before the filter.
 namespace asdfvk {
 
 inline constexpr uint32_t kMaxBilateralWindow = 4;  ///< Rings.
 
-/// The window with the least error of the 30-ray function on meshes with this number of faces: the finer the mesh, the
+/// The window with the least error of the 30-ray function on meshes with this number of faces. The finer the mesh, the
 /// less the true values differ within a window. The windows are for values that are traced at every face with
 /// ConeRotation::Hashed. With fixed cones the errors of neighbours are correlated, and interpolated values are smooth
 /// already.

@@ -70,7 +70,7 @@ class BallPacket {
       setLane(boxMax_, lane, box.max);
       double reach = 0;
       for (const Vec3d& corner : query.triangle.corners) reach = std::max(reach, length(corner - query.point));
-      reach_[lane] = static_cast<float>(1 + reach);  // 1 is for the rounding of the dot products with the corners.
+      reach_[lane] = static_cast<float>(1 + reach);  // The 1 covers the rounding of the dot products with the corners.
       isUsed_[lane] = lane < queries.size() ? -1 : 0;
       bodies_[lane] = static_cast<int32_t>(query.body);
       leastLimit_[lane] = asFloat(query.least.ball.diameter);
@@ -208,7 +208,7 @@ class BallPacket {
     const Floats cosine = dotLanes(wall.normal, normal_);
     const Mask opposing = lessEqual(cosine, cosineLimit(kWallCosineMargin)) & isUsed_ & mayBound(wall);
     if (!anyLane(opposing)) return;
-    // Balls that touch the wall are at least as large as those that touch its plane.
+    // A ball that touches the wall is at least as large as the ball that touches the plane of the wall.
     std::array<Floats, 4> offsets;
     for (size_t k = 0; k < 4; ++k) offsets[k] = wall.offset - dotLanes(wall.normal, corners_[k]);
     const Floats smallest = broadcast<Floats>(kWallCosineMargin);

@@ -10,8 +10,8 @@
 
 namespace asdfvk {
 
-/// Size of the next submission, adapted so that each takes about the target time: short enough for progress and
-/// cancellation, long enough to hide the cost of a submission.
+/// Size of the next submission, adapted so that a submission takes about the target time. This is short enough for
+/// progress and cancellation, and long enough to hide the cost of a submission.
 class ChunkSize {
  public:
   static constexpr double kTargetSeconds = 0.07;
@@ -49,9 +49,9 @@ void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const
   control.checkpoint(1);
 }
 
-/// forEachChunk() for ranges that a device processes while the host continues: start(slot, begin, end) submits a range,
-/// wait(slot) waits for it, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight, so the
-/// host reads one and prepares another while the device works. After an exception ranges may still be in flight.
+/// forEachChunk() for ranges that a device processes while the host continues. start(slot, begin, end) submits a range,
+/// wait(slot) waits for the range, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight,
+/// so the host reads one and prepares another while the device works. After an exception ranges may still be in flight.
 template <size_t kSlotCount, typename Start, typename Wait, typename Read>
 void forEachChunkInFlight(size_t count, ChunkSize size, const RunControl& control, const Start& start, const Wait& wait,
                           const Read& read) {

@@ -92,8 +92,8 @@ class ConeTracer {
 [[nodiscard]] std::unique_ptr<ConeTracer> makeCpuTracer(const TraceScene& scene, const Cone& cone);
 
 // In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate two kinds of cones
-// to the reference: those of faces whose area is below kMinFloatFace^2, and those whose value is below
-// kMinFloatDiameter.
+// to the reference. The first are cones of faces with an area below kMinFloatFace^2, the second are cones with a value
+// below kMinFloatDiameter.
 inline constexpr double kMinFloatFace = 0x1p-16;
 inline constexpr double kMinFloatDiameter = 0x1p-14;
 

@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-/// Largest number of cubes that a search divides. At this limit, the bound of the result is that of the last cube.
+/// Largest number of cubes that a search divides. At this limit, the bound of the last cube is the bound of the result.
 constexpr uint32_t kMaxCubeCount = 200'000;
 /// Number of first cubes along the longest side of the box of the solid.
 constexpr int kFirstCubeCount = 4;

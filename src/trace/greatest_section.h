@@ -22,10 +22,11 @@ struct GreatestSection {
 inline constexpr double kSectionTolerance = 1e-3;
 
 /// The greatest section of each wanted solid; infinite for the others. The method is branch and bound over cubes in the
-/// box of the solid. Three bounds limit the radii of the balls whose centres are in a cube: the distance from the
-/// centre of the cube to the surface plus half the diagonal of the cube; two points of opposite walls, because no ball
-/// contains them; and the planes of flat walls. Precondition: the faces of a wanted solid are closed and consistently
-/// wound. solidOf: #F, the solid of each face. isWanted: one entry per solid. Throws Error{Cancelled}.
+/// box of the solid. Three bounds limit the radii of the balls with centres in a cube. The first is the distance from
+/// the centre of the cube to the surface, plus half the diagonal of the cube. The second results from two points of
+/// opposite walls, which no ball contains, and the third from the planes of flat walls. Precondition: the faces of a
+/// wanted solid are closed and consistently wound. solidOf: #F, the solid of each face. isWanted: one entry per solid.
+/// Throws Error{Cancelled}.
 [[nodiscard]] std::vector<GreatestSection> findGreatestSections(const TraceScene& scene,
                                                                 std::span<const uint32_t> solidOf,
                                                                 std::span<const uint8_t> isWanted,

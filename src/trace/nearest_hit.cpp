@@ -7,9 +7,9 @@
 namespace asdfvk {
 namespace {
 
-// Boxes are enlarged by this margin, so that every triangle hit after rounding has its box hit as well: coordinates
-// relative to the origin are below 3.5, with relative errors of a few units of 2^-53. The margin is absolute, because
-// the relative margin of Ize 2013 does not cover a ray along a side of the box.
+// Boxes are enlarged by this margin, so that a ray that hits a triangle despite rounding also enters its box.
+// Coordinates relative to the origin are below 3.5, with relative errors of a few units of 2^-53. The margin is
+// absolute, because the relative margin of Ize 2013 does not cover a ray along a side of the box.
 constexpr double kBoxMargin = 1e-14;
 
 // Slabs ordered by the signs of the direction. A component of 0 is replaced by a number that is too small to move the

@@ -24,8 +24,8 @@ struct SurfacePoint {
 [[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);
 
 /// The point of the surface nearest to p. faceOf(primitive face): the face that replaces the primitive face, or kNoFace
-/// to ignore it. The search ends at the first point less than `enough` away. Where the point lies on an edge or a
-/// vertex, the face is the one with the greatest abs(side); of equal ones it is the first in the hierarchy.
+/// to ignore it. The search ends at the first point less than `enough` away. If the nearest point lies on an edge or a
+/// vertex, the result has the face with the greatest abs(side); of equal faces, the first in the hierarchy.
 [[nodiscard]] SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
                                                FunctionRef<uint32_t(uint32_t)> faceOf);
 

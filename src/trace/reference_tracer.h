@@ -14,7 +14,7 @@ namespace asdfvk {
 [[nodiscard]] double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction,
                                         uint32_t seedFace);
 
-/// The value of one cone, bit-identical with that of makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
+/// The value of one cone, with the same bits as by makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
 double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart& start, std::span<ConeHit> hits = {});
 /// The cone of a face. Precondition: the face is not degenerate.
 double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits = {});

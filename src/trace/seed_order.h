@@ -12,7 +12,7 @@ namespace asdfvk {
 /// Orders seeds by their triangles in the hierarchy, because neighbouring cones traverse the same nodes.
 class SeedOrder {
  public:
-  /// The order is that of the primitives in the hierarchy of the scene.
+  /// Takes the order of the primitives in the hierarchy of the scene.
   explicit SeedOrder(const TraceScene& scene);
 
   /// A permutation of the indices into seedFaces; equal seeds keep their order.
@@ -33,8 +33,8 @@ class SeedOrder {
 };
 
 /// A permutation of the indices into `starts` that puts neighbours in space next to each other (Morton 1966), because
-/// neighbouring cones traverse the same nodes. Origins beyond the normalised box are ordered as their nearest points in
-/// it.
+/// neighbouring cones traverse the same nodes. An origin outside of the normalised box takes the place of the nearest
+/// point in the box.
 [[nodiscard]] std::vector<uint32_t> spatialOrder(std::span<const ConeStart> starts);
 
 }  // namespace asdfvk

@@ -70,7 +70,7 @@ class SharpSearch {
   /// forEachPair() for the pairs of a large fan whose faces share an edge.
   template <typename Visit>
   void forEachPairOverEdges(std::span<const uint32_t> corners, const Visit& visit) const {
-    std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // The other end of an edge, and a corner of it.
+    std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // The far end of an edge, and the corner at its near end.
     for (const uint32_t corner : corners)
       for (const uint32_t end : {next(corner), before(corner)}) byPoint.emplace_back(pointAt(end), corner);
     std::sort(byPoint.begin(), byPoint.end());

@@ -30,11 +30,10 @@ struct SharpEdges {
   [[nodiscard]] bool hasEdge(uint32_t face, size_t k) const { return (faceBits[face] >> (3 + k) & 1) != 0; }
 };
 
-/// Two faces of one body that share a point meet sharply under two conditions: the cosine between their normals is at
-/// most maxCosine, and the least ball between them, with points of the wall deeper than minDepth only, has a diameter
-/// of at most kSharpDepths * minDepth. solids: the bodies, or null if all faces may bound one body. In a fan of more
-/// than kMaxComparedFaces faces, each face is compared with at most kMaxComparedFaces others and with the faces that
-/// share an edge with it.
+/// Two faces of one body that share a point meet sharply under two conditions. The cosine of the angle between their
+/// normals is at most maxCosine. Their leastTouchingBall() with minDepth has a diameter of at most kSharpDepths *
+/// minDepth. solids: the bodies, or null if all faces may bound one body. In a fan of more than kMaxComparedFaces
+/// faces, each face is compared with at most kMaxComparedFaces others and with the faces that share an edge with it.
 [[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
                                         double maxCosine, double minDepth, const Solids* solids = nullptr);
 

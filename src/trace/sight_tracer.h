@@ -23,11 +23,12 @@ class SightTracer {
 };
 inline constexpr double kSightMargin = 1e-4;
 
-/// Double precision, on all cores of the CPU. The scene, and the nodes of its hierarchy, must outlive it.
+/// Tests in double precision, on all cores of the CPU. The scene and the nodes of its hierarchy must outlive the
+/// result.
 [[nodiscard]] std::unique_ptr<SightTracer> makeReferenceSightTracer(const TraceScene& scene);
 
 /// Tests in float32, in lanes, on all cores of the CPU. The reference tests segments that end outside of the box of the
-/// mesh. The scene, and the nodes of its hierarchy, must outlive it.
+/// mesh. The scene and the nodes of its hierarchy must outlive the result.
 [[nodiscard]] std::unique_ptr<SightTracer> makeCpuSightTracer(const TraceScene& scene);
 
 }  // namespace asdfvk

@@ -20,13 +20,13 @@ constexpr uint32_t kLineLength = uint32_t{1} << 31;
 /// A part of a line. A line is an edge of the mesh, or a line along which a piece was halved.
 struct Side {
   uint32_t line = 0, from = 0, to = 0;
-  bool isSharp = false;  ///< Whether the face is thin at a sharp edge.
+  bool isSharp = false;  ///< Whether the line is a sharp edge of the face.
 };
 
 struct Piece {
   ThinPart part;
   InscribedBall atMiddle;
-  std::array<Side, 3> sides;  ///< From corner k to the next one.
+  std::array<Side, 3> sides;  ///< Side k runs from corner k to the next corner.
 };
 
 Vec3d middleOf(const std::array<Vec3d, 3>& corners) { return (corners[0] + corners[1] + corners[2]) / 3.0; }

@@ -45,9 +45,9 @@ struct Wall {
 struct WallNode {
   Vec3f min, max, normalMin, normalMax;
   Vec3f middle;  ///< Middle of one of the walls.
-  /// A mean of the normals. The line through `middle` along the axis is the centre line of a cylinder that contains the
-  /// corners: they are within `radius` of the line, at positions from `lowest` to `highest` along it. They are at most
-  /// `reach` from `middle`.
+  /// A mean of the normals. All corners of the walls are in a cylinder around the line through `middle` along the axis.
+  /// They are within `radius` of the line, at positions from `lowest` to `highest` along the line, and at most `reach`
+  /// from `middle`.
   Vec3f axis{};
   float lowest = 0, highest = 0, radius = 0, reach = 0;
   uint32_t first = 0;      ///< Inner: index of the left child, the right one follows it. Leaf: first wall.
@@ -56,9 +56,9 @@ struct WallNode {
 
 /// The faces as walls, with the hierarchy in which balls find them. Neighbouring queries are answered together, one in
 /// each lane of a vector: nodes and walls are culled in float32, and walls are measured in double. The method is the
-/// shrinking ball of Ma, Bae and Choi 2012, but in one traversal instead of a query per step. One traversal suffices,
-/// because the balls of one diameter at all points of a face fill a convex set, which contains the sets of smaller
-/// diameters: a wall that was outside once remains outside.
+/// shrinking ball of Ma, Bae and Choi 2012, but in one traversal instead of a query per step. One traversal suffices:
+/// the balls of one diameter at all points of a face fill a convex set, which contains the sets of all smaller
+/// diameters. A wall that was outside once therefore remains outside.
 class WallTree {
  public:
   /// solids: the solids of the scene, or null if all faces may bound one body.

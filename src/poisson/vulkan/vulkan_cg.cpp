@@ -104,7 +104,7 @@ CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.submitAndWait();
   std::array<CgState, 2> states;
   std::memcpy(&states, statesOnHost_.mapped(), sizeof states);
-  // The last state written is that of the iteration that ended the run.
+  // The iteration that ended the run wrote its state last.
   return states[1 - stateIndex_].status != kCgRunning ? states[1 - stateIndex_] : states[stateIndex_];
 }
 

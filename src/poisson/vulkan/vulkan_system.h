@@ -26,8 +26,9 @@ struct PoissonGrid {
 [[nodiscard]] uint32_t poissonLaneCount(const DeviceFacts& facts);
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
-/// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} when an array exceeds the binding size
-/// of the device, or when a lane might need more loop iterations than a device with DeviceFacts::endsLongLoops allows.
+/// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} if an array exceeds the binding size
+/// of the device. Also throws it if the device has DeviceFacts::endsLongLoops and a lane might need too many loop
+/// iterations.
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
 
 /// Usage of vectors that kernels write and the host reads.

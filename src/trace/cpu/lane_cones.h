@@ -33,13 +33,13 @@ struct LaneFrames {
   void set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal);
 };
 
-/// Computes values from hits; the results are bit-identical with those of isFalseHit() and coneValue(). Keeps its
-/// memory from call to call.
+/// Computes values from hits; the results have the same bits as with isFalseHit() and coneValue(). Keeps its memory
+/// from call to call.
 class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
 
-  /// The cone and the planes must outlive it. Precondition: this machine has the instruction set.
+  /// The cone and the planes must outlive this object. Precondition: this machine has the instruction set.
   LaneCones(const Cone& cone, std::span<const TrianglePlane> planes,
             InstructionSet instructionSet = widestInstructionSet());
 

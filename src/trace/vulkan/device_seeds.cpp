@@ -47,7 +47,7 @@ UnsetVector<DeviceCone> DeviceSeeds::inDeviceOrder(std::span<const uint32_t> fac
 }
 
 /// inDeviceOrder() for many seeds, with one random access each instead of the four of a sort: seeds are put at their
-/// triangles and collected from there. Returns false if seeds share a triangle or the device cannot trace one.
+/// triangles and collected from there. Returns false if seeds share a triangle or the device cannot trace a seed.
 bool DeviceSeeds::collect(std::span<const uint32_t> faces, UnsetVector<DeviceCone>& cones) const {
   if (faces.size() >= kFlippedFrameBit) return false;
   constexpr uint32_t kEmpty = kNoFace;

@@ -44,7 +44,7 @@ struct VulkanTraceRequest {
 
 /// The fastest variant for the class of the device (docs/speed.md).
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
-/// The default with the requested members replaced.
+/// The default variant with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
 /// The variant for one hierarchy. If the request has no fetch, and the hierarchy may exceed the limit of the default
 /// fetch but fits the other fetch, it has the other fetch.
