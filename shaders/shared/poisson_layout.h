@@ -31,7 +31,7 @@ const uint kMaxPoissonWorkgroupCount = 256u;
 // workgroup reads a word that another workgroup writes.
 struct CgState {
   float residualSquared;   // Squared weighted norm of the residual before the last iteration; 1 at the start.
-  float toleranceSquared;  // Converged when residualSquared is at or below this.
+  float toleranceSquared;  // The iteration has converged when residualSquared is at or below this.
   uint iterationCount;
   uint status;  // kCgRunning, or the reason of the end.
 };

@@ -80,7 +80,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
       findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestDone, kSectionsDone));
   const WallTree tree(view, makeOpposingWalls(options), &solids);
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
-  // Points next to each other in the hierarchy find the same walls.
+  // In the order of the hierarchy, consecutive points are near the same walls.
   const SeedOrder seedOrder(view);
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < points.size(); ++i) {

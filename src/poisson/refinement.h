@@ -39,7 +39,8 @@ struct CorrectionRequest {
   std::span<double> correction;  ///< #U: receives e. Views the same memory as `residual`.
 };
 
-/// CorrectionRequest::reduction of a pass. targetNorm: norm of the residual at which the refinement ends.
+/// CorrectionRequest::reduction for the next pass. targetNorm: the norm of the residual at which the refinement ends.
+/// norm: the norm now.
 [[nodiscard]] double passReduction(double targetNorm, double norm, double minReduction);
 /// Whether a pass has reached the limit of its precision.
 [[nodiscard]] bool passStagnates(double newNorm, double norm);

@@ -56,7 +56,7 @@ struct SeedWeighting {
 };
 
 /// Predicts the values of virtual cones from the hit points of seeds. Results have the same bits on every
-/// instruction set. Keeps its buffers from call to call.
+/// instruction set. An object reuses its memory.
 class PredictionKernel {
  public:
   /// Precondition: this machine has the instruction set.

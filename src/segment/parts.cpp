@@ -23,8 +23,8 @@ constexpr std::array<uint32_t, 5> kPatchCounts{200, 250, 300, 350, 400};
 constexpr uint32_t kMinFacesPerPatch = 3;
 /// Depth below the surface of the ends of lines of sight, in shape diameters.
 constexpr double kSightDepth = 0.3;
-/// Least volume of a wall, over area and mean value: the ratio is about 0.4 for a wall, 0.28 for a tube, 0.19 for a
-/// ball.
+/// Least ratio of volume to area times mean value for a wall. The ratio is about 0.4 for a wall, 0.28 for a tube, 0.19
+/// for a ball.
 constexpr double kMinWallShape = 0.36;
 /// Largest mean visibility of a thin shell. Plates are walls too, but most pairs of their patches have a clear line of
 /// sight.

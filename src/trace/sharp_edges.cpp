@@ -110,7 +110,7 @@ class SharpSearch {
     return -dot(geometry_.normals[face], geometry_.normals[wall]);
   }
 
-  /// Each sharp edge once, with the least angle of its faces.
+  /// Returns each sharp edge once, with the least angle of its faces.
   [[nodiscard]] std::vector<Edge> edgesOf(const SharpEdges& sharp) const {
     std::vector<Edge> edges;
     for (uint32_t corner = 0; corner < cornerBits_.size(); ++corner) {

@@ -26,7 +26,7 @@ struct CpuSeed {
 };
 
 /// Traces up to eight neighbouring cones together: the first ray of all cones, then the second, and so on. Lengths are
-/// in normalised units. Keeps its memory from call to call.
+/// in normalised units. An object reuses its memory.
 class ConeGroup {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;

@@ -33,8 +33,8 @@ struct LaneFrames {
   void set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal);
 };
 
-/// Computes values from hits; the results have the same bits as with isFalseHit() and coneValue(). Keeps its memory
-/// from call to call.
+/// Computes values from hits; the results have the same bits as with isFalseHit() and coneValue(). An object reuses its
+/// memory.
 class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;

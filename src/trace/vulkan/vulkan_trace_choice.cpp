@@ -86,7 +86,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
     if (!isCpu) shape.conesPerWorkgroup = std::max(1u, atMost(128) / shape.lanesPerCone);
   }
   // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together.
-  constexpr uint32_t kPacketMargin = 64;  // More than one iteration of a packet adds to the count.
+  constexpr uint32_t kPacketMargin = 64;  // An iteration of a packet adds less than this to the count.
   if (device.endsLongLoops)
     shape.iterationLimit = kernel == TraceKernel::Packet ? kMaxLoopIterationCount - kPacketMargin
                                                          : kMaxLoopIterationCount / std::max(1u, device.subgroupSize);
