@@ -10,7 +10,6 @@
 
 namespace asdfvk {
 
-/// Largest number of triangles of a SmallTree.
 inline constexpr size_t kMaxSmallTreeCount = 8;
 
 /// A hierarchy over few triangles, built by agglomerative clustering (Meister and Bittner 2018, but with all clusters

@@ -40,7 +40,6 @@ double robustRange(std::span<const double> values) {
 /// neither overflow nor underflow, and the division is exact.
 double unitOf(double range) { return std::scalbn(1.0, std::ilogb(range)); }
 
-/// Error indicator of a face.
 double indicatorOf(const EstimateInput& input, size_t face) {
   return input.indicator.empty() ? 1 : input.indicator[face];
 }

@@ -16,7 +16,6 @@ constexpr uint64_t kErrorStream = 0x6368'6563'6b00'0001u;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Reference values of some faces.
 class References {
  public:
   References(std::vector<uint32_t> ascendingFaces, const TraceScene& scene, const Cone& cone, const RunControl& control)

@@ -33,7 +33,6 @@ class Backend {
   [[nodiscard]] virtual std::vector<std::string> deviceLines() const = 0;
   /// Whether the CPU traces. Also true for a CPU device of Vulkan.
   [[nodiscard]] virtual bool runsOnCpu() const { return true; }
-  /// Whether this backend is the reference itself.
   [[nodiscard]] virtual bool isReference() const { return false; }
   /// Variant of the last tracer; before the first tracer, the default variant. Unset without Vulkan.
   [[nodiscard]] virtual std::optional<TraceVariant> traceVariant() const { return std::nullopt; }

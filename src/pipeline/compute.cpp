@@ -74,7 +74,6 @@ void removeMissing(const PreparedMesh& prepared, RoundsResult& rounds) {
   }
 }
 
-/// Removes the expected errors of faces outside of the domain.
 void removeErrorsOutside(const PreparedMesh& prepared, const FaceDomain& domain, EstimatedErrors& errors) {
   if (domain.inputFaces.empty()) return;
   for (uint32_t face = 0; face < errors.expected.size(); ++face)
@@ -104,7 +103,6 @@ void measureThickness(Result& result, const Computation& computation, const RunC
   result.report.thickness = describeThickness(computation, thickness, result.thinSurface);
 }
 
-/// Adds the fields that derive from other fields.
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
   if (options.computesCentres) {
     fields.push_back(makeField(

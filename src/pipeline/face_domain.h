@@ -20,7 +20,6 @@ struct FaceDomain {
   std::span<const uint32_t> traceableFaces;  ///< Faces of the domain that can cast rays, ascending.
   std::span<const uint8_t> inputFaces;       ///< #I, nonzero = in the domain; empty: all are.
 
-  /// Whether the input face with this index is in the domain.
   [[nodiscard]] bool contains(uint64_t inputFace) const { return inputFaces.empty() || inputFaces[inputFace] != 0; }
 };
 

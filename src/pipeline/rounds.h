@@ -13,7 +13,6 @@
 
 namespace asdfvk {
 
-/// Result of all rounds.
 struct RoundsResult {
   TracedSeeds traced;  ///< All seeds.
   Interpolated interpolated;

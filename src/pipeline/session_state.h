@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// Session::state_.
+/// The state behind a Session.
 class SessionState {
  public:
   explicit SessionState(const SessionOptions& options) : named(openBackend(options)), options_(options) {}

@@ -32,7 +32,6 @@ class StageClock {
   };
   [[nodiscard]] Scope time(Stage stage) { return {*this, stage}; }
 
-  /// Moves `seconds` from one stage to another.
   void transfer(Stage from, Stage to, double seconds) {
     seconds_[from] -= seconds;
     seconds_[to] += seconds;

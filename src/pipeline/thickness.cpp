@@ -19,7 +19,6 @@ constexpr double kSectionsProgress = 0.2, kBallsProgress = 0.9;
 // normalised units.
 constexpr double kPartsPerLimit = 4, kMinPartLength = 0x1p-10;
 
-/// Measures the faces of one computation.
 class Measurement {
  public:
   explicit Measurement(const Computation& computation)

@@ -12,7 +12,6 @@
 namespace asdfvk {
 namespace {
 
-/// The triangles at each vertex.
 struct VertexFaces {
   const TriangleMesh& mesh;
   std::span<const double> areas;

@@ -58,7 +58,6 @@ class SurfaceDistances {
     prefetchMemory(arcLengths_.data() + graph_.offsets[face]);
   }
 
-  /// Removes all seeds.
   void clear();
 
  private:

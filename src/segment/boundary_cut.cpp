@@ -18,7 +18,6 @@ constexpr double kConcaveRadians = 10 * std::numbers::pi / 180;  ///< Concave an
 constexpr double kConvexRadians = 60 * std::numbers::pi / 180;   ///< Convex angle that doubles the cost.
 constexpr uint32_t kMaxRoundCount = 3;
 
-/// Cost of a boundary along an edge.
 double edgeCost(double length, double angle) {
   const double concave = std::max(0.0, angle) / kConcaveRadians, convex = std::max(0.0, -angle) / kConvexRadians;
   return length / kCutReach / (1 + concave * concave) * (1 + std::min(1.0, convex));

@@ -71,7 +71,6 @@ class SurfaceFront {
     advance(kUnreached, [](uint32_t) { return true; });
   }
 
-  /// Removes all sources.
   void clear() {
     for (const uint32_t face : touched_) distances_[face] = kUnreached;
     touched_.clear();

@@ -31,7 +31,7 @@ struct Piece {
 
 Vec3d middleOf(const std::array<Vec3d, 3>& corners) { return (corners[0] + corners[1] + corners[2]) / 3.0; }
 
-/// The longest side.
+/// The index and the length of the longest side.
 std::pair<size_t, double> longestSide(const std::array<Vec3d, 3>& corners) {
   std::pair<size_t, double> longest{0, -1};
   for (size_t k = 0; k < 3; ++k)

@@ -108,7 +108,6 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
   }
 }
 
-/// Sorts sorted_.
 ASDFVK_ALWAYS_INLINE inline void LaneCones::sort() {
   for (const auto& [low, high] : exchanges_)
     for (size_t first = 0; first < kWidth; first += kDoubleCount) {
