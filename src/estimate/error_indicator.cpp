@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-// Added to each entry, in units of the mean. A face whose seeds agree exactly has no other indicator.
+// Added to each entry, in units of the mean. It is the whole indicator of a face whose seeds agree exactly.
 constexpr double kFloor = 0.5;
 
 /// #S: mean absolute difference between the value of a seed and the values of its neighbours; NaN for a seed without a

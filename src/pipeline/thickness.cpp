@@ -15,8 +15,8 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr size_t kBlockFaceCount = size_t{1} << 16;
 // Progress after the greatest sections, and after the balls of all faces.
 constexpr double kSectionsProgress = 0.2, kBallsProgress = 0.9;
-// Large thin faces are divided into parts with sides of at most limit / kPartsPerLimit, but at least kMinPartLength in
-// normalised units.
+// Large thin faces are divided into parts whose sides are at most as long as the larger of limit / kPartsPerLimit and
+// kMinPartLength (normalised).
 constexpr double kPartsPerLimit = 4, kMinPartLength = 0x1p-10;
 
 class Measurement {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kFacesPerBlock = 256, kBlocksPerProgress = 64;
 constexpr size_t kLanes = kLaneCount<Double4>;
-/// The magnitude up to which expOfNegative() computes exponentials.
+/// Largest magnitude of an exponent for which expOfNegative() is used.
 constexpr double kMaxLaneExponent = 511;
 
 /// The filtered values of kLanes faces at a time, a lane each. All sums have the order of the window.

@@ -54,8 +54,8 @@ ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b,
 struct RayRows {
   using Floats = RayGroup::Floats;
 
-  // The distance to a near plane is plane * inverse + near, to a far plane plane * inverse + far. nears and fars
-  // include the margin of the boxes.
+  // The distance to a near plane is plane * inverse + near. The distance to a far plane is plane * inverse + far. nears
+  // and fars include the margin of the boxes.
   alignas(32) std::array<Floats, 3> inverses, nears, fars;
   // Shear along mainAxes, the axis of the longest component of the direction (Woop, Benthin and Wald 2013).
   alignas(32) Floats shearsX, shearsY, mainDirections;
