@@ -1,9 +1,9 @@
 # Bundles the sources of the page into two C++ strings, the page and its script:
 #   cmake -DPAGE=src/page/browser -DOUTPUT=page_template.cpp -P bundle.cmake
-# The modules of PAGE/modules.txt, in its order, become one script in a function: without their imports (one line each),
-# the word `export`, lines of comments and leading blanks. All top-level names of the modules must therefore differ.
-# The shaders, NAME.glsl, are `shaders.NAME` before them. page.html has the places @CSP@, @STYLE@ and @LOADER@, which
-# are filled here, and those that src/page/page.cpp fills; it compresses the script, which loader.js unpacks.
+# The script is one function with the shaders (NAME.glsl is shaders.NAME) and the modules, in the order of
+# PAGE/modules.txt. Imports (one line each), the word `export`, comment lines and leading blanks are removed. All
+# top-level names of the modules must therefore differ. This script fills the places @CSP@, @STYLE@ and @LOADER@ of
+# page.html. src/page/page.cpp fills the other places and compresses the script; loader.js decompresses it.
 cmake_minimum_required(VERSION 3.25)
 
 # Removes lines of comments, leading blanks and empty lines.
@@ -17,7 +17,7 @@ function(asdfvk_shortened text result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# A source of a content-security policy: SHA-256 in base64.
+# The source expression of a text in a content-security policy: its SHA-256 in base64.
 function(asdfvk_policy_hash text result)
   string(SHA256 hex "${text}")
   set(digits "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")

@@ -16,11 +16,11 @@ namespace {
 
 constexpr uint32_t kNone = 0xffffffff;
 
-/// Coordinates are multiples of the longest side of the box over this.
+/// Grid steps along the longest side of the box.
 constexpr double kGridSize = 65535;
 
-/// The lowest bits of a float32 that a page does not keep: values have 15 significant bits, a relative error of at most
-/// 2^-15, so that the four digits that the page shows are those of the result but for rounding.
+/// Number of lowest bits of a float32 that a page drops. Values keep 15 significant bits, which is a relative error of
+/// at most 2^-15. The four digits that a page shows are then correct except for rounding.
 constexpr int kDroppedBits = 9;
 
 /// Coordinates as whole numbers of steps from the lower corner of a box.
@@ -35,14 +35,14 @@ struct Grid {
 
   [[nodiscard]] uint32_t stepsOf(double coordinate, size_t axis) const {
     if (!(step > 0) || !std::isfinite(coordinate)) return 0;
-    // Halves: the difference of two finite numbers may overflow.
+    // Halved, because the difference of two finite numbers may overflow.
     const double steps = std::round((coordinate * 0.5 - box.min[axis] * 0.5) / (step * 0.5));
     return static_cast<uint32_t>(std::clamp(steps, 0.0, kGridSize));
   }
 };
 
-/// All faces in the order of a depth-first walk over shared edges. Neighbours are close to each other in it, whatever
-/// the order of the file is, so that the differences in the arrays of the page are small.
+/// All faces in the order of a depth-first walk over shared edges. Neighbouring faces are then close to each other,
+/// whatever the order of the file, so that the differences in the arrays are small.
 std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
   const DualGraph graph = buildDualGraph(mesh);
   std::vector<uint32_t> faces, stack;
@@ -63,11 +63,11 @@ std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
   return faces;
 }
 
-/// Faces and vertices by their places in the page.
+/// Order of faces and vertices in the page.
 struct Layout {
   std::vector<uint32_t> faces;
-  std::vector<uint32_t> vertices;  ///< Vertices of faces, in the order of their first corners.
-  /// Place of the vertex of each corner minus the number of vertices before: 0 for a new vertex, else negative.
+  std::vector<uint32_t> vertices;  ///< Vertices of faces, in the order of their first use.
+  /// For each corner: place of its vertex minus the number of vertices used before; 0 for a new vertex, else negative.
   std::vector<int32_t> corners;
 
   explicit Layout(const TriangleMesh& mesh) : faces(walkedFaces(mesh)) {
@@ -88,7 +88,7 @@ struct Layout {
   }
 };
 
-/// Each number minus the one before, the first minus 0, modulo 2^32.
+/// The differences of consecutive numbers modulo 2^32, beginning with the first number.
 template <typename NumberAt>
 std::vector<int32_t> differencesOf(size_t count, const NumberAt& numberAt) {
   std::vector<int32_t> differences(count);
@@ -101,13 +101,13 @@ std::vector<int32_t> differencesOf(size_t count, const NumberAt& numberAt) {
   return differences;
 }
 
-/// The upper bits of a float32, rounded; those of NaN where the value is not finite.
+/// The upper bits of the value as float32, rounded; the bits of NaN if the value is not finite.
 uint32_t upperBitsOf(double value) {
   constexpr uint32_t kNanBits = 0x7fc00000, kExponentBits = 0x7f800000;
   if (!std::isfinite(value)) return kNanBits >> kDroppedBits;
   const auto bits = std::bit_cast<uint32_t>(static_cast<float>(value));
   const uint32_t rounded = bits + (1u << (kDroppedBits - 1));
-  // The greatest numbers are not rounded, or they would be infinite.
+  // The greatest numbers are not rounded, because the result would be infinite.
   return ((rounded & kExponentBits) == kExponentBits ? bits : rounded) >> kDroppedBits;
 }
 
@@ -157,7 +157,7 @@ Json encodeMesh(const TriangleMesh& mesh, std::span<const std::reference_wrapper
                            [&](size_t i) { return grid.stepsOf(mesh.vertices[layout.vertices[i]][axis], axis); });
     });
   std::vector<FieldNumbers> numbers;
-  numbers.reserve(fields.size());  // The sources refer to them.
+  numbers.reserve(fields.size());  // The sources refer to the elements.
   for (const Field& field : fields) {
     const FieldNumbers& added = numbers.emplace_back(numbersOf(field));
     sources.push_back([&] {

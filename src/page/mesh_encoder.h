@@ -10,13 +10,13 @@
 
 namespace asdfvk {
 
-/// The box of the finite vertices of faces; a point where there is none.
+/// The bounding box of the finite vertices of faces; the origin if there are none.
 [[nodiscard]] Box3d boxOfFaces(const TriangleMesh& mesh);
 
-/// Encodes the triangles of a mesh and its fields per input face, each of one component, into arrays. Returns their
-/// description with the keys of docs/page-format.md: faceCount (triangles) to fields. Preconditions: every index of a
-/// face is below the vertex count; the fields have an entry per input face. box: the box of the grid of the stored
-/// coordinates; it contains the vertices of all faces.
+/// Encodes the triangles and fields of a mesh into arrays. Returns a description with the keys `faceCount` to `fields`
+/// of docs/page-format.md. box: contains the vertices of all faces; coordinates are stored in a grid of this box.
+/// Preconditions: every index of a face is below the vertex count; each field has one component and an entry per input
+/// face.
 [[nodiscard]] nlohmann::ordered_json encodeMesh(const TriangleMesh& mesh,
                                                 std::span<const std::reference_wrapper<const Field>> fields,
                                                 PageArrays& arrays, const Box3d& box);

@@ -58,7 +58,7 @@ void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<
     description["thin"] = describe(*texts.thin);
     if (!texts.thin->surface.triangles.empty())
       description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, arrays_);
-    texts.thin.reset();  // Encoded.
+    texts.thin.reset();  // Already encoded in `description`.
   }
   meshes_.push_back(std::make_shared<const Json>(std::move(description)));
   texts_.push_back(std::move(texts));

@@ -19,7 +19,7 @@ namespace asdfvk {
 
 class AtomicFile;
 
-/// The comparison of a result with a limit of the thickness.
+/// Result of comparing the thickness with a limit.
 struct PageThinPlaces {
   double limit = 0;
   std::string verdict;  ///< "passed", "failed" or "notJudged".
@@ -29,33 +29,33 @@ struct PageThinPlaces {
 
 struct PageSegment {
   uint32_t label = 0;
-  uint64_t faceCount = 0;  ///< Triangles.
+  uint64_t faceCount = 0;  ///< Number of triangles.
   double area = 0;
-  double median = kNoValue;  ///< Median of the values of its triangles; NaN where none has one.
-  Vec3d centre;              ///< Mean of the barycentres, weighted by area.
+  double median = kNoValue;  ///< Median of the values of the triangles; NaN without values.
+  Vec3d centre;              ///< Area-weighted mean of the barycentres.
 };
 
-/// The texts and lists of a result in a page, in UTF-8; any characters are allowed.
+/// Texts and lists that a page shows of a result. Texts are UTF-8; all characters are allowed.
 struct PageTexts {
-  std::string name;                                          ///< Name of the mesh.
-  std::string label;                                         ///< Distinguishes this result from the others of the page.
-  std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title, value.
+  std::string name;   ///< Name of the mesh.
+  std::string label;  ///< Text that distinguishes this result from other results in the page.
+  std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title and value.
   std::string errorSentence;
   std::string up = "y";                               ///< Upright axis of the first view: x, y, z, -x, -y or -z.
   double azimuthDegrees = 30, elevationDegrees = 18;  ///< Direction of the first view.
   std::vector<std::string> warnings, defects;
-  std::optional<PageThinPlaces> thin;  ///< Unset without a limit.
+  std::optional<PageThinPlaces> thin;  ///< Unset without a limit of the thickness.
   std::vector<PageSegment> segments;
-  std::vector<char> picture;  ///< A PNG for browsers without WebGL2; may be empty.
+  std::vector<char> picture;  ///< PNG file for browsers without WebGL 2; may be empty.
 };
 
-/// One HTML file that shows results in a browser and needs no other file.
+/// A self-contained HTML file that shows results in a browser.
 class Page {
  public:
   /// generator: name and version of the program.
   explicit Page(std::string generator) : generator_(std::move(generator)) {}
 
-  /// Encodes a result; copies what it needs. Preconditions: as encodeMesh().
+  /// Adds a result. Keeps no references to the arguments. Preconditions: as for encodeMesh().
   void add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts);
 
   [[nodiscard]] bool isEmpty() const { return texts_.empty(); }
@@ -68,13 +68,14 @@ class Page {
   void writeScript(AtomicFile& file) const;
 
   std::string generator_;
-  std::vector<std::shared_ptr<const nlohmann::ordered_json>> meshes_;  ///< Descriptions.
+  /// The descriptions of encodeMesh(), with the texts.
+  std::vector<std::shared_ptr<const nlohmann::ordered_json>> meshes_;
   std::vector<PageTexts> texts_;
   PageArrays arrays_;
 };
 
-/// The segments in the order of their labels, with the labels and values per input face. Where an entry of `labels` is
-/// kNoSegment, the face belongs to none. areas, barycentres: per triangle.
+/// Returns the segments in ascending order of their labels. areas, barycentres: #F. labels, values: #I; faces with the
+/// label kNoSegment belong to no segment.
 [[nodiscard]] std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const double> areas,
                                                     std::span<const Vec3d> barycentres,
                                                     std::span<const uint32_t> labels, std::span<const double> values);

@@ -13,15 +13,15 @@
 namespace asdfvk {
 namespace {
 
-/// Level 6 takes 40 % more time for 1 % fewer bytes of a mesh of 1,000,000 faces.
+/// Compression level. Level 6 takes 40 % more time for 1 % fewer bytes, for a mesh of 1,000,000 faces.
 constexpr int kLevel = 5;
 
-/// 0, -1, 1, -2, ... as 0, 1, 2, 3, ...: small numbers of both signs have zeros in their upper bytes.
+/// Maps 0, -1, 1, -2, ... to 0, 1, 2, 3, ..., so that small numbers of both signs have zeros in their upper bytes.
 constexpr uint32_t zigzag(int32_t number) {
   return static_cast<uint32_t>(number) << 1 ^ static_cast<uint32_t>(number >> 31);
 }
 
-/// The lowest bytes of all numbers, then the next ones, up to the highest byte that is not 0.
+/// Byte planes: the lowest bytes of all numbers, then the next bytes, up to the highest byte that is not 0 everywhere.
 Bytes planesOf(std::span<const int32_t> numbers) {
   uint32_t all = 0;
   for (const int32_t number : numbers) all |= zigzag(number);
@@ -40,7 +40,7 @@ Bytes deflated(const Bytes& bytes) {
   Bytes result(deflateBound(&stream, static_cast<uLong>(bytes.size())));
   size_t read = 0, written = 0;
   int status = Z_OK;
-  while (status == Z_OK) {  // zlib counts in 32 bits.
+  while (status == Z_OK) {  // In steps, because zlib counts bytes in 32 bits.
     constexpr size_t kMaxStep = size_t{1} << 30;
     const size_t in = std::min(bytes.size() - read, kMaxStep), out = std::min(result.size() - written, kMaxStep);
     stream.next_in = const_cast<Bytef*>(bytes.data() + read);

@@ -11,19 +11,19 @@ class AtomicFile;
 
 using Bytes = std::vector<uint8_t>;
 
-/// Bytes in the format of zlib (RFC 1950). Throws std::bad_alloc.
+/// Compresses bytes to the zlib format (RFC 1950). Throws std::bad_alloc.
 [[nodiscard]] Bytes deflated(const Bytes& bytes);
 
-/// The numbered arrays of a page, compressed. Equal arrays have one number.
+/// The compressed, numbered arrays of a page. Equal arrays are stored once and have the same number.
 class PageArrays {
  public:
   using Source = std::function<std::vector<int32_t>()>;
 
-  /// Makes the numbers of new arrays and compresses them, in parallel; returns the numbers of the arrays. Put the
-  /// longest sources first: they take longest.
+  /// Calls the sources and compresses their arrays, in parallel. Returns the number of each array. Long arrays should
+  /// come first, because they take most time.
   [[nodiscard]] std::vector<uint32_t> add(std::span<const Source> sources);
 
-  /// Writes one element of HTML per array, with the array as base64.
+  /// Writes one HTML element per array, with the bytes in base64.
   void write(AtomicFile& file) const;
 
  private:

@@ -8,9 +8,9 @@
 
 namespace asdfvk {
 
-/// Encodes the thin surface as a mesh with the field "region", in steps of the grid of `box`, which is that of the
-/// mesh: a thin face and the face of the mesh have the same coordinates. Equal corners become one vertex. Returns the
-/// description, as encodeMesh(). Precondition: there is a triangle.
+/// Encodes the thin surface as a mesh with the field "region". Equal corners become one vertex. box: the box of the
+/// whole mesh, so that thin faces and faces of the mesh are rounded to the same grid. Returns the description, as
+/// encodeMesh(). Precondition: the surface has a triangle.
 [[nodiscard]] nlohmann::ordered_json encodeThinSurface(const ThinSurface& surface, const Box3d& box,
                                                        PageArrays& arrays);
 

@@ -20,7 +20,8 @@ void openInBrowser(const std::string& path) {
   posix_spawn_file_actions_init(&streams);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&streams, stream, "/dev/null", O_RDWR, 0);
-  posix_spawnattr_t attributes;  // The browser outlives the session of the terminal, and ignores no signal.
+  // The browser outlives the session of the terminal. It does not inherit ignored signals.
+  posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t ignored;
   sigemptyset(&ignored);

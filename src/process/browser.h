@@ -4,8 +4,8 @@
 
 namespace asdfvk {
 
-/// Starts the browser of the desktop (xdg-open) with a file and does not wait for it. Throws Error{OutputNotWritable}
-/// where it cannot be started.
+/// Opens a file in the browser of the desktop (xdg-open). Does not wait for the browser. Throws
+/// Error{OutputNotWritable} if xdg-open cannot be started.
 void openInBrowser(const std::string& path);
 
 }  // namespace asdfvk

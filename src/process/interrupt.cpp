@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-// The handler uses lock-free atomics (one behind removeUnfinishedFiles()) and a pipe only. A byte in the pipe is a stop
-// request; its closing ends the waiting thread.
+// The signal handler only uses lock-free atomics, removeUnfinishedFiles() and a pipe. A byte in the pipe is a stop
+// request. Closing the pipe ends the waiting thread.
 std::atomic<int> listenerCount{0};
 std::atomic<int> signalCount{0};
 std::atomic<int> pipeWriteEnd{-1};
@@ -99,7 +99,7 @@ Interrupt::Listening::Listening() { listenerCount.fetch_add(1); }
 Interrupt::Listening::~Listening() { listenerCount.fetch_sub(1); }
 
 Deadline::Deadline(double seconds, const std::stop_token& outer) : forward_(outer, Forward{source_}) {
-  constexpr double kMaxSeconds = 1e9;  // More overflows the clock.
+  constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clock.
   if (!(seconds <= kMaxSeconds)) return;
   waiter_ = std::jthread([this, seconds](const std::stop_token& ending) {
     std::unique_lock<std::mutex> lock(mutex_);

@@ -11,14 +11,14 @@ namespace asdfvk {
 /// Exit code of a process that a signal cancelled: 128 + SIGINT.
 inline constexpr int kCancelledCode = 130;
 
-/// Handles SIGINT, SIGTERM and SIGHUP, except those that were ignored, during its lifetime. The first signal requests a
-/// stop of the computation, or ends the program if no Listening exists. The second one ends the program; one within
-/// 0.2 s belongs to the first, which a terminal or a wrapper may send twice. The program then exits with
-/// kCancelledCode and leaves no half-written file. One object at a time.
+/// During its lifetime, handles SIGINT, SIGTERM and SIGHUP, unless they were ignored before. The first signal requests
+/// a stop of the computation, or ends the program if no Listening exists. A second signal ends the program. It is
+/// ignored within 0.2 s of the first one, because a terminal or a wrapper may send a signal twice. A program that a
+/// signal ends exits with kCancelledCode and leaves no half-written file. Precondition: no other Interrupt exists.
 class Interrupt {
  public:
-  /// isWorker: further signals are ignored, since the main process kills a worker that does not react, and nothing is
-  /// printed.
+  /// isWorker: ignores all signals after the first one, because the main process kills a worker that does not stop.
+  /// Prints nothing.
   explicit Interrupt(bool isWorker = false);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
@@ -26,7 +26,7 @@ class Interrupt {
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
 
-  /// During its lifetime a computation polls token(). Several may exist.
+  /// Exists while a computation polls token(). Several objects may exist.
   class Listening {
    public:
     Listening();
@@ -40,14 +40,14 @@ class Interrupt {
   std::jthread waiter_;
 };
 
-/// Requests a stop after a time, or when another token is stopped.
+/// Requests a stop after a time, or when another token requests a stop.
 class Deadline {
  public:
-  /// seconds: more than 1e9, also infinity, is no limit. outer: for example Interrupt::token().
+  /// seconds: above 1e9 or infinite: no time limit. outer: the other token, for example Interrupt::token().
   Deadline(double seconds, const std::stop_token& outer);
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
-  /// Whether the time, and not the other token, requested the stop.
+  /// Whether the time limit requested the stop.
   [[nodiscard]] bool hasExpired() const { return hasExpired_; }
 
  private:

@@ -52,7 +52,8 @@ void secureStandardStreams() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest free number is the one that is missing. Read-only, so that writing to it still fails.
+    // open() returns the lowest free number, which is the missing stream. Read-only, so that writing to the stream
+    // still fails.
     if (open("/dev/null", O_RDONLY) != stream) return;
   }
 }

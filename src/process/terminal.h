@@ -6,40 +6,42 @@
 
 namespace asdfvk {
 
-/// Writes all of it to standard output. Throws Error{OutputNotWritable} with the reason: a full disk, a closed pipe.
+/// Writes the whole text to standard output. Throws Error{OutputNotWritable} with the reason, for example a full disk
+/// or a closed pipe.
 void writeStandardOutput(std::string_view text);
 
-/// Writes to standard error; ignores a failure, which cannot be reported anywhere.
+/// Writes to standard error. Ignores failures, because they cannot be reported.
 void writeStandardError(std::string_view text);
 
-/// "asdf-vk: error: SUBJECT: MESSAGE" as one line on standard error; without the subject where that is empty.
+/// Writes the line "asdf-vk: error: SUBJECT: MESSAGE" to standard error. An empty subject is left out.
 void printError(std::string_view subject, std::string_view message);
 
-/// The line that printError() writes, with its line end; and that of a warning.
+/// The line that printError() writes, and the same line for a warning, each with its line end.
 [[nodiscard]] std::string errorLine(std::string_view subject, std::string_view message);
 [[nodiscard]] std::string warningLine(std::string_view subject, std::string_view message);
 
-/// Wipes the line of the cursor on a terminal.
+/// Text that clears the current line of a terminal.
 inline constexpr std::string_view kWipeLine = "\r\x1b[K";
 
-/// Ignores SIGPIPE and SIGXFSZ, so that write() reports a closed pipe and a limit on the size of files. Opens standard
-/// streams that the caller closed, so that no other file gets their descriptors.
+/// Ignores SIGPIPE and SIGXFSZ, so that write() reports a closed pipe or a limit of the file size as an error. Opens
+/// standard streams that are closed, so that no other file gets their descriptors.
 void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();
 
-/// A one-line bar, shown after one second, redrawn at most ten times per second, and wiped by the destructor.
+/// A progress bar in one line. Appears after one second and is redrawn at most ten times per second. The destructor
+/// clears it.
 class ProgressBar {
  public:
-  /// `write` writes text to the terminal; `now` returns seconds.
+  /// write: writes a text to the terminal. now: returns a time in seconds.
   ProgressBar(std::function<void(std::string_view)> write, std::function<double()> now);
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// fraction: clamped to [0, 1].
+  /// Draws the bar if necessary. fraction: clamped to [0, 1].
   void update(double fraction);
-  /// Wipes the bar; must be called before anything else is written to the terminal.
+  /// Clears the bar. Must be called before other text is written to the terminal.
   void clear();
 
  private:
@@ -50,7 +52,7 @@ class ProgressBar {
   bool isVisible_ = false;
 };
 
-/// "[#####               ]  25 %", 40 cells wide.
+/// A progress bar as text: "[##### ] 25 %", with 40 cells.
 [[nodiscard]] std::string progressBarText(double fraction);
 
 }  // namespace asdfvk

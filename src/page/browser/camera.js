@@ -1,5 +1,5 @@
-// A parallel projection around an upright axis. Azimuth and elevation 0 show the broad side of the mesh, as in pictures
-// of `--picture`.
+// Camera with parallel projection that turns around an upright axis. Azimuth and elevation 0 show the broad side of the
+// mesh, as pictures of `--picture` do.
 import { add, clamp, cross, dot, scaled, subtract } from './vectors.js';
 
 export const kViews = {
@@ -9,17 +9,17 @@ export const kViews = {
 const kRadians = Math.PI / 180;
 const axisVector = (axis, sign) => [0, 1, 2].map((i) => i === axis ? sign : 0);
 
-/** Directions of azimuth 0 and of the sides. boxSize: of the mesh. */
+/** The directions up, front (azimuth 0) and side (azimuth 90). boxSize: sides of the box of the mesh. */
 export function uprightFrame(up, boxSize) {
   const axis = 'xyz'.indexOf(up.at(-1)), upward = axisVector(axis, up.length > 1 ? -1 : 1);
-  // The front is z with y up, and -y with z up; it is the shorter of the horizontal axes.
+  // The front is the shorter horizontal axis. Of equal ones it is z with y up, and -y with z up.
   const usual = axis === 2 ? 1 : 2, other = axis === 0 ? 1 : 0;
   const isBroadside = boxSize[other] >= boxSize[usual];
   const front = axisVector(isBroadside ? usual : other, isBroadside && axis === 2 ? -1 : 1);
   return { up: upward, front, side: cross(upward, front) };
 }
 
-/** Orthonormal right, up and toViewer, and upright: side, up and front. state: {up, az, el}. */
+/** Orthonormal axes of the view: right, up, toViewer. upright: the directions side, up, front. state: {up, az, el}. */
 export function viewAxes(state, boxSize) {
   const { up, front, side } = uprightFrame(state.up, boxSize);
   const az = state.az * kRadians, el = state.el * kRadians;
@@ -29,7 +29,7 @@ export function viewAxes(state, boxSize) {
   return { right, up: cross(toViewer, right), toViewer, upright: [side, up, front] };
 }
 
-/** Azimuth and elevation from which `direction` points to the viewer. */
+/** Azimuth and elevation of a view in which `direction` points to the viewer. */
 export function anglesTowards(direction, { upright: [side, up, front] }) {
   return {
     az: Math.atan2(dot(direction, side), dot(direction, front)) / kRadians,
@@ -37,15 +37,15 @@ export function anglesTowards(direction, { upright: [side, up, front] }) {
   };
 }
 
-/** Corners of a box with the origin as its centre. */
+/** Corners of a box that is centred at the origin. */
 export function boxCorners(size) {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => size.map((length, axis) => (i >> axis & 1 ? 0.5 : -0.5) * length));
 }
 
 /**
- * What a pane shows of a mesh within a frame {centre, radius, size}. x, y and z of the state: along side, up and front,
- * relative to the frame, in radii; so meshes with different upright axes move alike. Zoom 1: the sphere of the frame
- * touches the shorter sides of the pane.
+ * Camera of a pane that shows a mesh within a frame {centre, radius, size}. x, y and z of the state are the offset of
+ * the target from the centre along side, up and front, in radii of the frame, so that meshes with different upright
+ * axes move alike. With zoom 1 the sphere of the frame fits the shorter side of the pane.
  */
 export class PaneCamera {
   constructor(state, axes, frame, width, height) {
@@ -59,14 +59,14 @@ export class PaneCamera {
     this.depth = 1 / (frame.radius * (2 + Math.hypot(state.x, state.y, state.z)));
   }
 
-  /** x, y and z of the state with which the point is the target. */
+  /** The x, y and z of the state that make the point the target. */
   stateAt(point) {
     const offset = scaled(subtract(point, this.frame.centre), 1 / this.frame.radius);
     const [x, y, z] = this.upright.map((axis) => dot(offset, axis));
     return { x, y, z };
   }
 
-  /** Column-major, from positions to clip coordinates. */
+  /** Matrix from positions to clip coordinates, column-major. */
   matrix() {
     const rows = [[this.right, 2 / (this.pixelSize * this.width)], [this.up, 2 / (this.pixelSize * this.height)],
       [this.toViewer, -this.depth]].map(([axis, factor]) => scaled(axis, factor));
@@ -74,26 +74,26 @@ export class PaneCamera {
     return [...columns, ...rows.map((row) => -dot(row, this.target)), 1];
   }
 
-  /** Column-major, from directions to right, up and towards the viewer. */
+  /** Matrix from directions to components along right, up and toViewer, column-major. */
   rotation() {
     return [0, 1, 2].flatMap((i) => [this.right[i], this.up[i], this.toViewer[i]]);
   }
 
-  /** Pixels from the top left corner of the pane. */
+  /** Pixel of a point, from the top left corner of the pane. */
   pixelOf(point) {
     const offset = subtract(point, this.target);
     return [this.width / 2 + dot(offset, this.right) / this.pixelSize,
       this.height / 2 - dot(offset, this.up) / this.pixelSize];
   }
 
-  /** The point of the plane through the target. */
+  /** The point at a pixel, in the plane through the target that faces the viewer. */
   pointAt(x, y) {
     const across = scaled(this.right, (x - this.width / 2) * this.pixelSize);
     return add(this.target, add(across, scaled(this.up, (this.height / 2 - y) * this.pixelSize)));
   }
 }
 
-/** Centre, size and radius that the camera refers to: common ones where the meshes are about the same box. */
+/** The frame {centre, size, radius} of each mesh. Meshes with similar boxes have a common frame. */
 export function framesOf(models) {
   const frameOf = (low, high) => {
     const size = subtract(high, low);

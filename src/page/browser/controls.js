@@ -1,4 +1,4 @@
-// The form: each element with data-key shows a part of the state and sets it.
+// The form. Each element with data-key shows and sets a part of the state.
 import { formatCount, formatShare, formatValue } from './format.js';
 import { classTitle } from './legend.js';
 import { givenLimit } from './thin_places.js';
@@ -6,7 +6,7 @@ import { kViews } from './camera.js';
 
 const byId = (id) => document.getElementById(id);
 
-/** An element with text; children: strings or elements. */
+/** Makes an element. children: strings or elements. */
 export function made(tag, properties, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);
@@ -56,7 +56,7 @@ export class Controls {
     const changes = { [key]: value };
     if (key === 'layer' || key === 'show') Object.assign(changes, { low: null, high: null });
     if (key === 'layer') changes.thinAt = null;
-    // The thin places with a given limit have no colours of a layer or of a difference.
+    // The view of thin places with a given limit shows neither a layer nor a difference.
     if (this.given !== null && (key === 'layer' || String(changes.show).includes('-'))) changes.thin = false;
     if (key === 'thinAt' && value !== null) changes.thin = true;
     if (key === 'up' || key === 'show') Object.assign(changes, viewer.fitted({ ...viewer.state, ...changes }));
@@ -69,7 +69,7 @@ export class Controls {
     if (range) this.viewer.store.set({ low: range.min, high: range.max });
   }
 
-  /** Writes the state into the form; keys: what changed, or null for everything. */
+  /** Shows the state in the form. keys: the changed keys of the state; null: all. */
   show(keys) {
     const { viewer } = this, { state } = viewer;
     if (keys && ![...keys].some((key) => !['az', 'el', 'x', 'y', 'z', 'zoom'].includes(key))) return;
@@ -98,7 +98,7 @@ export class Controls {
     this.showPicked();
   }
 
-  /** Range of the values that the limit refers to; null without any. */
+  /** Range of the values that the limit is compared with; null without values. */
   limitedRange(look) {
     const { layers } = this.viewer;
     if (this.given !== null && layers.has('least_thickness')) return layers.rangeOf('least_thickness');

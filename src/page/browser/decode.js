@@ -1,6 +1,6 @@
-// Decodes the arrays of a mesh. docs/page-format.md describes them; src/page writes them.
+// Decodes the arrays of a mesh, which src/page writes (docs/page-format.md).
 
-/** The bytes of base64 text. */
+/** Decodes base64. */
 export function bytesOfBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
   const binary = atob(text);
@@ -18,7 +18,7 @@ function check(condition, name) {
   if (!condition) throw new Error(`wrong ${name}`);
 }
 
-/** Numbers with a sign from planes of their bytes. */
+/** Signed numbers from byte planes. */
 function numbersOf(planes, count, name) {
   check(planes.length % count === 0 && planes.length <= 4 * count, `size of ${name}`);
   const numbers = new Int32Array(count);
@@ -28,13 +28,13 @@ function numbersOf(planes, count, name) {
   return numbers;
 }
 
-/** Adds to each number those before it, modulo 2^32. */
+/** Prefix sums modulo 2^32, in place. */
 function summed(numbers) {
   for (let i = 1; i < numbers.length; ++i) numbers[i] += numbers[i - 1];
   return numbers;
 }
 
-/** Vertices of the corners: a corner is the number of vertices before, 0 for the next one, else counted back. */
+/** Vertex indices of the corners. corners: 0 for a new vertex, else the index minus the number of vertices so far. */
 function indicesOf(corners, vertexCount) {
   const indices = new Uint32Array(corners.length);
   let count = 0;
@@ -67,8 +67,8 @@ function valuesOf(kind, numbers) {
 }
 
 /**
- * Decodes a mesh of the page. description: its entry of "meshes"; arrayBytes(number): the compressed bytes of an array.
- * Positions are relative to `origin`. Throws where the data are damaged.
+ * Decodes a mesh of the page. description: the entry of the mesh in "meshes". arrayBytes(number): returns the
+ * compressed bytes of an array. Positions are relative to `origin`. Throws an Error if the data are damaged.
  */
 export async function decodeMesh(description, arrayBytes, origin = [0, 0, 0]) {
   const { arrays, fields, faceCount, vertexCount } = description;

@@ -1,10 +1,10 @@
-// Packed colours of the faces of a mesh; alpha 0 is the rest, beside the faces that are highlighted.
+// Packed colours of the faces of a mesh. Alpha 0 marks the rest: faces that are not highlighted.
 import { colourOfPart, kAlarmColour, kFlagColours, packedColour, tableIndex } from './colour_maps.js';
 
 /**
- * layer: {kind, low, high, table}, of numbers the last three too; style: {none, below, part}. With `below` {values, limit},
- * faces whose value is less have the alarm colour; other faces are the rest. With `part` {labels, label}, faces with
- * other labels are the rest.
+ * layer: {kind}, for numbers {kind, low, high, table}. style: {none, below, part}. If `below` {values, limit} is set,
+ * faces with a value below the limit have the alarm colour, and other faces are the rest. If `part` {labels, label} is
+ * set, faces with another label are the rest.
  */
 export function colourFaces(values, layer, style) {
   const none = packedColour(style.none), colours = new Uint32Array(values.length);

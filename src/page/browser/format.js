@@ -1,8 +1,8 @@
-// Numbers and ticks as text.
+// Formats numbers and ticks.
 
 const kMaxTickCount = 6;
 
-// "2.5e-05" to "2.5e-5", "1e+7" to "1e7".
+// "1e7" for "1e+7".
 const shortExponent = (text) => text.replace('e+', 'e');
 
 function withDigits(value, digits) {
@@ -14,8 +14,8 @@ function withDigits(value, digits) {
 }
 
 /**
- * Four significant digits, without trailing zeros after a decimal point, and as many more, up to nine, as it takes to
- * differ from a limit.
+ * A number with four significant digits, without trailing zeros after a decimal point. If its text would equal the text
+ * of `limit`, it has more digits, up to nine.
  */
 export function formatValue(value, limit = value) {
   for (let digits = 4; digits <= 9; ++digits)
@@ -28,8 +28,8 @@ export const formatCount = (count) => count.toLocaleString('en-US');
 export const formatShare = (share) => `${Number((100 * share).toPrecision(share < 0.1 ? 2 : 3))} %`;
 
 /**
- * Round numbers within the range, ascending and evenly spaced: multiples of 1, 2, 2.5 or 5 times a power of ten, at
- * most six of them, with labels of the fewest digits that distinguish them. Otherwise the ends of the range.
+ * Ticks of a range: at most six ascending multiples of 1, 2, 2.5 or 5 times a power of ten. The labels have the fewest
+ * digits that distinguish the ticks. If the range is too small, the ticks are its ends.
  */
 export function ticksWithin(low, high) {
   const largest = Math.max(Math.abs(low), Math.abs(high)), span = high - low;

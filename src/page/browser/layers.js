@@ -1,9 +1,10 @@
-// Fields of all meshes of the page as layers, and how a state shows one: values per mesh, range, colours, histogram.
+// The fields of all meshes of the page as layers. look() computes how a state shows a layer: values per mesh, range,
+// colours, histogram.
 import { colourTable } from './colour_maps.js';
 import { facesBelow, histogramOf, rangeOf } from './statistics.js';
 
 const kHistogramBinCount = 60;
-const kMargin = 0.2;  // Share of the range, beyond each end of the colours.
+const kMargin = 0.2;  // Margin of the legend beyond each end of the colours, as a share of the range of the colours.
 
 export class Layers {
   constructor(models) {
@@ -26,7 +27,7 @@ export class Layers {
     return this.fields.some((field) => field.name === name);
   }
 
-  /** {low, high, min, max} of a field over all meshes, or null. */
+  /** Range {low, high, min, max} of a field over all meshes; null without values. */
   rangeOf(name) {
     return this.cached(`range ${name} false`, () => rangeOf(this.models.map((_, index) => this.part(index, this.valuesOf(index, name)))));
   }
@@ -40,7 +41,7 @@ export class Layers {
     return show === 'all' ? this.models.map((_, index) => index) : [Number(show.split('-')[0])];
   }
 
-  /** Whether both have the same face count and nearly the same box. */
+  /** Whether both meshes have the same face count and nearly the same box. */
   areComparable(one, other) {
     const [a, b] = [this.models[one], this.models[other]];
     const size = Math.hypot(...a.boxMax.map((value, axis) => value - a.boxMin[axis]));
@@ -48,7 +49,7 @@ export class Layers {
       (value, axis) => Math.abs(value - b.description[end][axis]) <= 1e-4 * size));
   }
 
-  /** Face of the other mesh with the same number in the file, or -1. */
+  /** The face of mesh `other` that has the same number in its file; -1 if there is none. */
   sameFace(one, face, other) {
     return one === other ? face : this.models[other].faceOfId(this.models[one].faceIds[face]);
   }
@@ -69,7 +70,7 @@ export class Layers {
       ?? this.cached(`none ${index}`, () => new Float32Array(this.models[index].faceCount).fill(NaN));
   }
 
-  /** panes: one per mesh shown, {index, values}; and what legend and colours need. */
+  /** How the state shows a layer: a pane {index, values} per visible mesh, and the data of legend and colours. */
   look(state) {
     const field = this.fieldNamed(state.layer), { name, kind } = field;
     const pair = state.show.includes('-') && kind === 'number' ? state.show.split('-').map(Number) : null;
@@ -84,7 +85,7 @@ export class Layers {
     return look;
   }
 
-  // One range for all meshes, so that their colours can be compared.
+  // All meshes have the same range, so that their colours can be compared.
   numbers(state, look) {
     const range = look.isDifference ? this.cached(`range ${look.name} ${state.show}`, () => rangeOf(look.parts)) : this.rangeOf(look.name);
     const table = this.cached(`table ${look.isDifference || state.map}`,
@@ -97,7 +98,7 @@ export class Layers {
     return { table, low, high, range, automatic };
   }
 
-  // Labels or flags with their shares of the area, largest first.
+  // Labels or flags with their shares of the area, in descending order.
   classes(look) {
     const areas = new Map();
     let total = 0;
@@ -110,7 +111,7 @@ export class Layers {
     return shares.map(([label, area]) => ({ label, share: total > 0 ? area / total : 0 }));
   }
 
-  /** The stretch of values that the legend shows: the colours, and a margin where there are values. */
+  /** The interval that the legend shows: the range of the colours, with a margin as far as there are values. */
   axisOf({ low, high, range }) {
     if (!range) return { low: 0, high: 1 };
     const margin = high > low ? kMargin * (high - low) : Math.abs(low) * 0.1 || 0.5;
@@ -122,7 +123,7 @@ export class Layers {
     return histogramOf(look.parts, axis.low, axis.high, kHistogramBinCount);
   }
 
-  /** Faces of the panes below a limit, by the values of another field where `name` is not that of the look. */
+  /** Count and area of the faces of the panes whose value of the field `name` is below a limit. */
   below(look, name, limit) {
     return facesBelow(name === look.name ? look.parts : look.panes.map(({ index }) => this.part(index, this.valuesOf(index, name))), limit);
   }

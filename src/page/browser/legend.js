@@ -1,9 +1,9 @@
-// The legend, drawn on a canvas of the page or of a saved picture.
+// Draws the legend on a canvas of the page or of a saved picture.
 import { colourOfPart, cssColour, kAlarmColour, kBehindColour, kFlagColours, kRestColour, packedColour, tableIndex } from './colour_maps.js';
 import { formatShare, formatValue, ticksWithin } from './format.js';
 
 const kBarWidth = 18, kTop = 76, kBottom = 40, kLine = 16;
-/** Sizes beside a wide view, and beside a narrow one, without the histogram. */
+/** Sizes of the legend. The narrow one has no histogram. */
 export const kWideLegend = { width: 168, barLeft: 58 }, kNarrowLegend = { width: 92, barLeft: 8 };
 const kFont = '13px system-ui, sans-serif';
 
@@ -17,7 +17,7 @@ const textLines = (context, text, width) => {
   return lines;
 };
 
-/** Bar of a legend of this size: pixels of values. */
+/** The colour bar of a legend, with the conversions between values and pixels. */
 export function barOf(axis, height, { barLeft }) {
   const length = Math.max(height - kTop - kBottom, 40);
   return {
@@ -31,7 +31,7 @@ export const classTitle = (look, label) =>
   look.name === 'seed' ? ['interpolated', 'seed: rays were cast'][label]
     : look.kind === 'flag' ? `${look.title}: ${label ? 'yes' : 'no'}` : `part ${label}`;
 
-/** legend: {look, axis, histogram, thin, none}; size: wide or narrow; ink: colour of text. */
+/** legend: {look, axis, histogram, thin, none}. size: kWideLegend or kNarrowLegend. ink: colour of the text. */
 export function drawLegend(context, legend, height, size, ink) {
   const { look, thin } = legend;
   context.font = `600 ${kFont}`;
@@ -50,10 +50,10 @@ export function drawLegend(context, legend, height, size, ink) {
 
 const thinTitle = (thin) => `${thin.share > 0 ? 'thinner' : 'nowhere thinner'} than ${formatValue(thin.limit)}`;
 
-/** Whether thin faces are seen through others. */
+/** Whether thin faces are visible through other faces. */
 const showsBehind = ({ share, rest }) => share > 0 && rest === 'glass';
 
-// The colours: of thin faces with their share of the area, of those seen through others, and of others.
+// Rows of the legend: thin faces with their share of the area, thin faces behind others, and other faces.
 function drawThin(context, thin, top, size, ink) {
   const rows = [[kRestColour, 'other']];
   if (showsBehind(thin)) rows.unshift([kBehindColour, 'thin, behind a wall']);
@@ -73,7 +73,7 @@ function drawNumbers(context, { look, axis, histogram }, height, size, ink) {
   for (let row = 0; row < bar.length; ++row) {
     const value = bar.valueAt(bar.top + row + 0.5);
     context.fillStyle = cssColour(look.table[tableIndex(value, look.low, look.high)]);
-    // Narrower where values are outside of the colours.
+    // The bar is narrower outside of the range of the colours.
     const inset = value < look.low || value > look.high ? 6 : 0;
     context.fillRect(bar.left + inset, bar.top + row, bar.width - 2 * inset, 1);
   }
@@ -108,7 +108,7 @@ function drawClasses(context, { look }, height, size, ink) {
     context.fillText(`and ${look.classes.length - rows.length} more`, 28, kTop + 20 * rows.length);
 }
 
-/** What the legend shows, in words. */
+/** The legend as a sentence, for screen readers. */
 export function legendSentence(look, thin) {
   if (thin) return `${thinTitle(thin)}, ${formatShare(thin.share)} of the area${showsBehind(thin) ? '; pale: behind a wall' : ''}`;
   const unit = look.unit ? ` ${look.unit}` : '';

@@ -1,4 +1,4 @@
-// The legend of the page and the two ends of its colours, which mouse, touch and keys move.
+// The legend of the page, and the handles at the two ends of its colours, which mouse, touch and keys move.
 import { formatValue } from './format.js';
 import { barOf, drawLegend, kNarrowLegend, kWideLegend, legendSentence } from './legend.js';
 import { thinShare } from './thin_places.js';
@@ -47,7 +47,7 @@ export class LegendPanel {
     return { end, element };
   }
 
-  // The ends do not pass each other, nor the ends of a drag the legend.
+  // The ends cannot pass each other. A dragged end stays within the legend.
   set(end, value) {
     const { low, high, range, isDifference } = this.viewer.look;
     const axis = this.dragged ? this.axis : isDifference ? { low: -Infinity, high: Infinity } : { low: range.min, high: range.max };
@@ -55,7 +55,7 @@ export class LegendPanel {
     this.viewer.store.set(end === 'low' ? { low: Math.min(held, high), high } : { low, high: Math.max(held, low) });
   }
 
-  /** What drawLegend() draws. */
+  /** The argument `legend` of drawLegend(). */
   legend() {
     const { viewer, axis } = this, { look, state, thin } = viewer;
     return {

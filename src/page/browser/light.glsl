@@ -1,5 +1,5 @@
-// Brightness of a surface with this normal (right, up, towards the viewer), the same from both sides: bright enough
-// everywhere that colours are recognised in the legend.
+// Brightness of a surface, the same on both sides. The minimum is high enough to recognise the colours of the legend.
+// normal: components along right, up and towards the viewer.
 float brightness(vec3 normal) {
   vec3 n = normalize(normal + vec3(0.0, 0.0, 1e-6));
   if (n.z < 0.0) n = -n;

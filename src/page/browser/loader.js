@@ -1,4 +1,5 @@
-// Inserts the script of the page, which is compressed; the content-security policy has the hashes of both.
+// Decompresses the script of the page and inserts it. The content-security policy has the hashes of the script and of
+// this loader.
 (async () => {
   const packed = Uint8Array.from(atob(document.getElementById('script').textContent), (letter) => letter.charCodeAt(0));
   const script = document.createElement('script');

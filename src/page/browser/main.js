@@ -25,7 +25,7 @@ function finish(state, message) {
   for (const form of document.querySelectorAll('.needs-view')) form.hidden = state !== 'ready';
 }
 
-// The address follows the state, and the state an address that the user enters.
+// Writes the state to the fragment of the address, and reads it from an address that the user enters.
 function followFragment(viewer) {
   let timer, written = location.hash;
   viewer.store.listeners.push(() => {
@@ -42,7 +42,7 @@ function followFragment(viewer) {
   });
 }
 
-/** The result of read(), which takes data from the page. */
+/** Returns the result of read(), which decodes data of the page. Reports its errors as damaged data. */
 async function reading(read) {
   try {
     return await read();
@@ -54,12 +54,13 @@ async function reading(read) {
 async function modelsOf(page) {
   const models = [];
   for (const mesh of page.meshes) {
-    // Close to the mesh, where single precision resolves it.
+    // The origin is close to the mesh, so that single precision resolves the positions.
     const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
     const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, arrayBytes, origin) : null;
     models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, arrayBytes, origin), thinSurface));
   }
-  for (const array of document.querySelectorAll('[id^=array-]')) array.remove();  // Not needed again, and large.
+  // The arrays are large and no longer needed.
+  for (const array of document.querySelectorAll('[id^=array-]')) array.remove();
   return models;
 }
 

@@ -1,12 +1,13 @@
-// A decoded mesh: its triangles, fields and labels. Arrays per face are in the order of the page, not of the file.
+// A decoded mesh: triangles and fields. Arrays per face are in the order of the page; faceIds has the faces of the
+// file.
 import { Triangles } from './triangles.js';
 
 export class MeshModel extends Triangles {
-  /** thinSurface: the decoded surface that is thinner than the limit, or null where there is none. */
+  /** thinSurface: the decoded surface that is thinner than the limit; null if there is none. */
   constructor(description, origin, decoded, thinSurface) {
     super(decoded.positions, decoded.indices);
     Object.assign(this, { description, origin, faceIds: decoded.faceIds, fields: decoded.fields });
-    // Relative to the origin, as the positions are.
+    // The box is relative to the origin, as the positions are.
     this.boxMin = description.boxMin.map((value, axis) => value - origin[axis]);
     this.boxMax = description.boxMax.map((value, axis) => value - origin[axis]);
     if (!description.thin) return;
@@ -18,7 +19,7 @@ export class MeshModel extends Triangles {
     return this.faceIds.indexOf(id);
   }
 
-  /** Areas of labels, largest first, of a field of labels. */
+  /** Pairs of label and area of a field of labels, by descending area. */
   labelAreas(values) {
     const areas = new Map();
     for (let face = 0; face < this.faceCount; ++face)

@@ -1,4 +1,4 @@
-// Mouse, touch and keys on the view.
+// Handles mouse, touch and keys on the view.
 import { kViews } from './camera.js';
 import { add, clamp, scaled, subtract } from './vectors.js';
 
@@ -43,7 +43,7 @@ export class Navigation {
     this.set(camera.stateAt(camera.pointAt(width / 2 - dx, height / 2 - dy)));
   }
 
-  /** About a point of the canvas, or the centre of the view. */
+  /** Zooms about a pixel of the canvas; without x, about the centre of the view. */
   zoom(factor, x, y) {
     const panes = this.viewer.panes();
     const pane = panes.find((p) => x >= p.left && y >= p.top && x < p.left + p.width && y < p.top + p.height) ?? panes[0];

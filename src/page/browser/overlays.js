@@ -1,32 +1,35 @@
-// What lies over the view: names of the panes, rings at thin places and at the selected face, a scale.
+// Elements over the view: names of the panes, rings at thin places and at the selected face, a scale.
 import { formatValue } from './format.js';
 import { markedRegions, regionValue } from './thin_places.js';
 import { subtract } from './vectors.js';
 
 const kTextWidth = 60, kTextHeight = 17;  // Greatest size of the text at a marker, in pixels.
 
-/** The longest round length that takes at most a third of the pane: {value, pixels}. */
+/** The scale {value, pixels, label}: the longest round length that fits a third of the width of the pane. */
 export function scaleOf(camera) {
   const most = camera.width / 3 * camera.pixelSize, power = 10 ** Math.floor(Math.log10(most));
   const value = Math.max(...[1, 2, 5].map((step) => step * power).filter((length) => length <= most));
   return { value, pixels: value / camera.pixelSize, label: formatValue(value) };
 }
 
-/** Pixel of the canvas at which a point of a pane is, or null outside. */
+/** Pixel of the canvas at a point of a pane; null outside of the pane. */
 function canvasPixel(pane, point) {
   const [x, y] = pane.camera.pixelOf(point);
   const isInside = x >= 0 && y >= 0 && x <= pane.width && y <= pane.height;
   return isInside ? [pane.left + x, pane.top + y] : null;
 }
 
-/** Pixel of the canvas at which the selected face of a pane is, or null. */
+/** Pixel of the canvas at the selected face of a pane, or null. */
 export function ringOf(pane) {
   if (!pane.outline) return null;
   const [a, b, c] = pane.outline;
   return canvasPixel(pane, a.map((value, axis) => (value + b[axis] + c[axis]) / 3));
 }
 
-/** The least places of the regions that a pane shows: {x, y, text, isLeft}; without the text where it would cover another. */
+/**
+ * Markers {x, y, text, isLeft} at the thinnest places of the regions in a pane. `text` is empty if it would cover
+ * another.
+ */
 export function markersOf(pane, viewer) {
   if (!viewer.thin?.isGiven) return [];
   const model = viewer.models[pane.index], markers = [];
@@ -54,7 +57,7 @@ export class Overlays {
   }
 
   update(panes) {
-    // Made anew only where something differs: each change is painted.
+    // The elements are replaced only if something differs, because each change repaints them.
     const all = panes.map((pane) => ({
       pane, scale: scaleOf(pane.camera), ring: ringOf(pane), markers: markersOf(pane, this.viewer),
     }));

@@ -1,7 +1,7 @@
-// Intersection of a line with all triangles: exact for any zoom, without reading back from the graphics card.
+// Intersects lines with all triangles. Unlike reading back from the graphics card, this is exact at any zoom.
 import { add, dot, scaled } from './vectors.js';
 
-/** Calls visit(face, distance, facing) for each triangle that the line hits; facing: positive from its front. */
+/** Calls visit(face, distance, facing) for each triangle that the line hits. facing: positive if the front is hit. */
 function forEachHit(model, point, direction, visit) {
   const { positions, indices } = model;
   const [dx, dy, dz] = direction, [ox, oy, oz] = point;
@@ -23,9 +23,9 @@ function forEachHit(model, point, direction, visit) {
 }
 
 /**
- * The visible face nearest to the viewer on the line through `point` towards the viewer, and the point on it; or null.
- * colours: alpha 0 is invisible, or null; plane: [x, y, z, w] is visible where positive, or null; facing: 1 excludes back
- * faces.
+ * The visible face {face, point} nearest to the viewer on the line through `point` towards the viewer; null if there is
+ * none. colours: faces with alpha 0 are invisible; may be null. plane: [x, y, z, w], visible where positive; may be
+ * null. facing: true excludes back faces.
  */
 export function pickFace(model, colours, point, toViewer, plane, facing) {
   let best = -Infinity, found = -1;
@@ -39,7 +39,7 @@ export function pickFace(model, colours, point, toViewer, plane, facing) {
   return found < 0 ? null : { face: found, point: at(best) };
 }
 
-/** Number of faces that the ray from the point hits farther away than `least`; direction: unit. */
+/** Number of faces that a ray hits at a distance above `least`. direction: a unit vector. */
 export function countHits(model, point, direction, least) {
   let count = 0;
   forEachHit(model, point, direction, (_, distance) => count += Number(distance > least));

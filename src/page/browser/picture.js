@@ -1,4 +1,4 @@
-// The view with legend, names and scale as a PNG file.
+// Saves the view with legend, names and scale as a PNG file.
 import { drawLegend, kWideLegend } from './legend.js';
 import { markersOf, scaleOf } from './overlays.js';
 
@@ -13,7 +13,7 @@ export class Picture {
     const picture = document.createElement('canvas');
     Object.assign(picture, { width: (width + kWideLegend.width) * ratio, height: height * ratio });
     const context = picture.getContext('2d'), { ink } = viewer.theme();
-    // The picture of the view exists only until the end of this task.
+    // The pixels of the canvas exist only until the end of this task, so that the view is drawn again.
     viewer.draw(true);
     context.fillStyle = getComputedStyle(canvas).backgroundColor;
     context.fillRect(0, 0, picture.width, picture.height);

@@ -1,4 +1,5 @@
-// WebGL 2: meshes with a flat colour per face, a surface or faces highlighted in a grey or translucent mesh, edges, outlines.
+// Draws with WebGL 2: meshes with a flat colour per face; a highlighted surface or highlighted faces in a grey or
+// translucent mesh; edges; outlines.
 
 const kSampleCount = 4, kCoarseFaceCount = 20000;
 const kRestGrey = [0.725, 0.737, 0.76];
@@ -6,7 +7,7 @@ const kRestOpacities = { glass: 0.45, grey: 1, hidden: 0 };
 const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
 
 export class Renderer {
-  /** Null without WebGL 2. */
+  /** Returns null without WebGL 2. */
   static create(canvas) {
     const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, powerPreference: 'high-performance' });
     return gl && new Renderer(gl);
@@ -17,7 +18,7 @@ export class Renderer {
     this.restore();
   }
 
-  /** Sets the context up, at first and after a loss; meshes have to be added again. */
+  /** Sets up the context, at first and after a loss. Meshes must be added again afterwards. */
   restore() {
     const { gl } = this;
     this.programs = new Map();
@@ -54,7 +55,7 @@ export class Renderer {
     };
     mesh.positions = filled(gl.ARRAY_BUFFER, drawn.positions);
     this.attribute(kPosition, mesh.positions, 3, gl.FLOAT, false);
-    // Vertices beyond the faces have no colour and no normal of their own: no triangle takes these from them.
+    // Vertices after the first faceCount have neither colour nor normal, because they are no provoking vertices.
     mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
     this.attribute(kColour, mesh.colours, 4, gl.UNSIGNED_BYTE, true);
     const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
@@ -86,7 +87,7 @@ export class Renderer {
     mesh.isSmooth = true;
   }
 
-  // A copy of few triangles, for slow devices while the view moves.
+  // A copy with few triangles, for slow devices while the view moves.
   coarse(mesh) {
     if (mesh.model.faceCount < 2 * kCoarseFaceCount) return mesh;
     mesh.coarse ??= this.addMesh(mesh.model.reduced(kCoarseFaceCount));
@@ -97,7 +98,7 @@ export class Renderer {
     return coarse;
   }
 
-  // The edges of all faces, or of those that are not the rest.
+  // The edges of all faces; with hidesRest only of highlighted faces.
   edgesOf(mesh, hidesRest) {
     const { gl } = this, hasHidden = hidesRest && mesh.hasRest;
     if (mesh.edgesOfColouring === (hasHidden ? mesh.colouring : true)) return mesh.edges;
@@ -153,9 +154,9 @@ export class Renderer {
   }
 
   /**
-   * frame: {width, height, background, isSampled, isCoarse, shading, back, edges, rest, lineColour, panes}; a pane: {mesh,
-   * surface, camera, plane, viewport, outline} with the viewport in pixels of the canvas from its lower left corner. A
-   * surface, or null, is highlighted instead of faces of the mesh.
+   * frame: {width, height, background, isSampled, isCoarse, shading, back, edges, rest, lineColour, panes}. A pane is
+   * {mesh, surface, camera, plane, viewport, outline}. viewport: in pixels from the lower left corner of the canvas.
+   * surface: if not null, is highlighted instead of faces of the mesh.
    */
   draw(frame) {
     const { gl } = this;
@@ -166,7 +167,7 @@ export class Renderer {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     for (const shown of frame.panes) {
       const mesh = frame.isCoarse ? this.coarse(shown.mesh) : shown.mesh;
-      // A surface does not fit the coarse copy.
+      // The surface does not fit the coarse copy.
       const pane = { ...shown, mesh, surface: mesh === shown.mesh ? shown.surface : null };
       gl.viewport(...pane.viewport);
       gl.scissor(...pane.viewport);
@@ -188,8 +189,8 @@ export class Renderer {
   }
 
   /**
-   * The highlighted faces, which shine through the rest where they are hidden. Only the nearest face of the rest covers
-   * them, so that no order of the faces matters.
+   * Draws the rest translucent over the highlighted faces. Only the nearest face of the rest covers them, so that the
+   * order of the faces does not matter.
    */
   drawHighlighted(pane, frame) {
     const { gl } = this, highlighted = pane.surface ?? (pane.mesh.isAllRest ? null : pane.mesh);
@@ -206,14 +207,18 @@ export class Renderer {
       gl.disable(gl.BLEND);
     }
     if (!highlighted) return;
-    // Before the faces at it: both are rounded to the grid of the page, and parts of a face do not lie in it exactly.
+    // Moves the highlighted faces in front of the mesh. Both are rounded to the grid of the page, so that parts of a
+    // face do not lie exactly in the face.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(-1, -1024);
     this.drawFaces(highlighted, pane, frame);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  /** opacity: of the whole mesh in the colour of the rest; unset: the faces that are not the rest, in their colours. */
+  /**
+   * opacity: draws the whole mesh in the colour of the rest with this opacity; null: draws highlighted faces in their
+   * colours.
+   */
   drawFaces(mesh, pane, frame, opacity = null) {
     const { gl } = this, isSmooth = frame.shading === 'smooth';
     const defines = isSmooth ? ['SMOOTH'] : [];
@@ -236,15 +241,16 @@ export class Renderer {
     const program = this.program('line', []);
     this.use(program, pane);
     gl.uniform4fv(program.uniforms.lineColour, colour);
-    gl.uniform1f(program.uniforms.lift, 2 * pane.camera.pixelSize * pane.camera.depth);  // Before the faces at it.
+    // Moves the line in front of its faces.
+    gl.uniform1f(program.uniforms.lift, 2 * pane.camera.pixelSize * pane.camera.depth);
     gl.enable(gl.BLEND);
-    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);  // The canvas stays opaque.
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);  // Keeps the canvas opaque.
     gl.bindVertexArray(vao);
     call();
     gl.disable(gl.BLEND);
   }
 
-  // Over everything else. outline: corners of a triangle.
+  // Draws over everything else. pane.outline: corners of a triangle.
   drawOutline(pane) {
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, this.outline.buffer);

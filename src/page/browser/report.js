@@ -1,4 +1,5 @@
-// Thin regions, summary, warnings and parts as tables and lists. Needs no WebGL; with a viewer, a click on a row flies to its place.
+// Thin regions, summary, warnings and parts as tables and lists. Needs no WebGL. With a viewer, a click on a row flies
+// to its place.
 import { made } from './controls.js';
 import { formatCount, formatShare, formatValue } from './format.js';
 
@@ -7,7 +8,7 @@ const kFirstRowCount = 20;
 const list = (title, lines, className) => lines?.length
   ? [made('h4', {}, title), made('ul', { className }, ...lines.map((line) => made('li', {}, line)))] : [];
 
-/** rows: arrays of cells; the rest of a long table follows on request. */
+/** rows: arrays of cells. A long table first shows kFirstRowCount rows and a button for the others. */
 function table(caption, heads, rows) {
   const body = made('tbody', {}), show = (some) => body.append(...some.map((cells) => {
     const [first, ...others] = cells;
@@ -25,7 +26,7 @@ function table(caption, heads, rows) {
   return [element, more];
 }
 
-/** A button where there is a view, else the text. */
+/** A button that calls `action`; without an action the text. */
 function link(text, id, action) {
   if (!action) return text;
   const button = made('button', { type: 'button', id }, text);
@@ -35,7 +36,7 @@ function link(text, id, action) {
 
 const kVerdicts = { passed: 'PASS', failed: 'FAIL', notJudged: 'NOT JUDGED' };
 
-/** The verdict and the regions of a result: walls, then sharp ones. */
+/** The verdict of a result and its thin regions: walls, then sharp regions. */
 function thinReport(mesh, index, hasOthers, visits) {
   const { limit, verdict, regions } = mesh.thin, than = `thinner than ${formatValue(limit)}`;
   const least = Math.min(...regions.map((region) => region.isSharp ? 0 : region.value));
@@ -69,7 +70,7 @@ function meshReport(mesh, index, isOpen, visits) {
     ...list('Defects of the mesh', mesh.defects));
 }
 
-/** visits: the flights of a view, or null without one. */
+/** visits: a Visits of the viewer; null without a viewer. */
 export function showReport(page, visits) {
   const reports = page.meshes.map((mesh, index) => meshReport(mesh, index, page.meshes.length < 3, visits));
   document.getElementById('meshes').replaceChildren(...reports);

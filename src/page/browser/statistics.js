@@ -1,7 +1,7 @@
-// Ranges, histograms and shares of values per face, NaN where there is none, over one or more meshes: each part is
-// {values, areas}.
+// Ranges, histograms and shares of values over one or more meshes. Each part {values, areas} has one entry per face;
+// NaN: no value.
 
-/** {low, high, min, max}: 1st and 99th percentile of the faces, and the ends; null without any value. */
+/** Range {low, high, min, max}: 1st percentile, 99th percentile, least and greatest value; null without values. */
 export function rangeOf(parts) {
   const all = new Float32Array(parts.reduce((sum, { values }) => sum + values.length, 0));
   let count = 0;
@@ -12,7 +12,9 @@ export function rangeOf(parts) {
   return { low: at(0.01), high: at(0.99), min: at(0), max: at(1) };
 }
 
-/** Areas of the faces by value in equal bins from low to high, and of those outside; total includes faces of no value. */
+/**
+ * Areas of the faces in equal bins of value from low to high, and below and above. total: with faces without a value.
+ */
 export function histogramOf(parts, low, high, binCount) {
   const bins = new Float64Array(binCount), scale = high > low ? binCount / (high - low) : 0;
   let below = 0, above = 0, total = 0;
@@ -28,7 +30,7 @@ export function histogramOf(parts, low, high, binCount) {
   return { bins, below, above, total };
 }
 
-/** Faces whose value is below the limit. */
+/** Count and area of the faces with a value below the limit, and the total area. */
 export function facesBelow(parts, limit) {
   let count = 0, area = 0, total = 0;
   for (const { values, areas } of parts) {

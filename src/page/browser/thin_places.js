@@ -1,16 +1,16 @@
-// The comparison with a limit of the thickness: what is shown as thin, and where its regions are seen best.
+// Comparison with a limit of the thickness: the faces that are shown as thin, and the best view of a thin region.
 import { formatValue } from './format.js';
 import { countHits } from './picking.js';
 import { add, cross, dot, scaled, subtract, unit } from './vectors.js';
 
 const kField = 'least_thickness', kMarkerCount = 8;
 
-/** The limit that the results of the page were compared with, or null. */
+/** The limit that the results of the page were compared with; null without a limit. */
 export const givenLimit = (models) => models.find((model) => model.thin)?.thin.limit ?? null;
 
 /**
- * What a state shows as thin, or null: {limit, isGiven, name}. isGiven: the exact surface of each result; otherwise the
- * faces whose value of the field `name` is below the limit.
+ * The limit {limit, isGiven, name} below which a state shows thin places, or null. isGiven: shows the exact thin
+ * surface of each result; otherwise the faces whose value of the field `name` is below the limit.
  */
 export function thinShown(state, look, layers) {
   if (!state.thin) return null;
@@ -20,7 +20,7 @@ export function thinShown(state, look, layers) {
   return { limit: state.thinAt ?? look.low, isGiven: false, name };
 }
 
-/** Share of the area of the meshes in view that is thin. */
+/** Thin share of the area of the visible meshes. */
 export function thinShare({ thin, look, layers, models }) {
   if (!thin.isGiven) {
     const { area, total } = layers.below(look, thin.name, thin.limit);
@@ -30,13 +30,13 @@ export function thinShare({ thin, look, layers, models }) {
   return sum((model) => model.thin?.surface.totalArea ?? 0) / (sum((model) => model.totalArea) || 1);
 }
 
-/** The value of a region in words. */
+/** The least thickness of a region as a text. */
 export const regionValue = (region, limit) => region.isSharp ? 'sharp' : formatValue(region.value, limit);
 
-/** The regions whose least places are marked in the view. */
+/** The regions whose thinnest places are marked in the view. */
 export const markedRegions = (model) => model.thin?.regions.slice(0, kMarkerCount) ?? [];
 
-/** Radius of a region around a point; regions: per triangle. */
+/** Greatest distance of a corner of the region from a point. regions: region of each triangle. */
 export function regionRadius(surface, regions, region, point) {
   let radius = 0;
   for (let face = 0; face < surface.faceCount; ++face) {
@@ -48,8 +48,10 @@ export function regionRadius(surface, regions, region, point) {
 }
 
 /**
- * Direction to the viewer from which the fewest faces hide one of the two points of a region, which are `outward` from
- * each other; of equal ones the closest to `preferred`. Oblique, so that the wall is seen beside its surface.
+ * Direction to the viewer from which the fewest faces hide one end of a wall. ends: the two points of the region.
+ * outward: unit vector from the second end to the first. Candidates are oblique, so that the wall is visible beside its
+ * surface. Candidates close to `preferred` have an advantage of less than one face. least: hits closer to the end do
+ * not count.
  */
 export function directionOfLeastCover(model, ends, outward, preferred, least) {
   const side = unit(cross(outward, Math.abs(outward[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]), [0, 0, 1]);

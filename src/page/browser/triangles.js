@@ -1,4 +1,4 @@
-// Triangles with what is derived from them: areas, normals, edges, vertices to draw, a coarser copy.
+// Triangles and data derived from them: areas, normals, edges, vertices to draw, a coarser copy.
 
 const kNoFace = 0xffffffff;
 
@@ -18,7 +18,7 @@ export class Triangles {
     return a.map((value, axis) => (value + b[axis] + c[axis]) / 3);
   }
 
-  // Areas, and normals as signed bytes.
+  // Computes the areas, and the normals as signed bytes.
   measure() {
     const { positions, indices, faceCount } = this;
     this.areas = new Float32Array(faceCount);
@@ -41,8 +41,9 @@ export class Triangles {
   }
 
   /**
-   * Vertices of which vertex k is a corner of face k, so that flat attributes of face k are attributes of vertex k, and
-   * the triangles; k is their first corner or their last. sources: the vertex of the mesh that each is a copy of.
+   * Vertices and triangles for drawing with flat attributes. Vertex k is the provoking corner of face k, so that it
+   * holds the attributes of face k. isFirst: the provoking corner is the first one, else the last. sources: for each
+   * vertex, the vertex of the mesh that it copies.
    */
   drawnVertices(isFirst) {
     const { positions, indices, faceCount } = this;
@@ -81,7 +82,7 @@ export class Triangles {
     return { sources: all, positions: places, triangles };
   }
 
-  /** Normals of vertices, weighted by area, as signed bytes. */
+  /** Area-weighted normals of the vertices, as signed bytes. */
   smoothNormals() {
     const { positions, indices, faceCount, normals, areas } = this;
     const sums = new Float32Array(positions.length);
@@ -97,7 +98,7 @@ export class Triangles {
     return bytes;
   }
 
-  /** Pairs of vertices, each edge once, and the first two faces at each (kNoFace: none). */
+  /** Each edge once. ends: two vertices per edge. faces: the first two faces of each edge; kNoFace: none. */
   edges() {
     if (this.cachedEdges) return this.cachedEdges;
     const { indices } = this;
@@ -126,13 +127,14 @@ export class Triangles {
   }
 
   /**
-   * About `count` triangles of nearly the same shape, by vertex clustering (Rossignac and Borrel 1993): the vertices in
-   * a cell of a grid become one, and triangles with two corners in a cell vanish. sourceFaces: where each is from.
+   * A copy with about `count` triangles, by vertex clustering (Rossignac and Borrel 1993): the vertices in a cell of a
+   * grid become one vertex, and triangles with two corners in one cell vanish. sourceFaces: the face that each triangle
+   * of the copy is from.
    */
   reduced(count) {
     const { positions, indices } = this, vertexCount = positions.length / 3;
     const farthest = positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
-    const cell = Math.max(Math.sqrt(2 * this.totalArea / count), farthest / 65535) || 1;  // The keys have 17 bits per axis.
+    const cell = Math.max(Math.sqrt(2 * this.totalArea / count), farthest / 65535) || 1;  // A key has 17 bits per axis.
     const cells = new Map(), cellOf = new Uint32Array(vertexCount), firsts = [];
     const at = (i) => Math.round(positions[i] / cell);
     for (let vertex = 0, i = 0; vertex < vertexCount; ++vertex, i += 3) {

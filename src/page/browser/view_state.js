@@ -1,4 +1,4 @@
-// What the page shows, as named values that are also the fragment of its address.
+// The state of the view as named values. The fragment of the address of the page holds the same values.
 import { kColourMapNames } from './colour_maps.js';
 
 const number = (fallback) => ({ fallback, read: (text) => Number.isFinite(parseFloat(text)) ? parseFloat(text) : fallback });
@@ -8,16 +8,16 @@ const text = (fallback, pattern) => ({ fallback, read: (value) => pattern.test(v
 
 const kParts = {
   layer: text(null, /./),
-  show: text('all', /^(\d+|\d+-\d+|all)$/),  // All meshes, one of them, or the difference of two.
+  show: text('all', /^(\d+|\d+-\d+|all)$/),  // All meshes, one mesh, or the difference of two.
   map: choice(...kColourMapNames),
   low: number(null), high: number(null),     // Ends of the colours; null: percentiles.
   none: text('d48fb8', /^[0-9a-f]{6}$/),     // Colour of faces without a value.
-  thin: flag, thinAt: number(null),          // Null: the given limit, or the lower end of the colours.
-  rest: choice('glass', 'grey', 'hidden'),   // Faces that are not thin, or not of the part.
+  thin: flag, thinAt: number(null),          // Limit; null: the given limit, or the lower end of the colours.
+  rest: choice('glass', 'grey', 'hidden'),   // Faces that are not thin or not of the selected part.
   shading: choice('flat', 'smooth', 'plain'), edges: flag, back: choice('same', 'grey', 'hidden'),
   clip: choice('off', 'x', 'y', 'z', 'view'), clipAt: number(0.5), clipFlip: flag,
-  face: text(null, /^\d+:\d+$/), part: text(null, /^\d+:\d+$/),  // Mesh of the page and number within it.
-  up: choice('auto', 'y', 'z', 'x', '-y', '-z', '-x'),  // auto: of each mesh its own.
+  face: text(null, /^\d+:\d+$/), part: text(null, /^\d+:\d+$/),  // INDEX:NUMBER of mesh, and face or part.
+  up: choice('auto', 'y', 'z', 'x', '-y', '-z', '-x'),  // auto: the upright axis of each mesh.
   az: number(30), el: number(18), zoom: number(null), x: number(0), y: number(0), z: number(0),
 };
 
@@ -25,13 +25,13 @@ export const kInitialState = Object.fromEntries(Object.entries(kParts).map(([key
 
 const asText = (value) => value === true ? '1' : typeof value === 'number' ? String(Number(value.toPrecision(6))) : value;
 
-/** Without the parts that are as in `initial`. */
+/** The fragment of a state, without the values that equal those of `initial`. */
 export function fragmentOf(state, initial) {
   const changed = Object.keys(kParts).filter((key) => state[key] !== initial[key] && state[key] !== null);
   return changed.map((key) => `${key}=${encodeURIComponent(state[key] === false ? '0' : asText(state[key])).replace('%3A', ':')}`).join('&');
 }
 
-/** Parts that the fragment has; unknown ones are ignored. */
+/** The values in a fragment. Unknown keys are ignored. */
 export function stateOfFragment(fragment) {
   const state = {};
   for (const [key, value] of new URLSearchParams(fragment.replace(/^#/, '')))
@@ -39,7 +39,7 @@ export function stateOfFragment(fragment) {
   return state;
 }
 
-/** The state, and functions to be called with the set of changed keys. */
+/** The state, and its listeners, which are called with the set of changed keys. */
 export class Store {
   constructor(state) {
     this.state = state;

@@ -1,4 +1,4 @@
-// The view: colours and cameras of the panes from the state, frames, selection.
+// The view. Computes colours and cameras of the panes from the state, draws frames and selects faces.
 import { boxCorners, framesOf, kViews, PaneCamera, viewAxes } from './camera.js';
 import { kAlarmColour } from './colour_maps.js';
 import { colourFaces } from './face_colours.js';
@@ -10,9 +10,10 @@ import { add, clamp, dot, scaled } from './vectors.js';
 
 const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thinAt', 'part'];
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
-const kRestMilliseconds = 180;  // Without motion, before a frame in full quality.
+const kRestMilliseconds = 180;  // Time without motion before a frame in full quality.
 const kSlowMilliseconds = 36, kSlowCount = 3;
-// Frames while the view moves, on ever slower devices: resolution, and whether the mesh is a coarse copy.
+// Levels of detail while the view moves, for ever slower devices: share of the resolution, and whether a coarse copy is
+// drawn.
 const kLevels = [[1, false], [1, true], [0.7, true], [0.5, true], [0.35, true]];
 const kFlightMilliseconds = 350;
 
@@ -56,7 +57,7 @@ export class Viewer {
     });
   }
 
-  /** Camera and everything else as at the start: with a limit on the thin places. */
+  /** Restores the initial state. With a given limit it shows the thin places. */
   reset() {
     const first = this.layers.fields.find((field) => field.kind === 'number') ?? this.layers.fields[0];
     const thin = givenLimit(this.models) !== null;
@@ -67,13 +68,13 @@ export class Viewer {
     this.store.set(this.initial);
   }
 
-  /** Axes of the view of a mesh, with its own upright axis unless the state names one. */
+  /** Axes of the view of a mesh. The upright axis is that of the state, or of the mesh for `auto`. */
   axesOf(index, state) {
     const up = state.up === 'auto' ? this.models[index].description.up ?? 'y' : state.up;
     return viewAxes({ ...state, up }, this.frames[index].size);
   }
 
-  /** Zoom and target that show all meshes of the state from its direction. */
+  /** Zoom and target with which the state shows all its meshes completely. */
   fitted(state) {
     const indices = this.layers.shown(state), [pane] = this.rectangles(indices.length);
     const shadows = ['right', 'up'].map((axis) => this.shadow(indices, axis, state));
@@ -85,7 +86,7 @@ export class Viewer {
     return { x, y, z, zoom: clamp(0.9 * Math.min(...zooms), 0.5, 20) };
   }
 
-  // Extent of meshes along right or up, in radii of their frames; from some of the points where there are many.
+  // Extent [low, high] of the meshes along right or up, in radii of their frames. Samples the vertices of large meshes.
   shadow(indices, name, state) {
     let low = Infinity, high = -Infinity;
     indices.forEach((index) => {
@@ -101,7 +102,7 @@ export class Viewer {
     return low < high ? [low, high] : [-1e-3, 1e-3];
   }
 
-  /** Without values that this page cannot show. */
+  /** Removes the values of a state that this page cannot show. */
   validated(state) {
     const isMesh = (index) => Number(index) < this.models.length;
     if (state.layer !== undefined && this.layers.fieldNamed(state.layer)?.name !== state.layer) delete state.layer;
@@ -120,7 +121,7 @@ export class Viewer {
     this.requestFrame();
   }
 
-  /** Layer, range and panes; computed once per change of the state. */
+  /** The result of Layers.look(), computed once per change of the state. */
   get look() {
     if (this.isStale) {
       const { state, layers } = this;
@@ -142,7 +143,7 @@ export class Viewer {
     this.renderer.setColours(this.meshes[index], colourFaces(values, look, style));
   }
 
-  /** Panes of the canvas in CSS pixels: the grid in which they are largest. */
+  /** Rectangles of the panes in CSS pixels, in the grid that makes the panes largest. */
   rectangles(count) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     let best = { side: 0 };
@@ -192,9 +193,9 @@ export class Viewer {
     this.fly(time);
     const isMoving = Boolean(this.hasMoved);
     this.hasMoved = false;
-    // The next frame is late where the device is slow, whatever the interval between two inputs.
+    // On a slow device the next frame is late, whatever the interval between two inputs.
     if (isMoving) requestAnimationFrame((next) => this.adapt(next - time));
-    // The first frame is early rather than smooth.
+    // The first frame is drawn without antialiasing, to appear early.
     const { dataset } = document.documentElement, isFirst = !dataset.frames;
     this.draw(!isMoving, isFirst);
     if (isFirst) this.requestFrame();
@@ -205,7 +206,7 @@ export class Viewer {
     if (!isMoving && !this.isPending) dataset.still = 'true';
   }
 
-  // Less detail while moving, where several frames took long.
+  // Reduces the detail of moving frames after several slow frames.
   adapt(milliseconds) {
     this.frameMilliseconds = milliseconds;
     if (this.frameMilliseconds > kSlowMilliseconds) ++this.slowCount;
@@ -215,7 +216,7 @@ export class Viewer {
     this.slowCount = 0;
   }
 
-  /** Draws in full quality, or in that of motion. */
+  /** Draws a frame. isStill: in full quality. isFirst: without antialiasing. */
   draw(isStill, isFirst = false) {
     const { canvas, state } = this;
     const [share, isCoarse] = isStill ? [1, false] : kLevels[this.level];
@@ -244,20 +245,20 @@ export class Viewer {
     return { background: bytes.slice(0, 3).map((byte) => byte / 255), isDark: bytes[0] < 128, ink: style.color };
   }
 
-  /** {index, face} of the selected face, or null. */
+  /** The selected face {index, face, id}, or null. */
   selected() {
     if (!this.state.face) return null;
     const [index, id] = this.state.face.split(':').map(Number), face = this.models[index].faceOfId(id);
     return face < 0 ? null : { index, face, id };
   }
 
-  /** The selected face in another result of the same mesh, or -1. */
+  /** The selected face in mesh `index`, if both are results of the same mesh; else -1. */
   faceIn(index, selected) {
     if (index === selected.index) return selected.face;
     return this.layers.areComparable(index, selected.index) ? this.layers.sameFace(selected.index, selected.face, index) : -1;
   }
 
-  /** The pane and the face at a point of the canvas, {pane, face, point} or null. */
+  /** Pane, face and point {pane, face, point} at a pixel of the canvas; null if there is no face. */
   hit(x, y) {
     const pane = this.panes().find((p) => x >= p.left && y >= p.top && x < p.left + p.width && y < p.top + p.height);
     if (!pane) return null;
@@ -272,7 +273,7 @@ export class Viewer {
     this.store.set({ face: hit ? `${hit.pane.index}:${this.models[hit.pane.index].faceIds[hit.face]}` : null });
   }
 
-  /** Moves the camera to `goal` of the state. */
+  /** Moves the camera smoothly to `goal`, the values of the state to reach. */
   flyTo(goal) {
     const start = Object.fromEntries(Object.keys(goal).map((key) => [key, this.state[key]]));
     if (goal.az !== undefined) goal.az = start.az + ((goal.az - start.az + 540) % 360 + 360) % 360 - 180;

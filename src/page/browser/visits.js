@@ -1,4 +1,4 @@
-// Flights to faces, thin regions and parts.
+// Flies to faces, thin regions and parts.
 import { anglesTowards, PaneCamera } from './camera.js';
 import { directionOfLeastCover, regionRadius } from './thin_places.js';
 import { add, clamp, dot, scaled, subtract, unit } from './vectors.js';
@@ -8,14 +8,14 @@ export class Visits {
     this.viewer = viewer;
   }
 
-  /** Flies to a point of mesh `index`, with this zoom; direction: to the viewer, or null. */
+  /** Flies to a point of mesh `index`. direction: direction to the viewer; null: unchanged. */
   fly(index, point, zoom, direction) {
     const axes = this.viewer.axesOf(index, this.viewer.state), frame = this.viewer.frames[index];
     const angles = direction ? anglesTowards(direction, axes) : {};
     this.viewer.flyTo({ ...new PaneCamera(this.viewer.state, axes, frame, 1, 1).stateAt(point), zoom, ...angles });
   }
 
-  /** For a neighbourhood of this area. */
+  /** The zoom that shows a neighbourhood of this area. */
   zoomFor(index, area) {
     return clamp(0.35 * this.viewer.frames[index].radius / Math.sqrt(area + 1e-30), this.viewer.initial.zoom, 12);
   }
@@ -30,7 +30,7 @@ export class Visits {
     return true;
   }
 
-  /** Flies to a region of the given limit and looks at its least thickness, through other walls where they hide it. */
+  /** Flies to the least thickness of a thin region. Walls before it become translucent. */
   region(index, number) {
     const model = this.viewer.models[index], { radius } = this.viewer.frames[index], { regions, surface, regionOfTriangle } = model.thin;
     const { face: id, area, place, opposite } = regions[number], ends = [place, opposite].map((end) => subtract(end, model.origin));
@@ -56,7 +56,7 @@ export class Visits {
     this.viewer.store.set({ part: `${index}:${part.label}`, thin: false, layer: this.viewer.layers.has('segment') ? 'segment' : this.viewer.state.layer, show: this.showing(index) });
   }
 
-  // The state `show` with which the mesh is visible.
+  // The value of `show` with which the mesh is visible.
   showing(index) {
     return this.viewer.look.panes.some((pane) => pane.index === index) ? this.viewer.state.show : String(index);
   }
