@@ -28,7 +28,7 @@ struct Field {
   uint32_t componentCount = 1;  ///< 3 for a point.
   Values values;                ///< Item i has the entries i componentCount .. (i + 1) componentCount - 1.
 
-  [[nodiscard]] size_t size() const {  ///< Entries, all components counted.
+  [[nodiscard]] size_t size() const {  ///< Number of entries, over all components.
     return std::visit([](const auto& entries) { return entries.size(); }, values);
   }
   [[nodiscard]] size_t itemCount() const { return componentCount == 0 ? 0 : size() / componentCount; }

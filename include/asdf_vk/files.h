@@ -52,9 +52,8 @@ struct WriteOptions {
 ///   vertex property `quality`. All other fields are properties with their own names.
 /// - VTU, NPZ: all fields. In NPZ, a vertex field with the name of a face field is stored as vertex_NAME.
 /// - NPY: the first field only.
-/// - GLB: a vertex per corner of each triangle, with each field as attribute _NAME. Each segment is a primitive with
-/// its
-///   own material.
+/// - GLB: a vertex per corner of each triangle, with each field as attribute _NAME. A segment is a primitive with a
+///   material.
 /// - OBJ: vertex colours, but no values. Each segment is a material in PATH.mtl.
 /// - CSV: a row per face with the first column `face`; without a face field, a row per vertex with the first column
 ///   `vertex`.

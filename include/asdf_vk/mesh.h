@@ -30,7 +30,7 @@ using Vec3f = Vec3<float>;
 /// Three vertex indices, counter-clockwise seen from outside.
 using Face = std::array<uint32_t, 3>;
 
-/// Value of a face without a value: a quiet NaN.
+/// Marks a face without a value: a quiet NaN.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// The input faces of a mesh in which not every face is a triangle. Input face i has the corners

@@ -86,7 +86,7 @@ enum class WarningCode {
 /// A fact about the mesh or the result that a user should know.
 struct Warning {
   WarningCode code = WarningCode::MeshDefect;  ///< Kind of the warning.
-  std::string message;                         ///< One sentence.
+  std::string message;                         ///< The warning in one sentence.
   std::vector<ErrorDetail> details;            ///< Named values that occur in the message.
 };
 

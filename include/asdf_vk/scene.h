@@ -56,12 +56,12 @@ class ASDFVK_API Scene {
   /// any length above 0. Returns #P values in the unit of the mesh; NaN where no ray hits the opposite side, which is
   /// usual for points outside of the shape.
   ///
-  /// The definition is the definition for faces (docs/method.md) with the given normal instead of the normal of the
-  /// face, and rays ignore no face. At the barycentre of a face, with the normal of the face, the value is less than
-  /// the value of the face by about kPointOffset times the diagonal of the bounding box. Walls thinner than this offset
-  /// are not resolved. ConeRotation::Hashed rotates each cone by a hash of its point; values then differ from the
-  /// values of faces by the noise of the rays. Points farther from the bounding box than 1/128 of its longest side are
-  /// traced in double precision, more slowly. Points 2^31 times that side away have no value.
+  /// Values are defined as for faces (docs/method.md), with the given normal instead of the normal of the face. Rays
+  /// ignore no face. At the barycentre of a face, with the normal of the face, the value is less than the value of the
+  /// face by about kPointOffset times the diagonal of the bounding box. Walls thinner than this offset are not
+  /// resolved. ConeRotation::Hashed rotates each cone by a hash of its point; values then differ from the values of
+  /// faces by the noise of the rays. Points farther from the bounding box than 1/128 of its longest side are traced in
+  /// double precision, more slowly. Points 2^31 times that side away have no value.
   ///
   /// The scene keeps the tracer: further calls with the same cone options only trace rays. Throws Error{ArraySize} if a
   /// size is not a multiple of 3 or the sizes differ, Error{NonFiniteNumber} with the index of a number that is not

@@ -39,8 +39,8 @@ struct ThinSurface {
   std::vector<uint32_t> regions;  ///< One index in ThicknessReport::regions per triangle.
 };
 
-/// Result of a computation. `fields` has one field per face of each name below:
-/// - "sdf" and "seed", with Options::measuresDiameter(): the shape diameter in the unit of the mesh; 1 for faces that
+/// Result of a computation. `fields` has face fields with the following names: - "sdf" and "seed", with
+/// Options::measuresDiameter(): the shape diameter in the unit of the mesh; 1 for faces that
 ///   cast rays.
 /// - "error", with an error estimate: the expected error in the unit of the mesh; 0 at seeds that keep their value.
 /// - "normalized", with Options::postprocesses(): 0 to 1.

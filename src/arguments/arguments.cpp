@@ -22,7 +22,7 @@ const std::string kNoValue(1, '\0');
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
-/// Throws std::invalid_argument.
+/// Converts a text to a number. Throws std::invalid_argument.
 template <typename T>
 void readNumber(const std::string& text, T& target) {
   const std::optional<T> number = numberIn<T>(text);
@@ -163,7 +163,8 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
 }
 
 std::string ArgumentParser::parse(const std::vector<std::string>& arguments) {
-  for (const std::string& text : arguments) {  // These are answered even if CLI11 would refuse another argument.
+  // Help and version are answered even if CLI11 would refuse another argument.
+  for (const std::string& text : arguments) {
     if (text == kEndOfOptions) break;
     if (text == "-h" || text == "--help") return shortHelp.empty() ? help() : shortHelp;
     if (text == "--help=all") return help();

@@ -18,8 +18,8 @@ struct Argument {
   std::string placeholder =
       {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
   std::string text = {};  ///< Text of the help.
-  /// Called for each occurrence of the argument, with its values; once with all values for a list. Empty values: a
-  /// flag, or an omitted optional value.
+  /// Called with the values of each occurrence of the argument. For a list, called once with all values. The values are
+  /// empty for a flag and for an omitted optional value.
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;

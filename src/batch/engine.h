@@ -15,7 +15,7 @@
 
 namespace asdfvk {
 
-/// Jobs that are computed with the same numbers of jobs at once and of threads.
+/// A set of jobs, with the number of jobs at once and of threads per job.
 struct JobPhase {
   std::vector<size_t> jobs;  ///< Indices of jobs.
   uint32_t atOnce = 1;       ///< Jobs that are computed at the same time.

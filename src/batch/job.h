@@ -19,8 +19,8 @@ struct Job {
 /// The result of a job. The texts are empty or consist of complete lines.
 struct JobResult {
   MeshRecord record;
-  std::string report;    ///< For standard output.
-  std::string messages;  ///< For standard error.
+  std::string report;    ///< Text for standard output.
+  std::string messages;  ///< Text for standard error.
 };
 
 /// A JobComputer, as the monitor shows it.

@@ -71,7 +71,8 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
   }
 }
 
-/// Adds the keys of a row that are missing. An object takes precedence over null: a mesh may lack its members.
+/// Adds the keys of `row` that `all` lacks. An object replaces null, because a mesh may lack the object that other
+/// meshes have.
 void addKeys(const Json& row, Json& all) {
   for (const auto& [key, value] : row.items()) {
     Json& known = all[key];

@@ -18,7 +18,8 @@
 namespace asdfvk {
 namespace {
 
-constexpr int kMaxDepth = 16;  ///< Of the values of a record; those of the program have five levels.
+/// Greatest nesting depth of a record that is read. Records of this program have five levels.
+constexpr int kMaxDepth = 16;
 
 std::string bytesOfHex(std::string_view hex) {
   std::string bytes;
@@ -86,7 +87,7 @@ std::string toJsonLine(const MeshRecord& record) {
 std::optional<MeshRecord> parseRecord(std::string_view text) {
   try {
     const Json json = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
-      // Copies and texts of values are made by recursion.
+      // Copying and printing a value is recursive, so that deep nesting would overflow the stack.
       if (depth > kMaxDepth) throw std::length_error("nested too deep");
       return true;
     });

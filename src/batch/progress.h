@@ -24,10 +24,10 @@ struct BatchProgress {
   [[nodiscard]] double secondsLeft(double elapsedSeconds) const;
 };
 
-/// "1,234 of 10,000 meshes, 56.7 meshes/s, 2 min 35 s left, 12 failed".
+/// The progress in one line: "1,234 of 10,000 meshes, 56.7 meshes/s, 2 min 35 s left, 12 failed".
 [[nodiscard]] std::string progressText(const BatchProgress& progress, double elapsedSeconds);
 
-/// "9,899 done, 3 skipped, 101 failed; 123 s, 80.5 meshes/s, 0.312 million faces/s".
+/// The summary in one line: "9,899 done, 3 skipped, 101 failed; 123 s, 80.5 meshes/s, 0.312 million faces/s".
 [[nodiscard]] std::string summaryText(const BatchProgress& progress, double elapsedSeconds);
 
 /// A duration as a text: "35 s", "2 min 35 s", "3 h 12 min", "2 d 4 h".

@@ -80,8 +80,8 @@ asdf_vk_status keepCurrentError() noexcept {
   }
 }
 
-/// Throws Error{ForkedProcess} in a process that was forked after the first call, where a call would wait forever for
-/// threads of its parent.
+/// Throws Error{ForkedProcess} in a process that was forked after the first call. There, a call would wait forever for
+/// threads of the parent process.
 void requireSameProcess() {
   static const pid_t first = getpid();
   if (getpid() != first)

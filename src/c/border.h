@@ -39,7 +39,8 @@ class ProgressCall {
   std::fenv_t callers_{};
   double fraction_ = 0;
   const char* stage_ = "";
-  std::stop_source source_{std::nostopstate};  ///< Its state needs memory: made in control().
+  /// control() allocates the state, because the constructor must not throw.
+  std::stop_source source_{std::nostopstate};
 };
 
 /// Returns a number that no handle of any type had before.

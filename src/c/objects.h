@@ -26,7 +26,8 @@ struct asdf_vk_session {
   std::recursive_mutex mutex;  ///< Recursive, so that a progress function can destroy other scenes of the session.
   bool isBusy = false;         ///< True while a SessionUse exists.
   std::mutex releasedMutex;
-  std::list<asdfvk::Scene> released;  ///< Scenes that were destroyed while another thread computed.
+  /// Scenes that were destroyed during a computation of another thread. Destroyed after that computation.
+  std::list<asdfvk::Scene> released;
 };
 
 struct asdf_vk_scene {
@@ -34,14 +35,14 @@ struct asdf_vk_scene {
   std::shared_ptr<asdf_vk_session> session;
   std::shared_ptr<const asdfvk::Mesh> mesh;
   asdfvk::Orientation orientation = asdfvk::Orientation::Keep;
-  /// Empty before the first computation. A list, because it moves to asdf_vk_session::released without an allocation.
+  /// Empty before the first computation. A list, because moving it to asdf_vk_session::released allocates nothing.
   std::list<asdfvk::Scene> prepared;
 
   asdf_vk_scene(std::shared_ptr<asdf_vk_session> s, asdfvk::Mesh m)
       : session(std::move(s)), mesh(std::make_shared<const asdfvk::Mesh>(std::move(m))) {}
   asdf_vk_scene(const asdf_vk_scene&) = delete;
   asdf_vk_scene& operator=(const asdf_vk_scene&) = delete;
-  /// Does not wait for a computation: the thread may be that of a garbage collector.
+  /// Does not wait for a computation, because a garbage collector may destroy the scene.
   ~asdf_vk_scene() {
     const std::unique_lock lock(session->mutex, std::try_to_lock);
     if (lock.owns_lock()) {

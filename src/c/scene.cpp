@@ -9,7 +9,7 @@
 namespace asdfvk::c {
 namespace {
 
-/// Exclusive use of a session. Limits the threads to the number of the session while it exists.
+/// Exclusive use of a session. While it exists, the thread limit of the session applies.
 class SessionUse {
  public:
   explicit SessionUse(asdf_vk_session& session)
@@ -33,8 +33,8 @@ class SessionUse {
   ThreadLimit limit_;
 };
 
-/// Returns the prepared scene; prepares it if necessary. isNew: set if it was prepared. Precondition: this thread has a
-/// SessionUse of its session.
+/// Prepares the scene if necessary and returns it. isNew: set to true if it was prepared. Precondition: this thread has
+/// a SessionUse of the scene's session.
 Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control, bool* isNew = nullptr) {
   if (scene.prepared.empty() || scene.orientation != orientation) {
     if (isNew != nullptr) *isNew = true;

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// The only argument of a worker process. Only the main process passes it, so that it is not a documented option.
+/// The only argument of a worker process. Not a documented option, because only the main process passes it.
 inline constexpr const char* kWorkerArgument = "--batch-worker";
 
 /// Reads and computes each mesh, writes its result and reports on it. A mesh that fails is reported and does not affect

@@ -59,7 +59,7 @@ class SharedExitCode {
   ExitCode first_ = ExitCode::Done;
   bool hasResult_ = false, lacksResult_ = false, isCancelled_ = false;
 };
-/// Done, or CheckFailed if the check failed. A check that is not independent is Done.
+/// Done, or CheckFailed if the check failed. A check that is not independent gives Done.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
 /// Done, TooThin, or CheckFailed if the limit could not be judged. Precondition: the report has a limit.
@@ -77,8 +77,8 @@ struct Failure {
 /// The failure of a mesh that a stop request ended.
 [[nodiscard]] Failure cancelledFailure();
 
-/// Describes the current exception. Precondition: called in a catch block. requiresGpu: the remedy must not be a
-/// backend of the CPU. valueOptions: the given options that need shape diameters, such as --segment, for the remedy.
+/// Describes the current exception. Precondition: called in a catch block. requiresGpu: the remedy must not propose the
+/// CPU. valueOptions: the given options that need shape diameters, such as --segment, for the remedy.
 [[nodiscard]] Failure currentFailure(bool requiresGpu = false, const std::string& valueOptions = "");
 
 }  // namespace asdfvk

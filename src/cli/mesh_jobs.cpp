@@ -51,7 +51,7 @@ void fillRecord(MeshRecord& record, const Failure& failure) {
   record.message = failure.message;
 }
 
-/// Throws OpenFailure.
+/// Opens a session. Throws OpenFailure.
 std::unique_ptr<Session> openSession(const SessionOptions& options) {
   try {
     return std::make_unique<Session>(options);
@@ -60,8 +60,8 @@ std::unique_ptr<Session> openSession(const SessionOptions& options) {
   }
 }
 
-/// Whether a file is read during the computation of the previous mesh. Not for large files, because then two meshes are
-/// in memory.
+/// Whether a file is read during the computation of the previous mesh. Excludes large files, because both meshes are
+/// then in memory.
 bool isReadAhead(const Job& job) {
   constexpr uint64_t kMaxBytes = uint64_t{256} << 20;
   return !job.isStream && job.byteCount > 0 && job.byteCount <= kMaxBytes;

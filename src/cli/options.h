@@ -41,7 +41,7 @@ struct OptionTable {
 /// Parses the arguments after the name of the program. Throws Error of kind Usage, whose message names the option.
 [[nodiscard]] CommandLine parseCommandLine(const std::vector<std::string>& arguments);
 
-/// Throws Error{OptionConflict}.
+/// Throws Error{OptionConflict} with the message.
 [[noreturn]] void refuseOptions(const std::string& message);
 
 /// Hash of all options that affect the output of a mesh, for --skip-existing.

@@ -78,7 +78,7 @@ std::string shortErrorRow(const Report& report) {
   return text;
 }
 
-/// "7 (5 to 9 at nearby detail); the largest 53, 16 and 7.1 % of the area"
+/// The row of the segments: "7 (5 to 9 at nearby detail); the largest 53, 16 and 7.1 % of the area".
 std::string shortSegmentRow(const Report& report) {
   std::string text = groupDigits(*report.segmentCount);
   if (!report.parts) return text;

@@ -14,7 +14,7 @@ constexpr size_t kListedCount = 5;
 
 std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x, point.y, point.z); }
 
-/// "0.3 at (1, 2, 3), face 12". Precondition: there is a thickness.
+/// The least thickness: "0.3 at (1, 2, 3), face 12". Precondition: a face has a thickness.
 std::string leastText(const ThicknessReport& thickness) {
   return fmt::format("{} at {}, face {}{}", lengthText(thickness.min, thickness.thinnerThan),
                      pointText(*thickness.minPlace), *thickness.minFace, thickness.min == 0 ? ", a sharp edge" : "");
@@ -54,7 +54,7 @@ std::string edgeText(const SharpEdge& edge, const ThicknessReport&) {
   return fmt::format("edge of {:.3g} degrees, length {}, {}", edge.angleDegrees, lengthText(edge.length), place);
 }
 
-/// "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
+/// The verdict: "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
 std::string verdictOf(const ThicknessReport& thickness) {
   if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
   switch (*thickness.verdict) {

@@ -76,7 +76,7 @@ template <const auto& kNames, typename T>
         [] { return joined(choices); }                                                                                \
   }
 
-/// Range of allowed numbers. Whole numbers must have included bounds.
+/// Range of allowed numbers. The range of a whole number must include its bounds.
 struct OptionRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool excludesMin = false, excludesMax = false;
@@ -98,7 +98,8 @@ struct OptionRow {
   const char* text = "";         ///< Text of the help, without range, default and final full stop.
   const char* more = "";         ///< Further sentences for the man page and docs/options.md.
   const char* placeholder = "";  ///< Stands for the value in the help. Empty for flags and options with named values.
-  const char* needs = "";  ///< Option without which this one has no effect: "measure=thickness|both", "thinner-than".
+  /// Option (with allowed values) without which this row has no effect: "measure=thickness|both", "thinner-than".
+  const char* needs = "";
   const char* defaultText = nullptr;  ///< Shown instead of the default value.
   const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
   const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option; empty: no keyword.

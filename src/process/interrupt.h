@@ -12,9 +12,9 @@ namespace asdfvk {
 inline constexpr int kCancelledCode = 130;
 
 /// During its lifetime, handles SIGINT, SIGTERM and SIGHUP, unless they were ignored before. The first signal requests
-/// a stop of the computation, or ends the program if no Listening exists. A second signal ends the program. It is
-/// ignored within 0.2 s of the first one, because a terminal or a wrapper may send a signal twice. A program that a
-/// signal ends exits with kCancelledCode and leaves no half-written file. Precondition: no other Interrupt exists.
+/// a stop of the computation, or ends the program if no Listening exists. A second signal ends the program, unless it
+/// follows within 0.2 s: a terminal or a wrapper may send a signal twice. A program that a signal ends exits with
+/// kCancelledCode and leaves no half-written file. Precondition: no other Interrupt exists.
 class Interrupt {
  public:
   /// isWorker: ignores all signals after the first one, because the main process kills a worker that does not stop.
