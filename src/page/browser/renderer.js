@@ -55,7 +55,7 @@ export class Renderer {
     };
     mesh.positions = filled(gl.ARRAY_BUFFER, drawn.positions);
     this.attribute(kPosition, mesh.positions, 3, gl.FLOAT, false);
-    // Vertices after the first faceCount have neither colour nor normal, because they are no provoking vertices.
+    // Vertices after the first faceCount have neither colour nor normal, because they are not provoking.
     mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
     this.attribute(kColour, mesh.colours, 4, gl.UNSIGNED_BYTE, true);
     const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
@@ -189,8 +189,8 @@ export class Renderer {
   }
 
   /**
-   * Draws the rest translucent over the highlighted faces. Only the nearest face of the rest covers them, so that the
-   * order of the faces does not matter.
+   * Draws the highlighted faces, and the rest with the opacity that frame.rest selects. Only the nearest face of the rest
+   * covers highlighted faces, so that the order of the faces does not matter.
    */
   drawHighlighted(pane, frame) {
     const { gl } = this, highlighted = pane.surface ?? (pane.mesh.isAllRest ? null : pane.mesh);

@@ -68,7 +68,7 @@ export class Viewer {
     this.store.set(this.initial);
   }
 
-  /** Axes of the view of a mesh. The upright axis is that of the state, or of the mesh for `auto`. */
+  /** Axes of the view of a mesh. The state selects the upright axis; `auto` is the axis of the mesh. */
   axesOf(index, state) {
     const up = state.up === 'auto' ? this.models[index].description.up ?? 'y' : state.up;
     return viewAxes({ ...state, up }, this.frames[index].size);
