@@ -112,9 +112,9 @@ TEST_CASE("handles that are null, destroyed or of another type are errors, in an
               "the scene is null");
   CHECK_FAILS(asdf_vk_compute(goneScene, nullptr, nullptr, nullptr, &none), ASDF_VK_USAGE, "invalidArgument",
               "was destroyed");
-  CHECK_FAILS(asdf_vk_scene_read(gone, "a.ply", &other), ASDF_VK_USAGE, "invalidArgument", "no session");
+  CHECK_FAILS(asdf_vk_scene_read(gone, "a.ply", &other), ASDF_VK_USAGE, "invalidArgument", "handle of a session");
   CHECK_FAILS(asdf_vk_compute(reinterpret_cast<asdf_vk_scene*>(result.get()), nullptr, nullptr, nullptr, &none),
-              ASDF_VK_USAGE, "invalidArgument", "that of no scene");
+              ASDF_VK_USAGE, "invalidArgument", "handle of a scene");
   asdf_vk_field field{};
   CHECK_FAILS(asdf_vk_result_find(result.get(), "width", ASDF_VK_PER_FACE, &field), ASDF_VK_USAGE, "unknownField",
               "no field width");
