@@ -2,6 +2,7 @@
 
 #include <cfenv>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -22,6 +23,16 @@ asdf_vk_status guarded(FunctionRef<void()> body) noexcept;
 
 /// Throws Error{InvalidArgument} for null. name: names the argument in the message, for example "the output".
 void requireArgument(const void* pointer, const char* name);
+
+/// The number of an enumerator that a caller passed. A caller in C may pass any number. To read a number that no
+/// enumerator has as an enumeration is undefined behaviour in C++.
+template <typename Enum>
+[[nodiscard]] int numberOf(const Enum& enumerator) {
+  int number = 0;
+  static_assert(sizeof number == sizeof enumerator);
+  std::memcpy(&number, &enumerator, sizeof number);
+  return number;
+}
 
 /// The progress function of a caller as a RunControl. Stores the floating-point environment at its construction and
 /// calls the progress function in it. Precondition: constructed before guarded() changes the environment. Must outlive

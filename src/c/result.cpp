@@ -9,7 +9,7 @@
 namespace asdfvk::c {
 namespace {
 
-FieldLocation locationOf(asdf_vk_location location) {
+FieldLocation locationOf(int location) {
   if (location == ASDF_VK_PER_FACE) return FieldLocation::PerFace;
   if (location == ASDF_VK_PER_VERTEX) return FieldLocation::PerVertex;
   throw Error(ErrorCode::InvalidArgument, "the location is neither PER_FACE nor PER_VERTEX");
@@ -38,7 +38,7 @@ void convert(const Field& field, void* numbers) {
       field.values);
 }
 
-void copyNumbers(const Field& field, asdf_vk_type type, void* numbers) {
+void copyNumbers(const Field& field, int type, void* numbers) {
   const std::vector<double>* const reals = field.reals();
   switch (type) {
     case ASDF_VK_FLOAT64:
@@ -100,8 +100,8 @@ asdf_vk_status asdf_vk_result_find(const asdf_vk_result* result, const char* nam
   return guarded([&] {
     requireArgument(field, "the output");
     requireArgument(name, "the name of the field");
-    *field =
-        describedField(requireField(handles<asdf_vk_result>().get(result)->result.fields, name, locationOf(location)));
+    *field = describedField(
+        requireField(handles<asdf_vk_result>().get(result)->result.fields, name, locationOf(numberOf(location))));
   });
 }
 
@@ -110,12 +110,12 @@ asdf_vk_status asdf_vk_result_copy(const asdf_vk_result* result, const char* nam
   return guarded([&] {
     const auto object = handles<asdf_vk_result>().get(result);
     requireArgument(name, "the name of the field");
-    const Field& field = requireField(object->result.fields, name, locationOf(location));
+    const Field& field = requireField(object->result.fields, name, locationOf(numberOf(location)));
     if (capacity < field.size())
       throw Error(ErrorCode::ArraySize,
                   fmt::format("the array has room for {} numbers; '{}' has {}", capacity, name, field.size()));
     requireArgument(numbers, "the array");
-    copyNumbers(field, type, numbers);
+    copyNumbers(field, numberOf(type), numbers);
   });
 }
 

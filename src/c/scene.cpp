@@ -51,7 +51,7 @@ std::span<const T> spanOf(const void* numbers, uint64_t count, const char* name)
   return {static_cast<const T*>(numbers), count};
 }
 
-MeshView viewOf(const void* vertices, asdf_vk_type vertexType, uint64_t vertexCount, std::span<const uint32_t> corners,
+MeshView viewOf(const void* vertices, int vertexType, uint64_t vertexCount, std::span<const uint32_t> corners,
                 std::span<const uint64_t> firstCorner) {
   requireAtMost(kMaxIndexCount, vertexCount, "vertices");
   if (vertexType == ASDF_VK_FLOAT32)
@@ -73,7 +73,7 @@ Mesh meshOf(const MeshView& view, const char* unit) {
   return mesh;
 }
 
-void requireIndexType(asdf_vk_type type) {
+void requireIndexType(int type) {
   if (type != ASDF_VK_UINT32 && type != ASDF_VK_INT32)
     throw Error(ErrorCode::ArrayType, "the type of the corners is neither UINT32 nor INT32");
 }
@@ -123,10 +123,10 @@ asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertic
   return guarded([&] {
     requireArgument(scene, "the output");
     auto used = handles<asdf_vk_session>().get(session);
-    requireIndexType(cornerType);
+    requireIndexType(numberOf(cornerType));
     requireAtMost(kMaxTriangleCount, faceCount, "faces");
     const auto indices = spanOf<uint32_t>(corners, 3 * uint64_t{faceCount}, "the corners");
-    addScene(std::move(used), meshOf(viewOf(vertices, vertexType, vertexCount, indices, {}), unit), scene);
+    addScene(std::move(used), meshOf(viewOf(vertices, numberOf(vertexType), vertexCount, indices, {}), unit), scene);
   });
 }
 
@@ -137,12 +137,12 @@ asdf_vk_status asdf_vk_scene_create_polygons(asdf_vk_session* session, const voi
   return guarded([&] {
     requireArgument(scene, "the output");
     auto used = handles<asdf_vk_session>().get(session);
-    requireIndexType(cornerType);
+    requireIndexType(numberOf(cornerType));
     requireAtMost(kMaxIndexCount, faceCount, "faces");
     const auto first = spanOf<uint64_t>(firstCorner, uint64_t{faceCount} + 1, "first_corner");
     requireAtMost(kMaxIndexCount, first.back(), "corners");
     const auto indices = spanOf<uint32_t>(corners, first.back(), "the corners");
-    addScene(std::move(used), meshOf(viewOf(vertices, vertexType, vertexCount, indices, first), unit), scene);
+    addScene(std::move(used), meshOf(viewOf(vertices, numberOf(vertexType), vertexCount, indices, first), unit), scene);
   });
 }
 
