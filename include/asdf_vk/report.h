@@ -186,8 +186,8 @@ struct PartsReport {
   std::vector<double> areaShares;  ///< Share of each part in the area of all faces; the sum is 1.
 };
 
-/// A connected part of the surface that is thinner than the limit, joined with the thin part on the other side of the
-/// same wall. Lengths are in the unit of the mesh.
+/// A region is a connected part of the surface that is thinner than the limit, together with the thin part on the other
+/// side of the same wall. Lengths are in the unit of the mesh.
 struct ThinRegion {
   bool isSharp = false;    ///< The region contains a sharp edge or tip. If false, it is a thin wall.
   double min = 0;          ///< Least thickness; 0 in a sharp region.

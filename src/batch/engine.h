@@ -27,7 +27,7 @@ inline constexpr uint64_t kSmallMeshBytes = uint64_t{16} << 20;
 /// Least work that makes up for starting a worker, which opens a device: a number of meshes, and a size of their files
 /// plus kBytesPerMesh per mesh.
 inline constexpr uint64_t kMinMeshesPerWorker = 4, kMinBytesPerWorker = uint64_t{1} << 20;
-/// Greatest number of workers on one GPU, unless their number is requested. An estimate: no GPU was available to
+/// Greatest number of workers on one GPU if the caller requests no number. An estimate: no GPU was available to
 /// measure it.
 inline constexpr uint32_t kMaxWorkersOnGpu = 4;
 

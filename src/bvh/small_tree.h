@@ -14,8 +14,8 @@ inline constexpr size_t kMaxSmallTreeCount = 8;
 
 /// A hierarchy over few triangles, built by agglomerative clustering (Meister and Bittner 2018, but with all clusters
 /// as candidates). Each pass merges the pairs of clusters that are mutual nearest neighbours. The distance of two
-/// clusters is the area of their common box. For this number of triangles it is faster than top-down splitting, and the
-/// tree has no higher cost.
+/// clusters is the area of their common box. For so few triangles this clustering is faster than top-down splitting,
+/// and its tree has no higher cost.
 class SmallTree {
  public:
   /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount triangles becomes a leaf where that

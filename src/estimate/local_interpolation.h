@@ -14,7 +14,7 @@ struct SolvedInterpolation {
   const DualGraph& graph;
   std::span<const double> weights;      ///< One per arc.
   std::span<const double> constraints;  ///< NaN for a face without a constraint.
-  std::span<const double> guide;        ///< A field; the equation includes its divergenceOf(). May be empty.
+  std::span<const double> guide;        ///< A field whose divergenceOf() the equation includes. May be empty.
   std::span<const double> divergence;   ///< Further divergence; may be empty.
   std::span<const double> solution;     ///< The solution with all seeds; `constraints` has fewer seeds.
 };

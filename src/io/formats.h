@@ -14,8 +14,8 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// How certainly the content of a file has a format. Certain overrides the extension of the file; the extension
-/// overrides Possible.
+/// How certainly the content of a file has a format. Match::Certain takes precedence over the extension of the
+/// file, and the extension over Match::Possible.
 enum class Match { None, Possible, Certain };
 
 /// A file format, defined as kNAMEFormat in src/io/NAME_*.cpp. A function is null where the format lacks the operation.

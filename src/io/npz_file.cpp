@@ -94,7 +94,8 @@ void writeNpz(AtomicFile& file, const ResultView& result) {
   }
   if (offset + directorySize > std::numeric_limits<uint32_t>::max() ||
       members.size() > std::numeric_limits<uint16_t>::max())
-    throw Error(ErrorCode::OutputNotWritable, "the fields exceed the 4 GiB or 65,535 members of a .npz; write .npy");
+    throw Error(ErrorCode::OutputNotWritable,
+                "the fields exceed the limits of .npz, 4 GiB and 65,535 members; write .npy");
   for (size_t i = 0; i < members.size(); ++i) {
     const Field& field = result.fields()[i];
     const std::string header = npyHeader(field);

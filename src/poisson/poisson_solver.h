@@ -22,9 +22,9 @@ class Device;
 struct GraphProblem {
   std::span<const double> constraints;  ///< #F, NaN for a face without a constraint.
   std::vector<double> firstGuess;       ///< #F; non-finite entries are replaced by the mean of the constraints.
-  std::span<const double> guide;   ///< #F, or empty: a field; the equation includes its divergenceOf(). A device starts
-                                   ///< from the finite entries of the field.
-  std::vector<double> divergence;  ///< #F, or empty: further divergence; non-finite entries count as 0.
+  std::span<const double> guide;  ///< #F, or empty: a field whose divergenceOf() the equation includes. A device starts
+                                  ///< from the finite entries of the field.
+  std::vector<double> divergence;         ///< #F, or empty: further divergence; non-finite entries count as 0.
   std::span<const uint32_t> componentOf;  ///< #F
 };
 

@@ -64,8 +64,8 @@ struct PoissonSystem {
 /// Mean of the finite constraints; 0 if there are none.
 [[nodiscard]] double meanOfConstraints(std::span<const double> constraints);
 
-/// #F: per face the sum over its neighbours g of w_fg (field(f) - field(g)), where both are finite. weights: one per
-/// arc.
+/// #F. Entry f is the sum of w_fg (field(f) - field(g)) over the neighbours g of f; terms that are not finite are left
+/// out. weights: one per arc.
 [[nodiscard]] std::vector<double> divergenceOf(const DualGraph& graph, std::span<const double> weights,
                                                std::span<const double> field);
 
