@@ -107,7 +107,7 @@ struct OptionRow {
   const char* valueNames = nullptr;   ///< Allowed values of a string option: "auto|seed|ray".
   bool emptyIsAuto = false;           ///< The name "auto" sets the member to an empty string.
   std::vector<std::string> (*moreNames)() = nullptr;  ///< Returns further allowed values of a string option.
-  const char* bareValue = nullptr;  ///< Value of the option if the command line gives none; null: a value is required.
+  const char* bareValue = nullptr;  ///< Value of the option where it is given without one; null: a value is required.
   const char* wanted = nullptr;     ///< Description of valid values for messages: "an error such as 1%".
   /// Sets the option. Returns false or throws for an invalid value.
   bool (*read)(void* target, const OptionValue& value) = nullptr;

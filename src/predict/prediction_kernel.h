@@ -34,7 +34,7 @@ struct HitRange {
 /// A seed that contributes to a prediction.
 struct WeightedRange {
   uint32_t firstGroup = 0, groupCount = 0;
-  float weight = 0;  ///< Factor of its points' weights, above 0.
+  float weight = 0;  ///< Above 0; multiplies the weight of each point of the range.
 };
 
 /// The cone of a face that casts no rays, in normalised units.

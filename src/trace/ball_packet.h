@@ -101,7 +101,7 @@ class BallPacket {
     for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
   }
 
-  /// Lowers the limits by a wall that is probably near.
+  /// Lowers the limits to the balls through the middle of `wall`, which is probably near.
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
     const Mask opposing =
         lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
