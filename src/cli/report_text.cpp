@@ -194,8 +194,8 @@ ReportRows reportRows(const Report& report) {
   if (hasDiameter) rows.emplace_back("seeds", seedRow(report));
   if (report.regionFaceCount != report.faceCount) rows.emplace_back("region", counted(report.regionFaceCount, "face"));
   if (report.clampedCount > 0)
-    rows.emplace_back("clamped",
-                      fmt::format("{} to the values of the seeds", counted(report.clampedCount, "triangle")));
+    rows.emplace_back("clamped", fmt::format("{}, to the range of the seeds of its component",
+                                             counted(report.clampedCount, "triangle")));
   if (report.reversedFaceCount > 0) rows.emplace_back("reversed", counted(report.reversedFaceCount, "face"));
   rows.emplace_back("backend", report.backend);
   rows.emplace_back("device", deviceRow(report));

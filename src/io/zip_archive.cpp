@@ -91,7 +91,7 @@ ZipArchive::ZipArchive(std::span<const char> bytes) : bytes_(bytes) {
   const ZipDirectory directory = findDirectory(bytes);
   std::span<const char> rest = zipPart(bytes, directory.offset, directory.size);
   if (directory.count > rest.size() / kDirectoryHeaderSize)
-    failInput(fmt::format("ZIP archive: {} do not fit into its directory", counted(directory.count, "file")));
+    failInput(fmt::format("ZIP archive: its directory is too small for {}", counted(directory.count, "file")));
   entries_.reserve(directory.count);
   for (uint64_t i = 0; i < directory.count; ++i) {
     if (zipNumber<uint32_t>(rest, 0) != kDirectoryHeader) failInput("ZIP archive: its directory is damaged");

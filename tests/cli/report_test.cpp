@@ -91,7 +91,8 @@ TEST_CASE("the full report has the areas of parts, the estimate and every except
         "\n  estimate  standard error 0.2 %, 90 % of the faces within 12.5 % of their value, by 400 held-out faces; "
         "worst 50 % of the range, face 77\n",
         ", 2 rounds; 3 cones by the reference\n", "\n  region    1,000 faces\n",
-        "\n  clamped   1 triangle to the values of the seeds\n", "\n  reversed  12 faces\n", ", not converged\n"})
+        "\n  clamped   1 triangle, to the range of the seeds of its component\n", "\n  reversed  12 faces\n",
+        ", not converged\n"})
     CHECK_MESSAGE(holds(text, part), text);
   CHECK(std::count(text.begin(), text.end(), '\n') <= 25);
 }

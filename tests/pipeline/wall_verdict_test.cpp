@@ -193,7 +193,7 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
   CHECK(middle.min >= 0.8);
 }
 
-TEST_CASE("parts that touch or cross have the thickness of the same parts apart") {
+TEST_CASE("parts that touch or cross have the thickness of the same parts apart" * doctest::test_suite("slow")) {
   struct Case {
     uint64_t seed;
     bool crosses = false;
