@@ -20,10 +20,12 @@ void to_json(Json& json, const std::vector<ErrorDetail>& details) {
   for (const ErrorDetail& detail : details) json[detail.name] = detail.value;
 }
 template <typename Structure>
-requires requires(const Structure& value) { structureName(value); }
-void to_json(Json& json, const Structure& value) {
+void putKeys(Json& json, const Structure& value) {
   visitKeys(value, [&](const std::string& key, const auto& member) { json[key] = member; });
 }
+template <typename Structure>
+requires requires(const Structure& value) { structureName(value); }
+void to_json(Json& json, const Structure& value) { putKeys(json, value); }
 
 namespace {
 
@@ -44,7 +46,7 @@ Json fieldOf(const Field& field) {
 
 }  // namespace
 
-void to_json(Json& json, const TraceVariant& variant) { to_json<TraceVariant>(json, variant); }
+void to_json(Json& json, const TraceVariant& variant) { putKeys(json, variant); }
 
 Json toJson(const OptionValue& value) {
   return std::visit(
