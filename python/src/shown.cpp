@@ -3,7 +3,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -110,13 +109,11 @@ std::vector<PageSegment> segmentsOf(const TraceScene& scene, const std::vector<F
 
 void addLayer(Page& page, const Result& result, Layer& layer, const RunControl& control) {
   const View view = viewOf({}, "", result, false);
-  constexpr std::array kAxes{"x", "y", "z", "-x", "-y", "-z"};
-  layer.texts.up = kAxes[static_cast<size_t>(*view.up)];
+  layer.texts.up = nameOf(kUps, view.up);
   layer.texts.azimuthDegrees = view.azimuthDegrees;
   layer.texts.elevationDegrees = view.elevationDegrees;
   layer.texts.segments = segmentsOf(result.scene->scene, layer.fields);
-  const PictureStyle style{.width = 480, .height = 360, .textScale = 1.4};
-  layer.texts.picture = encodePng(pictureOf(result, layer.fields.front(), view, style, control));
+  layer.texts.picture = encodePng(pictureOf(result, layer.fields.front(), view, kPagePicture, control));
   const std::vector<std::reference_wrapper<const Field>> fields(layer.fields.begin(), layer.fields.end());
   page.add(result.scene->scene.mesh, fields, std::move(layer.texts));
 }

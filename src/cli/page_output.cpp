@@ -3,11 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <string_view>
 
 #include "asdf_vk/choices.h"
 #include "asdf_vk/version.h"
@@ -105,11 +103,6 @@ std::vector<PageSegment> segmentsOf(const Result& result, const FieldList& shown
                       std::get<std::vector<uint32_t>>(field->values), result.sdf());
 }
 
-std::string axisName(Up up) {
-  constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "-x", "-y", "-z"};
-  return std::string(kNames[static_cast<size_t>(up)]);
-}
-
 }  // namespace
 
 std::string nameInPage(const std::string& mesh) {
@@ -128,13 +121,12 @@ void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, con
   texts.thin = thinPlacesOf(outcome.result);
   const View view =
       viewOf(outcome.outputs.pictureView, outcome.mesh, outcome.result, texts.thin && !outcome.outputs.choosesView);
-  texts.up = axisName(*view.up);
+  texts.up = nameOf(kUps, view.up);
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;
   texts.segments = segmentsOf(outcome.result, fields);
-  const PictureStyle style{.width = 480, .height = 360, .textScale = 1.4};
-  texts.picture = encodePng(texts.thin ? thinPictureOf(outcome.result, view, style, control)
-                                       : pictureOf(outcome.result, fields.front(), view, style, control));
+  texts.picture = encodePng(texts.thin ? thinPictureOf(outcome.result, view, kPagePicture, control)
+                                       : pictureOf(outcome.result, fields.front(), view, kPagePicture, control));
   page.add(outcome.result.scene->scene.mesh, fields, std::move(texts));
 }
 

@@ -93,14 +93,6 @@ bool readMemory(void* target, const OptionValue& value) {
 OptionValue noValue(const void*) { return {}; }
 OptionValue nameOrNone(const std::string& name) { return name.empty() ? OptionValue() : OptionValue(name); }
 
-constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
-                                                  {"x", Up::X},
-                                                  {"y", Up::Y},
-                                                  {"z", Up::Z},
-                                                  {"-x", Up::MinusX},
-                                                  {"-y", Up::MinusY},
-                                                  {"-z", Up::MinusZ}}};
-
 template <std::string Outputs::*kMember>
 bool readName(void* target, const OptionValue& value) {
   static_cast<Outputs*>(target)->*kMember = textOf(value);

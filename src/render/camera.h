@@ -3,11 +3,21 @@
 #include <optional>
 #include <span>
 
+#include "asdf_vk/choices.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
 
 enum class Up { X, Y, Z, MinusX, MinusY, MinusZ };
+
+/// Names of View::up on the command line and in pages.
+inline constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
+                                                         {"x", Up::X},
+                                                         {"y", Up::Y},
+                                                         {"z", Up::Z},
+                                                         {"-x", Up::MinusX},
+                                                         {"-y", Up::MinusY},
+                                                         {"-z", Up::MinusZ}}};
 
 /// Direction of view. Azimuth and elevation 0 show the broad side of the mesh: the view is along the shorter of the two
 /// horizontal axes of its box.

@@ -14,6 +14,9 @@ struct PictureStyle {
   double textScale = 1;            ///< See Picture::textScale.
 };
 
+/// The picture of a result that a page has for browsers without WebGL 2.
+inline constexpr PictureStyle kPagePicture{.width = 480, .height = 360, .textScale = 1.4};
+
 /// The requested view with its up direction set. If the request has none, the direction is z if the file `input` is an
 /// STL, otherwise guessUp(). If findsThin, bestViewOf() chooses the angles for the thin places. Precondition:
 /// result.scene is set.
