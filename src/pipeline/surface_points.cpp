@@ -24,18 +24,24 @@ constexpr double kVertexReach = 1e-12;
 // Progress after the nearest triangles, and after the greatest sections.
 constexpr double kNearestDone = 0.3, kSectionsDone = 0.5;
 
+ChunkSize chunkSizeOf(size_t count) { return {kFirstChunkSize, std::max<size_t>(count, 1)}; }
+
+/// Calls work(i) for each i below `count`, in parallel, with checkpoints in between.
+template <typename Work>
+void forEachPoint(size_t count, const RunControl& control, const Work& work) {
+  forEachChunk(count, chunkSizeOf(count), control,
+               [&](size_t begin, size_t end) { forEachInParallel(end - begin, [&](uint32_t i) { work(begin + i); }); });
+}
+
 }  // namespace
 
 void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, const RunControl& control,
                        FunctionRef<void(size_t, const SurfacePoint&)> take) {
   const TraceScene view = scene.view();
-  forEachChunk(points.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(points.size(), 1)), control,
-               [&](size_t begin, size_t end) {
-                 forEachInParallel(end - begin, [&](uint32_t i) {
-                   const Vec3d p = scene.bvh.normalization.toNormalized(points[begin + i]);
-                   take(begin + i, nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }));
-                 });
-               });
+  forEachPoint(points.size(), control, [&](size_t i) {
+    const Vec3d p = scene.bvh.normalization.toNormalized(points[i]);
+    take(i, nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }));
+  });
 }
 
 bool isBehindSurface(const PreparedScene& scene, const Vec3d& point, const SurfacePoint& nearest) {
@@ -54,13 +60,10 @@ std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Ve
                                   std::span<const Vec3d> directions, const RunControl& control) {
   const TraceScene view = scene.view();
   std::vector<RayHit> hits(origins.size());
-  forEachChunk(hits.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(hits.size(), 1)), control,
-               [&](size_t begin, size_t end) {
-                 forEachInParallel(end - begin, [&](uint32_t i) {
-                   const Vec3d origin = scene.bvh.normalization.toNormalized(origins[begin + i]);
-                   hits[begin + i] = nearestHitFromAnywhere(view, origin, directions[begin + i], kNoFace, 0);
-                 });
-               });
+  forEachPoint(hits.size(), control, [&](size_t i) {
+    const Vec3d origin = scene.bvh.normalization.toNormalized(origins[i]);
+    hits[i] = nearestHitFromAnywhere(view, origin, directions[i], kNoFace, 0);
+  });
   return hits;
 }
 
@@ -107,14 +110,13 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
       if (std::isfinite(diameter)) values[block[i]] = unit.toMeshLength(diameter);
     }
   };
-  forEachChunk(order.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(order.size(), 1)),
-               control.part(kSectionsDone, 1), [&](size_t begin, size_t end) {
-                 const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
-                 forEachTask((chunk.size() + kBlockSize - 1) / kBlockSize, [&](size_t block) {
-                   const size_t first = block * kBlockSize;
-                   measure(chunk.subspan(first, std::min(kBlockSize, chunk.size() - first)));
-                 });
-               });
+  forEachChunk(order.size(), chunkSizeOf(order.size()), control.part(kSectionsDone, 1), [&](size_t begin, size_t end) {
+    const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
+    forEachTask((chunk.size() + kBlockSize - 1) / kBlockSize, [&](size_t block) {
+      const size_t first = block * kBlockSize;
+      measure(chunk.subspan(first, std::min(kBlockSize, chunk.size() - first)));
+    });
+  });
   return values;
 }
 
