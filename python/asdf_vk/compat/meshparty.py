@@ -116,8 +116,9 @@ def _values(
     """Returns the values of cones with the given starts and axes, both (k, 3)."""
     values = np.full(len(starts), np.nan)
     with np.errstate(invalid="ignore"):
-        usable = np.isfinite(_frames(axes)).all(axis=(1, 2)) & np.isfinite(starts).all(axis=1)
-    rays = np.einsum("kij,rj->kri", _frames(axes[usable]), disk).reshape(-1, 3)
+        frames = _frames(axes)
+    usable = np.isfinite(frames).all(axis=(1, 2)) & np.isfinite(starts).all(axis=1)
+    rays = np.einsum("kij,rj->kri", frames[usable], disk).reshape(-1, 3)
     origins = np.repeat(starts[usable], len(disk), axis=0)
     lengths, hits = scene._opened.first_hits(float_points(origins), float_points(rays), None)
     with np.errstate(divide="ignore", invalid="ignore"):
