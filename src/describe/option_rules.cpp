@@ -1,4 +1,4 @@
-// Options that other options imply or exclude, for every front end.
+// Rules of implication and exclusion between options. All front ends apply them.
 #include "asdf_vk/error.h"
 #include "describe/computation_options.h"
 
