@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kEndOfOptions = "--";
 /// Value of an option whose optional value is omitted. No argument of a program contains this character.
-const std::string kNoValue(1, '\0');
+const std::string kMissingValue(1, '\0');
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
@@ -98,7 +98,7 @@ std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<st
     }
     const Argument& argument = entry->argument;
     const bool takesNext = argument.takesNext && i + 1 < arguments.size() && argument.takesNext(arguments[i + 1]);
-    attached.push_back(argument.name() + "=" + (takesNext ? arguments[++i] : kNoValue));
+    attached.push_back(argument.name() + "=" + (takesNext ? arguments[++i] : kMissingValue));
   }
   return attached;
 }
@@ -158,7 +158,7 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
     if (isFlag(entries_[i].argument))
       given.resize(values.size());
     else if (!values.empty())
-      given = {values.front() == kNoValue ? Argument::Values{} : values};
+      given = {values.front() == kMissingValue ? Argument::Values{} : values};
   }
 }
 
