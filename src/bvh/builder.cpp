@@ -105,6 +105,8 @@ class RunBuilder {
   // Returns the box of the triangles.
   SplitBox build(size_t nodeIndex, std::span<SplitTriangle> triangles, uint32_t firstPrimitive, uint32_t level,
                  uint32_t depth) {
+    if (triangles.size() <= options_.maxLeafTriangleCount && options_.maxLeafTriangleCount == kMaxLeafTriangleCount)
+      return writeLeaf(nodeIndex, triangles, firstPrimitive, depth);
     if (triangles.size() <= kMaxSmallTreeCount) {
       const SmallTree tree(triangles, options_.maxLeafTriangleCount);
       run_.depth = std::max(run_.depth, depth + tree[tree.root()].depth);
@@ -121,6 +123,17 @@ class RunBuilder {
   }
 
  private:
+  SplitBox writeLeaf(size_t nodeIndex, std::span<const SplitTriangle> triangles, uint32_t firstPrimitive,
+                     uint32_t depth) {
+    SplitBox box = SplitBox::empty();
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      box.grow(triangles[i].box);
+      primitiveFaces_[firstPrimitive + i] = triangles[i].face();
+    }
+    run_.depth = std::max(run_.depth, depth);
+    run_.nodes[nodeIndex] = box.toNode(firstPrimitive, static_cast<uint32_t>(triangles.size()));
+    return box;
+  }
   size_t addChildren() {
     run_.nodes.resize(run_.nodes.size() + 2);
     return run_.nodes.size() - 2;
@@ -222,7 +235,8 @@ Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry, std::span<c
              const BvhOptions& options) {
   ASDFVK_CHECK_OP(representatives.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
-  ASDFVK_CHECK_OP(options.maxLeafTriangleCount, <=, kMaxWideLeafTriangleCount);
+  ASDFVK_CHECK(options.maxLeafTriangleCount <= kMaxWideLeafTriangleCount ||
+               options.maxLeafTriangleCount == kMaxLeafTriangleCount);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
   UnsetVector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);

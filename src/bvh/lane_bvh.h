@@ -10,7 +10,7 @@
 namespace asdfvk {
 
 /// Number of boxes of a node, or triangles of a block, that are tested together against one ray.
-inline constexpr uint32_t kBvhLaneCount = 8;
+inline constexpr uint32_t kBvhLaneCount = kMaxLeafTriangleCount;
 
 /// A node with up to eight children, in the slots that chooseSlots() assigns. In a slot without a child the lower
 /// corner of the box is above the upper corner, so that no ray enters it. 256 bytes.

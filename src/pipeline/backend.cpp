@@ -98,6 +98,10 @@ NamedBackend openFirst(std::span<const BackendRow> rows, const SessionOptions& o
 
 }  // namespace
 
+BvhOptions bvhOptionsFor(const Backend& backend) {
+  return {.maxLeafTriangleCount = backend.device() == nullptr ? kMaxLeafTriangleCount : kMaxWideLeafTriangleCount};
+}
+
 NamedBackend openBackend(const SessionOptions& options) {
   if (options.backend != kAutomaticBackend) {
     const auto row = std::find_if(kBackends.begin(), kBackends.end(),

@@ -8,6 +8,7 @@
 
 #include "asdf_vk/report.h"
 #include "asdf_vk/session.h"
+#include "bvh/bvh.h"
 #include "poisson/poisson_solver.h"
 #include "predict/prediction.h"
 #include "trace/cone_tracer.h"
@@ -50,6 +51,9 @@ class Backend {
   /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
   virtual void requireSilentValidation() const {}
 };
+
+/// Options of the hierarchy for tracers of the backend.
+[[nodiscard]] BvhOptions bvhOptionsFor(const Backend& backend);
 
 struct NamedBackend {
   std::string name;

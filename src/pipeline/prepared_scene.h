@@ -14,12 +14,14 @@ struct PreparedScene {
   Bvh bvh;
 
   /// Throws the errors of prepareMesh(), and Error{Cancelled} between the stages.
-  PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control)
+  /// bvhOptions: see bvhOptionsFor().
+  PreparedScene(const MeshView& mesh, Orientation orientation, const BvhOptions& bvhOptions, StageClock& clock,
+                const RunControl& control)
       : prepared((control.checkpoint(0), prepareMesh(mesh, orientation, clock))) {
     control.checkpoint(0);
     {
       const auto scope = clock.time(Stage::Bvh);
-      bvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives);
+      bvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives, bvhOptions);
     }
     control.checkpoint(0);
   }

@@ -23,7 +23,7 @@ TEST_CASE("a hierarchy over random triangles keeps its invariants") {
 
 TEST_CASE("a hierarchy keeps its invariants for all options") {
   const Mesh mesh = sheet(30);
-  for (const uint32_t leaf : {1u, 2u, 3u}) {
+  for (const uint32_t leaf : {1u, 2u, 3u, kMaxLeafTriangleCount}) {
     for (const uint32_t bins : {2u, 3u, 16u, 32u}) {
       const BvhOptions options{leaf, bins};
       checkInvariants(buildOver(mesh, options), mesh, everyFaceRepresentsItself(mesh), options);

@@ -15,10 +15,11 @@ namespace {
 struct Encoded {
   Mesh source;
   TriangleMesh mesh{source};
-  Bvh bvh = buildOver(source);
+  Bvh bvh;
   LaneBvh lanes = encodeLaneBvh(bvh, mesh);
 
-  explicit Encoded(Mesh shape) : source(std::move(shape)) {}
+  explicit Encoded(Mesh shape, const BvhOptions& options = {})
+      : source(std::move(shape)), bvh(buildOver(source, options)) {}
 };
 
 /// Checks the boxes below a reference, counts the primitives, and returns the number of levels.
@@ -66,14 +67,15 @@ uint32_t visit(const Encoded& encoded, uint32_t reference, const Box3f& box, std
 
 TEST_CASE("in the layout of the CPU each primitive is in one block, and boxes contain what is below them") {
   const Mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
-  for (const Mesh& mesh : {one, shapes::box({1, 2, 3}), generateShape("animal", 3000).mesh, shapes::soup(1000, 3)}) {
-    const Encoded encoded(mesh);
-    CAPTURE(encoded.bvh.primitiveFaces.size());
-    std::vector<uint32_t> counts(encoded.bvh.primitiveFaces.size());
-    const Box3f all{{-2, -2, -2}, {2, 2, 2}};
-    CHECK(visit(encoded, 0, all, counts) <= encoded.lanes.depth + 1);
-    CHECK(std::all_of(counts.begin(), counts.end(), [](uint32_t count) { return count == 1; }));
-  }
+  for (const Mesh& mesh : {one, shapes::box({1, 2, 3}), generateShape("animal", 3000).mesh, shapes::soup(1000, 3)})
+    for (const uint32_t leaf : {kMaxWideLeafTriangleCount, kMaxLeafTriangleCount}) {
+      const Encoded encoded(mesh, {.maxLeafTriangleCount = leaf});
+      CAPTURE(encoded.bvh.primitiveFaces.size());
+      std::vector<uint32_t> counts(encoded.bvh.primitiveFaces.size());
+      const Box3f all{{-2, -2, -2}, {2, 2, 2}};
+      CHECK(visit(encoded, 0, all, counts) <= encoded.lanes.depth + 1);
+      CHECK(std::all_of(counts.begin(), counts.end(), [](uint32_t count) { return count == 1; }));
+    }
 }
 
 TEST_CASE("a mesh without triangles has an empty layout of the CPU") {
