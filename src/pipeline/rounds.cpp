@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
+#include "pipeline/patched_mesh.h"
 #include "pipeline/seed_choice.h"
 
 namespace asdfvk {
@@ -86,7 +87,7 @@ class Rounds {
   [[nodiscard]] std::vector<double> indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom);
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                           const RunControl& control);
-  void interpolate(std::span<const uint32_t> extremes, std::span<const double> indicator, bool estimates,
+  void interpolate(std::span<const uint32_t> extremes, std::vector<double> indicator, bool estimates,
                    const RunControl& control);
   [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes);
   [[nodiscard]] uint64_t furtherCount() const;
@@ -148,12 +149,12 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
   if (isLast) tracing_.reset();
-  interpolate(extremes, indicator, estimates, control.part(kHeldOutTracedProgress, 1));
+  interpolate(extremes, std::move(indicator), estimates, control.part(kHeldOutTracedProgress, 1));
   interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);
 }
 
 /// Computes the result and, if `estimates`, its errors. extremes: the extreme seeds of this round.
-void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const double> indicator, bool estimates,
+void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double> indicator, bool estimates,
                          const RunControl& control) {
   const bool hasPrediction = estimates && computation_.predicts();  // The prediction is made without held-out faces.
   std::vector<ReplacedValue> replaced;
@@ -179,6 +180,12 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const dou
     prediction_.exchange(replaced);
   }
   interpolation_.pool(prediction_.last().values, result_.values);
+  if (const PatchedMesh* const patched = computation_.domain.patched) {
+    const auto scope = clock_.time(Stage::Solve);
+    patched->spread(result_.values);
+    for (size_t face = 0; face < indicator.size(); ++face)
+      indicator[face] = indicator[patched->patches().centreOf[face]];
+  }
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
     EstimatedErrors errors = estimateErrors(computation_.scene.mesh, {traced_, heldOut_, withoutHeldOut, indicator,
@@ -278,8 +285,16 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
         ++extreme;
       else if (!traced_.isSeed[face])
         candidates.push_back(face);
-    heldOut =
-        sampleHeldOut(candidates, indicator, shares.heldOut, heldOutSeed(options_.randomSeed, heldOut_.faces.size()));
+    const uint64_t sampleSeed = heldOutSeed(options_.randomSeed, heldOut_.faces.size());
+    if (const PatchedMesh* const patched = computation_.domain.patched) {  // A centre represents its patch.
+      const std::vector<uint32_t>& sizeOf = patched->patches().sizeOf;
+      std::vector<double> ofPatch(indicator.begin(), indicator.end());
+      for (const uint32_t centre : candidates) ofPatch[centre] *= sizeOf[centre];
+      heldOut = sampleHeldOut(candidates, ofPatch, shares.heldOut, sampleSeed);
+      for (size_t i = 0; i < heldOut.faces.size(); ++i) heldOut.weights[i] *= sizeOf[heldOut.faces[i]];
+    } else {
+      heldOut = sampleHeldOut(candidates, indicator, shares.heldOut, sampleSeed);
+    }
     faces = extremes;
     faces.insert(faces.end(), heldOut.faces.begin(), heldOut.faces.end());
   }
