@@ -4,8 +4,8 @@
  * type or destroyed is an error, not a crash. Any thread may use a handle. Computations on the scenes of one session
  * run one after another. Precondition: no thread sets an option while another thread uses the same asdf_vk_options. No
  * C++ exception leaves a function. A function computes in the default floating-point environment (rounding, traps,
- * flushing of denormals) on all its threads. On return it restores the caller's environment, status flags included.
- * In a process that was forked after the first call, every call fails.
+ * flushing of denormals) on all its threads. On return, the function restores the caller's environment, status flags
+ * included. In a process that was forked after the first call, every call fails.
  *
  * The library does not keep pointers to the caller's arrays and texts after a call. Texts are UTF-8 and end with a zero
  * byte. A pointer that a function returns belongs to the object in its first argument and is valid until that object is
@@ -30,8 +30,8 @@ extern "C" {
 
 /* NOLINTBEGIN(readability-identifier-naming) */
 
-/* Version of the binary interface and of the shared library (libasdf-vk-c.so.1). The loaded library fits this header if
- * asdf_vk_abi() returns ASDF_VK_ABI. Releases with the same version only add functions and enumerators. */
+/* Version of the binary interface and of the shared library (libasdf-vk-c.so.1). The loaded library fits this header
+ * if asdf_vk_abi() returns ASDF_VK_ABI. Releases with an equal ASDF_VK_ABI only add functions and enumerators. */
 #define ASDF_VK_ABI 1
 ASDF_VK_C_API int asdf_vk_abi(void);
 /* Version of asdf-vk as a text: "0.2.0". */
@@ -43,7 +43,7 @@ ASDF_VK_C_API int asdf_vk_version_number(void);
 typedef enum asdf_vk_status {
   ASDF_VK_OK = 0,
   ASDF_VK_USAGE =
-      1, /* A null argument or an invalid handle; an option that is unknown, out of range or contradicts another one. */
+      1, /* A null argument or an invalid handle; an unknown or contradictory option, or a value out of range. */
   ASDF_VK_INPUT = 2,      /* A mesh or array is unreadable, invalid or too large, or no value can be computed. */
   ASDF_VK_DEVICE = 3,     /* No usable device, or the device was lost or is too small. */
   ASDF_VK_OUTPUT = 4,     /* A file cannot be written. */
@@ -75,23 +75,22 @@ typedef struct asdf_vk_result asdf_vk_result;   /* The fields and the report of 
 
 ASDF_VK_C_API asdf_vk_status asdf_vk_options_create(asdf_vk_options** options);
 /* Sets an option by name and value, for example ("seeds", "10%") or ("thinner-than", "0.8mm"). name: as in
- * docs/options.md, without the leading dashes. value: a text as on the command line, "on" or "off" for a flag, such as
- * ("estimate", "off") or ("centres", "on"); null restores the default. The functions that take the options check
- * whether they contradict each other. */
+ * docs/options.md, without the leading dashes. value: a text as on the command line, or "on" or "off" for a flag;
+ * null restores the default. Contradictory options are errors of the functions that take the options. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, const char* value);
 ASDF_VK_C_API void asdf_vk_options_destroy(asdf_vk_options* options);
 
 /* Opens the device. options: may hold "backend", "device", "require-gpu" and "threads" only; null: the defaults. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_session_create(const asdf_vk_options* options, asdf_vk_session** session);
-/* First line of the text: the chosen device and the reason. Then one line per device that was not chosen. The text
+/* text: the first line has the chosen device and the reason, each further line a device that was not chosen. The text
  * describes the devices at the creation of the session. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_session_device(const asdf_vk_session* session, const char** text);
 ASDF_VK_C_API void asdf_vk_session_destroy(asdf_vk_session* session);
 
-/* Makes a scene of a triangle mesh. vertices: 3 vertex_count numbers, x y z per vertex, of the type FLOAT64 or FLOAT32.
- * corners: 3 face_count vertex indices of the type UINT32 or INT32; corners are counter-clockwise seen from outside.
- * unit: "um", "mm", "cm", "m", "in", "ft", or null for no unit; without a unit a limit such as "0.8mm" is an error. The
- * first computation prepares the mesh. */
+/* Makes a scene of a triangle mesh. vertices: 3 vertex_count numbers, x y z per vertex, of the type FLOAT64 or
+ * FLOAT32. corners: 3 face_count vertex indices of the type UINT32 or INT32, counter-clockwise seen from outside.
+ * unit: "um", "mm", "cm", "m", "in", "ft", or null for no unit. Without a unit, a thickness limit such as "0.8mm" is
+ * an error. The first computation prepares the mesh. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertices,
                                                   asdf_vk_type vertex_type, size_t vertex_count, const void* corners,
                                                   asdf_vk_type corner_type, size_t face_count, const char* unit,
@@ -118,10 +117,10 @@ typedef struct asdf_vk_mesh {
 ASDF_VK_C_API asdf_vk_status asdf_vk_scene_mesh(const asdf_vk_scene* scene, asdf_vk_mesh* mesh);
 ASDF_VK_C_API void asdf_vk_scene_destroy(asdf_vk_scene* scene);
 
-/* Progress function of a caller. A computation calls it about every 50 to 100 ms, in the thread and floating-point
- * environment of its caller. fraction: 0 to 1. stage: "trace", "solve", ..., or "" before the first stage. A return
- * value other than 0 requests a stop. The function must not throw or call longjmp(). A computation that it starts on
- * the same session fails. */
+/* Progress function of a caller. A computation calls this function about every 50 to 100 ms, in the thread and
+ * floating-point environment of the caller. fraction: 0 to 1. stage: "trace", "solve", ..., or "" before the first
+ * stage. A return value other than 0 requests a stop. The function must not throw or call longjmp(). A computation
+ * that the function starts on the same session fails. */
 typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 
 /* Computes the fields and the report of a scene. options: must not hold options of a session; null: the defaults.
@@ -131,7 +130,7 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk
 
 /* Computes the shape diameter at points, or with ("measure", "thickness") the wall thickness. points, normals: 3
  * point_count numbers each. values: receives point_count numbers in the unit of the mesh; NaN: no value. Only
- * the options of rays, thickness and orientation have an effect. See Scene::valuesAt() and Scene::thicknessAt() in
+ * options of rays, thickness and orientation have an effect. See Scene::valuesAt() and Scene::thicknessAt() in
  * asdf_vk/scene.h. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options,
                                                const double* points, const double* normals, size_t point_count,
@@ -152,9 +151,9 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_result_field_count(const asdf_vk_result* re
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_field(const asdf_vk_result* result, size_t index, asdf_vk_field* field);
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_find(const asdf_vk_result* result, const char* name,
                                                  asdf_vk_location location, asdf_vk_field* field);
-/* Copies a field into `numbers`. capacity: size of `numbers`, at least count * components. Real
- * numbers can be copied as FLOAT64 or FLOAT32, labels as any type except UINT8, flags as any type. As INT32, the label
- * of a face without a segment is -1. */
+/* Copies a field into `numbers`, which has room for `capacity` numbers. capacity: at least count * components. Real
+ * numbers can be copied as FLOAT64 or FLOAT32, labels as any type except UINT8, flags as any type. As INT32, the
+ * label of a face without a segment is -1. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_copy(const asdf_vk_result* result, const char* name,
                                                  asdf_vk_location location, asdf_vk_type type, void* numbers,
                                                  size_t capacity);

@@ -10,18 +10,19 @@
 #include "asdf_vk/run_control.h"
 
 /// Two functions of CGAL 5.5.1 on the caller's values per face: sdf_values_postprocessing() and
-/// segmentation_from_sdf_values() (docs/segmentation.md). They contain no code of CGAL. For CGAL's sdf_values(), call
-/// Session::compute() with options that applyDefinition(Definition::Cgal) has set.
+/// segmentation_from_sdf_values() (docs/segmentation.md). Both functions contain no code of CGAL. For CGAL's
+/// sdf_values(), call Session::compute() with options that applyDefinition(Definition::Cgal) has set.
 ///
 /// Values and labels are per input face (#I). Each triangle of a polygon takes the value of the polygon. The resulting
 /// value of a polygon is the area-weighted mean over its triangles; its resulting label is the label with the largest
 /// area among its triangles. For a mesh of triangles the results are bit-identical to the fields "normalized" and
 /// "segment" of Session::compute().
 ///
-/// Two faces are neighbours if they share an edge, traverse it in opposite directions, and no third face has this edge.
-/// An edge of more than two faces is first split, as CGAL's readers do by splitting vertices: faces stay on one edge if
-/// neighbours connect them around both end points. An edge between faces of opposite winding is a boundary; CGAL's
-/// readers instead reverse faces of such meshes where possible. Vertices are compared by index.
+/// Two faces are neighbours if they share an edge that no third face has, and traverse this edge in opposite
+/// directions. An edge of more than two faces is first split: two faces keep a common edge only if neighbours connect
+/// them around both end points. CGAL's readers also do that, by splitting vertices. An edge between faces of opposite
+/// winding is a boundary; CGAL's readers instead reverse faces of such meshes where possible. Vertices are compared by
+/// index.
 ///
 /// All functions throw Error{EmptyMesh}, Error{ArraySize} for arrays of a wrong size, Error{IndexOutOfRange},
 /// Error{MeshTooLarge}, Error{ValueOutOfRange} and Error{Cancelled}. Results are bit-identical for any number of
@@ -33,20 +34,20 @@ struct PostprocessedSdf {
   double min = 0, max = 0;         ///< Smoothed values, in the unit of the input, that are mapped to 0 and 1.
 };
 
-/// Fills missing values, smooths all values by a bilateral filter and maps them to [0, 1]. If all smoothed values are
-/// equal, they are not mapped and keep the unit of the input. values: #I, finite and at least 0; NaN for no value.
-/// Polls for a stop every 256 faces. Throws Error{NoValues} if no face has a value.
+/// Fills missing values, smooths all values by a bilateral filter and maps them to [0, 1]. Equal smoothed values are
+/// not mapped and keep the unit of the input. values: #I, finite and at least 0; NaN for no value. Polls for a stop
+/// every 256 faces. Throws Error{NoValues} if no face has a value.
 [[nodiscard]] ASDFVK_API PostprocessedSdf postprocessSdf(const MeshView& mesh, std::span<const double> values,
                                                          const RunControl& control = {});
 
 enum class CgalLabels {
   Segments,  ///< Sets of connected faces of one cluster, numbered by ascending mean value.
-  Clusters,  ///< Clusters of values, numbered by ascending mean, as CGAL's output_cluster_ids.
+  Clusters,  ///< Clusters of values, numbered by ascending mean. CGAL: output_cluster_ids.
 };
 
 struct LabelledFaces {
   std::vector<uint32_t> labels;  ///< #I, below `count`; kNoSegment for an input face without a triangle.
-  uint32_t count = 0;            ///< Number of segments, or CgalSegmentationOptions::clusterCount.
+  uint32_t count = 0;            ///< Number of segments; for Clusters, CgalSegmentationOptions::clusterCount.
 };
 
 /// Clusters the values and divides the mesh by a graph cut. values: #I, 0 to 1, as postprocessSdf() returns them. A NaN

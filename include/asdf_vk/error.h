@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Classes of errors that a caller can handle. The command line maps them to exit codes.
+/// Classes of errors that a caller can handle. The command line maps each class to an exit code.
 enum class ErrorKind {
   Usage,      ///< An option is out of range or contradicts another.
   Input,      ///< A mesh or array is unreadable, invalid or too large, or no value can be computed.
@@ -31,20 +31,20 @@ enum class ErrorCode {
   EmptyMesh,        ///< The mesh, or the given region of it, has no faces.
   ArraySize,        ///< An array has a wrong size, or the entries of firstCorner do not ascend.
   ArrayType,        ///< The element type of an array is not supported. C interface and Python module only.
-  NonFiniteNumber,  ///< A NaN or an infinite number where only finite ones are allowed.
+  NonFiniteNumber,  ///< A NaN or an infinite number where only finite numbers are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
   FarFromOrigin,    ///< The coordinates are so large that double precision does not resolve the mesh.
   InputTooLarge,    ///< The mesh does not fit into memory.
   NoValues,         ///< No face has a value.
   TooFewValues,     ///< There are fewer distinct values than clusters.
-  ValueOutOfRange,  ///< A value per face of the caller is outside of its range, or a result does not fit into float32.
+  ValueOutOfRange,  ///< A value per face from the caller is out of range, or a result does not fit into float32.
   // Device
   NoVulkanLoader,     ///< libvulkan.so.1 is not installed.
-  NoVulkanDriver,     ///< No driver is installed, or the loader can start none.
+  NoVulkanDriver,     ///< No driver is installed or can be loaded.
   NoUsableDevice,     ///< Every device was rejected; the message contains the reasons.
   GpuRequired,        ///< A GPU was required, but the backend runs on the CPU.
-  NoDeviceForKernel,  ///< A kernel variant or a solver of a device was requested, but the backend has no device.
+  NoDeviceForKernel,  ///< A kernel variant or a solver on the device was requested, but the backend has no device.
   KernelUnsupported,  ///< The device lacks a feature that the requested kernel needs.
   DeviceLimit,        ///< The mesh exceeds a limit of the device.
   EquationLimit,      ///< The Poisson equation exceeds a limit of the device. The CPU solvers have no limit.
@@ -68,8 +68,7 @@ struct ErrorDetail {
   std::string name, value;
 };
 
-/// A failure that the caller can handle. what() is one line with the reason and does not name options of the command
-/// line.
+/// A failure that the caller can handle. what() is one line with the reason, without names of command-line options.
 class ASDFVK_API Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message, std::vector<ErrorDetail> details = {})

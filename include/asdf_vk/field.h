@@ -15,8 +15,7 @@ namespace asdfvk {
 
 enum class FieldLocation { PerFace, PerVertex };
 
-/// One quantity of a result, with one item per input face or per vertex of the input, in the order of the input. The
-/// JSON report, the picture and every writer accept any list of fields.
+/// One quantity of a result, with one item per input face or vertex, in the order of the input.
 struct Field {
   /// Real numbers are double in memory and in CSV, and float32 in the other formats. NaN means no value.
   using Values = std::variant<std::vector<double>, std::vector<uint8_t>, std::vector<uint32_t>>;
@@ -32,7 +31,6 @@ struct Field {
     return std::visit([](const auto& entries) { return entries.size(); }, values);
   }
   [[nodiscard]] size_t itemCount() const { return componentCount == 0 ? 0 : size() / componentCount; }
-  /// Entry i as a number.
   [[nodiscard]] double at(size_t i) const {
     return std::visit([i](const auto& entries) { return static_cast<double>(entries[i]); }, values);
   }
@@ -40,9 +38,7 @@ struct Field {
   [[nodiscard]] const std::vector<double>* reals() const { return std::get_if<std::vector<double>>(&values); }
 };
 
-/// The first field with the name, or null.
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name);
-/// The field with the name and location, or null.
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name,
                                                 FieldLocation location);
 /// As findField(), but throws Error{UnknownField} if there is no such field.
@@ -57,8 +53,8 @@ struct FieldSummary {
 };
 [[nodiscard]] ASDFVK_API FieldSummary summarize(const Field& field);
 
-/// Throws Error{ValueOutOfRange} if a finite number is beyond the range of float32, or if the numbers are so small that
-/// all would become 0. name: describes the numbers in the message.
+/// Throws Error{ValueOutOfRange} if a finite number is beyond the range of float32, or if all numbers are so small that
+/// they would become 0. name: describes the numbers in the message.
 ASDFVK_API void requireSingles(std::span<const double> numbers, std::string_view name);
 
 }  // namespace asdfvk

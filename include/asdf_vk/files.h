@@ -13,36 +13,33 @@
 namespace asdfvk {
 
 /// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF or 3MF. path: "-" is standard input. The content decides the
-/// format, or the extension where the content is ambiguous (OBJ and binary STL have no magic number). Other files that
-/// the file refers to are not opened. Throws Error{UnreadableInput}, whose message has the file, the line or byte, and
-/// the reason; Error{MeshTooLarge}; Error{InputTooLarge}.
+/// format, or the extension if the content is ambiguous (OBJ and binary STL have no magic number). Files that the mesh
+/// file refers to are not opened. Throws Error{UnreadableInput}, whose message has the file, the line or byte, and the
+/// reason; Error{MeshTooLarge}; Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
 
-/// Reads a mesh from the bytes of a mesh file, as readMesh() does. extension: "ply", ".OBJ" or empty; decides the
-/// format where the content is ambiguous.
+/// Reads a mesh from the bytes of a mesh file, as readMesh() does. extension: "ply", ".OBJ" or empty.
 [[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
 
-/// Names of the formats that readMesh() reads.
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
-/// Extensions of the files that readMesh() reads, in lower case and without the dot.
+/// The extensions are in lower case and without the dot.
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshExtensions();
 
 struct WriteOptions {
   std::string format;  ///< One of resultFormats(). Empty: the extension decides; not allowed for the path "-".
-  /// Names of the fields to write, in this order; empty: all fields. A name selects the fields per face and per vertex.
+  /// Fields to write, in this order; empty: all. A name selects both the face field and the vertex field with this
+  /// name.
   std::vector<std::string> fields = {};
-  bool ascii = false;  ///< Writes PLY as text; other formats ignore it.
-  /// Field of one component that determines the colours in .ply, .glb and .obj. Empty: "segment" if it is written, else
-  /// the first real field.
+  bool ascii = false;  ///< Writes PLY as text. Other formats ignore the member.
+  /// Field of one component that decides the colours in .ply, .glb and .obj. Empty: "segment", else the first real
+  /// field.
   std::string colourOf = {};
   bool coloursVertices = false;  ///< Colours the vertices in PLY. GLB and OBJ always have vertex colours.
 };
 
-/// Names of the formats that writeResult() writes.
 [[nodiscard]] ASDFVK_API std::vector<std::string> resultFormats();
 
-/// Name of the format in which writeResult() writes the path. Throws Error{UnknownFormat} if neither the options nor
-/// the extension of the path name a format.
+/// Throws Error{UnknownFormat} if neither the options nor the extension of the path name a format.
 [[nodiscard]] ASDFVK_API std::string resultFormatOf(const std::filesystem::path& path,
                                                     const WriteOptions& options = {});
 
@@ -69,9 +66,9 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
                             const WriteOptions& options = {});
 
 /// Writes the skeleton points of the faces, from the face fields "centre" and "sdf" (Options::computesCentres). The
-/// radius of a point is half of the shape diameter. Faces without a value have no point. A .swc file has the minimum
-/// spanning tree of the points of each component (face field "component"), or of all points without this field. The
-/// root of a tree is the point with the greatest radius; points of radius 0 are omitted. Any other path is a point
+/// radius of a point is half of the shape diameter. Faces without a value have no point. A .swc file has a minimum
+/// spanning tree of the points per component (face field "component"), or one tree if this field is missing. The root
+/// of a tree is the point with the greatest radius; points of radius 0 are omitted. Any other path becomes a point
 /// cloud in binary PLY: a point has `double x y z`, `float radius`, and `uint part` if there is a face field "segment".
 /// Replaces the file atomically; "-" is standard output. Throws Error{UnknownField} if "centre" or "sdf" is missing;
 /// Error{OptionConflict} if the sizes of the fields do not fit each other or "component" holds real numbers;

@@ -10,7 +10,6 @@
 
 namespace asdfvk {
 
-/// Three numbers: a point, a direction or a size.
 template <typename T>
 struct Vec3 {
   T x{}, y{}, z{};
@@ -34,8 +33,7 @@ using Face = std::array<uint32_t, 3>;
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// The input faces of a mesh in which not every face is a triangle. Input face i has the corners
-/// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order. An input face may have fewer than three
-/// corners.
+/// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order. A face may have fewer than three corners.
 struct Polygons {
   std::vector<uint64_t> firstCorner;  ///< #I+1 indices into `corners`. Empty: every input face is one triangle.
   std::vector<uint32_t> corners;      ///< Vertex indices.
@@ -49,10 +47,9 @@ struct Mesh {
   std::vector<Vec3d> vertices;  ///< #V, in the unit of the file. Coordinates may be non-finite (Report::defects).
   std::vector<Face> faces;      ///< #F triangles.
   Polygons polygons;            ///< Empty if every input face is a triangle.
-  /// Unit of length that the file states: "um", "mm", "cm", "m", "in" or "ft". Empty for formats other than 3MF and
-  /// glTF.
+  /// Unit of length that a 3MF or glTF file states: "um", "mm", "cm", "m", "in" or "ft". Otherwise empty.
   std::string unit = {};
-  /// Number of mesh instances in a 3MF or glTF file, which share no vertices; 0 for other formats.
+  /// Number of mesh instances in a 3MF or glTF file; 0 for other formats. Instances share no vertices.
   uint32_t statedPartCount = 0;
   /// Contents of the file that are not part of the surface and were left out: "12 points".
   std::vector<std::string> skipped = {};
@@ -65,8 +62,8 @@ struct Mesh {
 };
 
 /// View of the caller's arrays, which must outlive the view. The library uses double positions and triangles in place.
-/// It converts float positions to double (24 bytes per vertex) and triangulates polygons (about 16 bytes per corner).
-/// The faces of the view are the input faces: fields have one value per input face, in this order.
+/// The library converts float positions to double (24 bytes per vertex) and triangulates polygons (about 16 bytes per
+/// corner). The faces of the view are the input faces: a field has one value per input face.
 class MeshView {
  public:
   MeshView(const Mesh& mesh);  // NOLINT: implicit by design

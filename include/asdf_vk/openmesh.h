@@ -52,8 +52,7 @@ void writeFaceProperty(HalfEdgeMesh& target, std::span<const double> values, con
   for (size_t i = 0; i < values.size(); ++i) property[OpenMesh::FaceHandle(static_cast<int>(i))] = values[i];
 }
 
-/// Stores the result of compute(mesh) in the face property `name`. compute: takes a Mesh and returns a range of one
-/// double per face.
+/// Stores the result of compute(mesh) in a face property. compute: takes a Mesh and returns one double per face.
 template <typename HalfEdgeMesh, typename Compute>
 void computeOnOpenMesh(HalfEdgeMesh& mesh, Compute&& compute, const std::string& name = "sdf") {
   const auto values = std::forward<Compute>(compute)(fromOpenMesh(std::as_const(mesh)));

@@ -21,14 +21,13 @@ enum class Definition {
   Cgal,   ///< sdf_values() of CGAL 5.5 without its post-processing; see applyDefinition().
 };
 
-/// The cone of rays of a face.
 struct ConeOptions {
   uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
   double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
-  // The next three members must have their defaults unless the definition is Definition::Paper.
+  // Definition::Cgal requires the defaults of the next three members.
   /// A hit is false and dropped if the normals of hit face and seed face differ by less than this angle; 0 to 180.
   double falseHitAngleDegrees = 90;
-  /// Ray lengths farther than this from the median are dropped; in standard deviations, > 0.
+  /// Largest difference of a ray length from the median, in standard deviations, > 0. Other lengths are dropped.
   double outlierDeviations = 1;
   ConeRotation rotation = ConeRotation::Fixed;
   Definition definition = Definition::Paper;
@@ -58,7 +57,7 @@ inline constexpr uint64_t kMinAutomaticSeedCount = 3000;
 /// Weights of the edges of the dual graph in the Poisson equation.
 enum class ArcWeights {
   Distance,  ///< 1 / distance of the two barycentres (ASDF paper, section 4.1).
-  Feature,   ///< Decrease with the dihedral angle, faster on concave edges (src/poisson).
+  Feature,   ///< Decreasing with the dihedral angle, faster at concave edges (src/poisson).
 };
 
 /// Guidance field of the Poisson equation (ASDF paper, section 4.1).
@@ -71,8 +70,8 @@ enum class Guidance {
 struct InterpolationOptions {
   ArcWeights weights = ArcWeights::Feature;
   Guidance guidance = Guidance::Prediction;
-  /// Weight of the prediction in the result, 0 to 1: value = (1 - pooling) * interpolated + pooling * predicted. Seeds
-  /// are included, so that only 0 keeps the traced values. Above 0 requires Guidance::Prediction.
+  /// Weight of the prediction in the result, 0 to 1: value = (1 - pooling) * interpolated + pooling * predicted. The
+  /// formula also applies to seeds: only 0 keeps the traced values. Above 0 requires Guidance::Prediction.
   double pooling = 0;
 };
 
@@ -119,11 +118,11 @@ inline constexpr uint32_t kMaxClusterCount = 100;
 inline constexpr double kMaxSmoothness = 1000;
 
 struct PartsOptions {
-  /// Requested number of parts, 1 to kMaxPartCount. The result has more if the mesh has more components, and fewer if
-  /// it has fewer faces. Unset: the segmentation chooses the number.
+  /// Requested number of parts, 1 to kMaxPartCount. The result has more parts if the mesh has more components, and
+  /// fewer if the mesh has fewer faces. Unset: the segmentation chooses the number.
   std::optional<uint32_t> partCount;
-  /// Divisor of the cost at which the merging of regions stops, so that more detail means more parts. kMinDetail to
-  /// kMaxDetail; must be 1 if partCount is set.
+  /// Divides the cost at which the merging of regions stops: a larger value gives more parts. kMinDetail to kMaxDetail;
+  /// must be 1 if partCount is set.
   double detail = 1;
 };
 inline constexpr uint32_t kMaxPartCount = 100;
@@ -152,9 +151,8 @@ struct ThicknessOptions {
   bool allowsSharpEdges = false;
 };
 
-/// Targets up to which rounds of seeds are added. A round keeps the traced values of all earlier rounds. If
-/// SeedCount::isChosen is false, the first round has kFirstRoundShare. A target excludes SeedCount::all(); a maximum
-/// error also requires Options::estimatesError.
+/// Targets that end the rounds. Each round adds seeds and keeps the traced values of earlier rounds. Any target
+/// excludes SeedCount::all(). A maximum error also requires Options::estimatesError.
 struct RoundOptions {
   std::optional<double> maxError;  ///< Rounds end when the estimated average error is at most this share of the range.
   std::optional<double> maxRelativeError;   ///< Rounds end when the estimated median of error / value is at most this.
@@ -168,7 +166,7 @@ inline constexpr double kFirstRoundShare = 0.02;
 
 /// Treatment of inverted components, which are closed components with faces oriented inwards.
 enum class Orientation {
-  Keep,  ///< Leaves them unchanged; the report warns about them.
+  Keep,  ///< Inverted components stay unchanged; the report warns about them.
   Auto,  ///< Orients outer shells outwards, and cavities (shells inside another shell) inwards.
   Flip,  ///< Reverses every face of the mesh.
 };
@@ -182,13 +180,13 @@ enum class PerElement {
 };
 
 /// Options of one computation. A computation throws Error{OptionOutOfRange} for a member out of its range. It throws
-/// Error{OptionConflict} for a member that differs from its default but has no effect or contradicts another member.
+/// Error{OptionConflict} if a member that differs from its default has no effect or contradicts another member.
 /// samplerNames() and solverNames() list the names for `sampler` and `solver`.
 struct Options {
   ConeOptions cone;
   SeedCount seeds;
   std::string sampler = "blue-noise";
-  /// Start of all random numbers. The same start, mesh, options and device give the same bits.
+  /// Start value of all random numbers. The same value, mesh, options and device give the same bits.
   uint64_t randomSeed = 1;
   InterpolationOptions interpolation;
   SmoothingOptions smoothing;
@@ -205,10 +203,10 @@ struct Options {
   Orientation orientation = Orientation::Keep;
   bool computesCentres = false;  ///< Adds the fields "centre" and "component", for skeletons.
   PerElement per = PerElement::Faces;
-  /// Size of two random samples that the double-precision reference recomputes: of the traced faces and of all faces.
+  /// Sizes of two random samples, one of the traced faces and one of all faces. The double-precision reference
+  /// recomputes both samples.
   std::optional<uint64_t> checkCount;
-  /// Keeps geometry and hierarchy in Result::scene, for a picture. Result::scene refers to the arrays of the mesh,
-  /// which must outlive it.
+  /// Keeps geometry and hierarchy in Result::scene, for a picture. The arrays of the mesh must outlive Result::scene.
   bool keepsScene = false;
 
   [[nodiscard]] bool postprocesses() const {
@@ -226,7 +224,8 @@ struct Options {
 enum class Recipe {
   Paper,     ///< As the ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
   Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction. Keeps traced values.
-  /// Balanced with hashed cones and pooling with the prediction. Has the least error compared with many rays.
+  /// Balanced with hashed cones and pooling with the prediction. Has the least error, measured against many rays per
+  /// face.
   Quality,
 };
 

@@ -14,8 +14,7 @@
 namespace asdfvk {
 
 // The members of the structs below are the keys of the JSON report and the members of the dataclasses in Python.
-// scripts/write-report-keys copies the comments to docs/formats.md and to the dataclasses. An unset member is null in
-// JSON and None in Python.
+// scripts/write-report-keys copies the comments. An unset member is null in JSON and None in Python.
 
 /// The stages of a computation, in the order in which they run.
 enum class Stage {
@@ -27,7 +26,7 @@ enum class Stage {
   Upload,     ///< Creation and release of kernels and buffers on the device; 0 without Vulkan.
   Sample,     ///< Selection of the seeds.
   Trace,      ///< Tracing of the rays.
-  Thickness,  ///< Wall thickness: greatest sections, balls, thin regions.
+  Thickness,  ///< Wall thickness and thin regions.
   Predict,    ///< Prediction of values from the hits of rays.
   Solve,      ///< Poisson equation.
   Estimate,   ///< Error estimate, including its own predictions and solutions.
@@ -48,8 +47,8 @@ struct StageSeconds {
   [[nodiscard]] double& operator[](Stage stage) { return seconds[static_cast<size_t>(stage)]; }
 };
 
-/// Defects of a mesh. The faces counted here are triangles, also in a mesh of polygons. Edges belong to triangles with
-/// finite corners and three distinct vertices; rays ignore all other triangles.
+/// Defects of a mesh. The faces counted here are triangles, also in a mesh of polygons. Only edges of triangles with
+/// finite corners and three distinct vertices are counted; rays ignore all other triangles.
 struct MeshDefects {
   uint64_t zeroAreaFaceCount = 0;        ///< Faces of zero area.
   uint64_t duplicateFaceCount = 0;       ///< Faces with the same corner positions and winding as an earlier face.
@@ -72,12 +71,13 @@ enum class WarningCode {
   PredictedOnCpu,       ///< The device failed to predict values. The CPU predicted them.
   SolvedOnCpu,          ///< The device failed to solve the equation. The CPU solved it.
   NotConverged,         ///< The solver stopped at its iteration limit.
-  RangeDominated,       ///< Few faces span most of the range: errors over the range look small. Details: robustShare.
-  ThinShell,            ///< The shape is a thin wall around a cavity, so that its parts are uncertain.
+  RangeDominated,       ///< Errors over the range look small, because few faces have most of the range. Details:
+                        ///< robustShare.
+  ThinShell,            ///< The shape is a thin wall around a cavity. Parts of such shapes are uncertain.
   PartCountDiffers,     ///< The number of parts differs from the requested number.
   OnlySmallComponents,  ///< No component has 1 % of the area, so that each component is a part.
   SkippedContent,       ///< Contents of the file other than the surface were left out.
-  UncertainParts,       ///< The parts depend on the number of patches that they are merged from.
+  UncertainParts,       ///< The parts depend on the number of patches from which parts are merged.
   CoarseParts,          ///< The faces are too large for exact boundaries of parts.
 };
 /// "missingValues"
@@ -94,7 +94,7 @@ struct Warning {
 struct SolverReport {
   std::string name;             ///< Name of the solver; "none" if nothing was interpolated.
   uint32_t iterations = 0;      ///< Iterations of the solver.
-  double relativeResidual = 0;  ///< Recomputed from the solution, in double, or in float32 by a device.
+  double relativeResidual = 0;  ///< Recomputed from the solution: in float32 on a device, else in double.
   bool converged = true;        ///< False if the solver stopped at its iteration limit.
   bool finishedOnCpu = false;   ///< The solver started on a device in float32 and the CPU finished in double.
 };
@@ -105,19 +105,20 @@ struct WorstFace {
   double error = 0;   ///< Error divided by the range of the values.
 };
 
-/// Estimate of the error of the result, relative to tracing all faces. Held-out faces are a random sample; the sampling
-/// probability increases with the error indicator. Held-out faces cast rays, but a separate interpolation does not use
-/// them. The errors of the separate interpolation at held-out faces are extrapolated to all faces. The result uses
-/// held-out faces as seeds; the estimate corrects for this.
+/// Estimate of the error of the result, relative to tracing all faces. A random sample of faces, the held-out faces,
+/// cast rays, but a separate interpolation does not use them. The errors of this interpolation at the held-out faces
+/// are extrapolated to all faces. Faces with larger expected errors are sampled with a higher probability. The result
+/// uses held-out faces as seeds; the estimate corrects for this.
 struct ErrorEstimate {
   /// Mean error over all faces, seeds included, divided by the range of the values (ASDF paper, Table 1).
   double average = 0;
   double standardError = 0;  ///< Standard error of the average.
   /// Mean error divided by the robust range, which is the 99th minus the 1st percentile of the values. Prefer it to
-  /// `average` if few faces span most of the range (warning rangeDominated). Not finite if the robust range is 0.
+  /// `average` if the report has the warning rangeDominated. Not finite if the robust range is 0.
   double robustAverage = 0;
-  /// Median and 90th percentile of error / value over all faces, seeds included. A quantile is 0 if at least that share
-  /// of the faces are seeds. It is infinite if the face at the quantile has an error and the value 0.
+  /// Median and 90th percentile of error / value over all faces, seeds included. The median is 0 if at least half of
+  /// the faces are seeds, the percentile if at least 90 %. A quantile is infinite if the face at the quantile has an
+  /// error and the value 0.
   double relativeMedian = 0, relativePercentile90 = 0;
   double relativeMedianStandardError = 0;  ///< Standard error of the relative median.
   uint64_t heldOutCount = 0;               ///< Number of held-out faces.
@@ -128,19 +129,18 @@ struct ErrorEstimate {
 /// device. A sample of all faces that can cast rays measures the interpolation error. Errors are divided by the range
 /// of the reference values of the compared faces.
 struct CheckReport {
-  /// True if at least one traced face agrees and few disagree: at most one face or 0.1 % of them, whichever is more. A
-  /// ray that grazes an edge may hit either face of the edge. Unset if `independent` is false.
+  /// True if at least one traced face agrees, and at most one face or at most 0.1 % of the traced faces disagree. A ray
+  /// that grazes an edge may hit either face of the edge. Unset if `independent` is false.
   std::optional<bool> passed;
-  /// False if the reference itself traced the rays. Then no traced face is compared, and only the errors are
-  /// meaningful.
+  /// False if the reference traced the rays of the result. Then no traced face is compared; only the errors have a
+  /// meaning.
   bool independent = true;
   uint64_t tracedCount = 0;        ///< Traced faces that were recomputed.
   uint64_t agreeingCount = 0;      ///< Traced faces that differ by at most 1e-4 of the bounding-box diagonal.
   uint64_t noValueAgreeCount = 0;  ///< Traced faces without a value in both computations.
   /// Median difference of traced faces that have a value in either computation, in bounding-box diagonals.
   double medianDifference = 0;
-  /// Greatest difference of a traced face, in bounding-box diagonals; infinite if it has a value in only one
-  /// computation.
+  /// Greatest difference of a traced face, in bounding-box diagonals; infinite if only one of the two values exists.
   double worstDifference = 0;
   uint64_t worstFace = 0;  ///< Input face of the worst difference.
 
@@ -153,12 +153,11 @@ struct CheckReport {
 
   [[nodiscard]] uint64_t missCount() const { return tracedCount - agreeingCount - noValueAgreeCount; }
 };
-/// Faces with at most this difference agree; in bounding-box diagonals.
+/// Largest difference at which faces agree, in bounding-box diagonals.
 inline constexpr double kAgreementTolerance = 1e-4;
 inline constexpr double kAllowedMissShare = 0.001;  ///< Largest share of disagreeing faces with which a check passes.
 
-/// Range and quantiles of the values. Each input face with a value counts once, whatever its area. NaN if no face has a
-/// value.
+/// Range and quantiles of the values; NaN if no face has a value. Each input face with a value counts once.
 struct ValueRange {
   /// Least value, 1st percentile, upper median, 99th percentile, greatest value.
   double min = kNoValue, percentile1 = kNoValue, median = kNoValue, percentile99 = kNoValue, max = kNoValue;
@@ -175,12 +174,12 @@ inline constexpr double kPartStabilityFactor = 1.25;
 
 /// Sizes and stability of the parts.
 struct PartsReport {
-  /// Numbers of parts at the detail divided by 1.25 and multiplied by 1.25 (kPartStabilityFactor). The result is stable
-  /// if both equal the number of segments.
+  /// Numbers of parts if the option detail is divided by 1.25, and if it is multiplied by 1.25. The result is stable if
+  /// both equal the number of segments.
   uint32_t fewestCount = 0, mostCount = 0;
-  /// Mean area-weighted Rand index of the chosen division with the divisions from other numbers of patches, before
-  /// small parts are merged and boundaries cut. It is 1 if all divisions are equal; below about 0.9, other numbers of
-  /// patches give other parts. Unset if no divisions are compared (warning onlySmallComponents).
+  /// The segmentation merges patches to parts. Agreement compares the parts with the parts from other numbers of
+  /// patches, by the mean area-weighted Rand index before small parts are merged and boundaries are cut. 1 means equal
+  /// parts; below about 0.9 the parts depend on the number of patches. Unset with the warning onlySmallComponents.
   std::optional<double> agreement;
   bool thinShell = false;          ///< The shape is a thin wall around a cavity (warning thinShell).
   std::vector<double> areaShares;  ///< Share of each part in the area of all faces; the sum is 1.
@@ -192,15 +191,15 @@ struct ThinRegion {
   bool isSharp = false;    ///< The region contains a sharp edge or tip. If false, it is a thin wall.
   double min = 0;          ///< Least thickness; 0 in a sharp region.
   uint64_t minFace = 0;    ///< Input face with the least thickness.
-  Vec3d place, opposite;   ///< Points of this face and of its opposing wall between which the thickness is least.
+  Vec3d place, opposite;   ///< Point of least thickness on this face, and its counterpart on the opposing wall.
   uint64_t faceCount = 0;  ///< Number of input faces that have a part in the region.
   double area = 0;         ///< Area of the thin parts of these faces.
-  double areaShare = 0;    ///< `area` as a share of the area of the mesh, or of the computed region.
+  double areaShare = 0;    ///< `area` divided by the area of the mesh, or of the computed region.
 };
 
-/// A sharp edge is a set of edges, connected by vertices, at each of which two opposing walls meet. A tip is a vertex
-/// at which opposing walls meet that share no edge, as on a cone. At both, the thickness is 0, whatever the
-/// triangulation.
+/// A sharp edge is a set of mesh edges that are connected by vertices. At each of these edges two opposing walls meet.
+/// A tip is a vertex at which opposing walls without a common edge meet, as on a cone. Sharp edges and tips have the
+/// thickness 0, whatever the triangulation.
 struct SharpEdge {
   double angleDegrees = 0;  ///< Least inner angle between the walls.
   double length = 0;        ///< Total length of the edges; 0 for a tip.
@@ -218,7 +217,7 @@ struct SectionBall {
 /// Result of comparing the thickness with a limit.
 enum class ThicknessVerdict {
   Passed,     ///< No point of the surface is thinner.
-  Failed,     ///< A point is thinner. If sharp edges are allowed, it is outside of sharp regions.
+  Failed,     ///< A point is thinner. Sharp regions do not count if sharp edges are allowed.
   NotJudged,  ///< No point was found thinner, but a part of the surface could not be judged.
 };
 /// "passed", "failed", "notJudged"
@@ -228,8 +227,8 @@ enum class ThicknessVerdict {
 struct UnjudgedFaces {
   uint64_t openCount = 0;        ///< Faces of open components: closing them may add a thin wall.
   uint64_t invertedCount = 0;    ///< Faces of closed components that are oriented inwards or inconsistently.
-  uint64_t degenerateCount = 0;  ///< Faces without a normal or with a non-finite corner. They are left out.
-  /// Faces that intersect a face of another solid. Each solid is judged on its own: the union is at least as thick.
+  uint64_t degenerateCount = 0;  ///< Faces without a normal or with a non-finite corner, which are ignored.
+  /// Faces that intersect a face of another solid. Each solid is judged alone, because the union is at least as thick.
   uint64_t crossedCount = 0;
   uint64_t selfCrossedCount = 0;  ///< Faces that intersect a face of the same solid: inside and outside are ambiguous.
 
@@ -245,7 +244,7 @@ struct ThicknessReport {
   /// The least thickness over all points of the surface. Sharp regions do not count if sharp edges are allowed.
   double min = kNoValue;
   std::optional<uint64_t> minFace;  ///< Input face with the least thickness; unset if no face has a thickness.
-  /// Points of this face and of its opposing wall between which the thickness is least.
+  /// Point of least thickness on this face, and its counterpart on the opposing wall.
   std::optional<Vec3d> minPlace, minOpposite;
   /// Percentiles of the thickness at the barycentres of the triangles, weighted by area.
   double percentile1 = kNoValue, percentile5 = kNoValue, median = kNoValue, percentile95 = kNoValue, max = kNoValue;
@@ -274,10 +273,10 @@ struct Report {
   uint64_t vertexCount = 0;      ///< Vertices of the input.
   uint64_t componentCount = 0;   ///< Connected components of the mesh.
   Vec3d size;                    ///< Sides of the bounding box along x, y, z, in the unit of the mesh.
-  std::string unit;              ///< Unit of length that the file states, for example "mm"; empty if it states none.
+  std::string unit;              ///< Unit of length that the file states, for example "mm"; may be empty.
   uint64_t seedCount = 0;        ///< Triangles that cast rays.
   uint64_t rayCount = 0;         ///< Rays of all seeds.
-  uint64_t redoneConeCount = 0;  ///< Cones beyond the limits of the device or of float32. The reference traced them.
+  uint64_t redoneConeCount = 0;  ///< Cones beyond a limit of the device or of float32; the reference traced them.
   uint64_t noValueCount = 0;     ///< Input faces without a value; with a region, only faces of the region.
   /// Interpolated triangles whose value was clamped to the range of the seeds of their component.
   uint64_t clampedCount = 0;

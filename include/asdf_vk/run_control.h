@@ -11,8 +11,8 @@ namespace asdfvk {
 
 enum class Stage;  // report.h
 
-/// Cancellation and progress of a computation. A computation reports progress and polls for a stop between chunks of
-/// rays, which take about 50 to 100 ms, between iterations of the solver, and at least between the other stages.
+/// Cancellation and progress of a computation. Between chunks of rays (about 50 to 100 ms), iterations of the solver,
+/// and stages, a computation reports progress and polls for a stop.
 struct RunControl {
   std::stop_token stop;                           ///< A stop request ends the computation with Error{Cancelled}.
   std::function<void(double fraction)> progress;  ///< Called in the thread of the caller with 0 to 1; may be empty.
@@ -27,7 +27,7 @@ struct RunControl {
   [[nodiscard]] ASDFVK_API RunControl part(double from, double to) const;
 };
 
-/// While an object exists, limits the CPU threads of the library in this process. The limit also applies to the CPU
+/// Limits the CPU threads of the library in this process while the object exists. The limit also applies to the CPU
 /// device lavapipe in sessions that are opened meanwhile, unless LP_NUM_THREADS is set. Results do not depend on the
 /// limit.
 class ASDFVK_API ThreadLimit {

@@ -16,8 +16,8 @@
 namespace asdfvk {
 
 /// Scene::valuesAt() moves points inwards by this share of the diagonal of the bounding box. Rays in float32 then start
-/// at least 80 rounding errors of a coordinate (2^-23 of the box) below the surface. Points on the surface that were
-/// rounded to float32 or to six digits are moved inside, unless the mesh is far from the origin.
+/// below the surface by at least 80 rounding errors of a coordinate (2^-23 of the box). Unless the mesh is far from the
+/// origin, also surface points that were rounded to float32 or to six digits are then inside.
 inline constexpr double kPointOffset = 1e-5;
 
 /// A mesh that is prepared once for any number of computations on one session. Keeps geometry, dual graph, hierarchy,
@@ -25,8 +25,8 @@ inline constexpr double kPointOffset = 1e-5;
 /// session and its scenes are not thread-safe.
 ///
 /// In addition to the arrays of the caller, a scene takes about 150 bytes per face of a closed mesh, and about 110
-/// bytes per face for each tracer. The memory of a Vulkan tracer is on the device, with up to 55 MB of further buffers
-/// for its rays, whatever the mesh.
+/// bytes per face for each tracer. The memory of a Vulkan tracer is on the device. Such a tracer also has buffers of up
+/// to 55 MB for rays.
 class ASDFVK_API Scene {
  public:
   /// Prepares the mesh without changing it. The session and the arrays of the mesh must outlive the scene. Throws Error
@@ -39,29 +39,30 @@ class ASDFVK_API Scene {
 
   /// Returns the result of Session::compute(), bit for bit, without preparing the mesh again. Report::stageSeconds is 0
   /// for the stages Geometry, Graph and Bvh. Encode and Upload take time only if a new tracer is created. Throws
-  /// Error{OptionConflict} unless Options::orientation is Keep or the orientation of the scene.
+  /// Error{OptionConflict} unless Options::orientation is Keep or equals the orientation of the scene.
   ///
-  /// region: #I, nonzero for faces inside of the region; empty: the whole mesh. Seeds are chosen inside, and a share of
-  /// seeds is a share of the faces inside. Rays hit the whole mesh. The Poisson equation has the faces inside and the
-  /// edges between them. Outside, real fields are NaN and flags 0. The report describes the faces inside: seeds,
-  /// missing values, ranges, thin regions and their areas. faceCount, triangleCount, vertexCount, componentCount,
-  /// defects, reversedFaceCount and the warnings about defects and orientation describe the whole mesh. A region of all
-  /// faces gives the bits of the whole mesh. Throws Error{ArraySize} for a size other than #I, Error{EmptyMesh} for a
-  /// region without a face, and Error{OptionConflict} with post-processing or segmentation, which need the whole mesh.
+  /// region: #I, nonzero for faces inside of the region; empty: the whole mesh. Seeds are chosen inside, and
+  /// SeedCount::share refers to the faces inside. Rays hit the whole mesh. The Poisson equation has the faces inside
+  /// and the edges between these faces. Faces outside have NaN in real fields and 0 in flags. The report describes the
+  /// faces inside: seeds, missing values, ranges, thin regions and their areas. faceCount, triangleCount, vertexCount,
+  /// componentCount, defects, reversedFaceCount and the warnings about defects and orientation describe the whole mesh.
+  /// A region of all faces gives the bits of the whole mesh. Throws Error{ArraySize} for a size other than #I,
+  /// Error{EmptyMesh} for a region without a face, and Error{OptionConflict} with post-processing or segmentation,
+  /// which need the whole mesh.
   [[nodiscard]] Result compute(const Options& options = {}, std::span<const uint8_t> region = {},
                                const RunControl& control = {});
 
-  /// Shape diameter at points. A cone of rays around the reversed normal starts at the point, moved inwards by
-  /// kPointOffset. points: 3 #P numbers, x y z in the unit of the mesh. normals: 3 #P numbers; directions outwards, of
-  /// any length above 0. Returns #P values in the unit of the mesh; NaN where no ray hits the opposite side, which is
-  /// usual for points outside of the shape.
+  /// Shape diameter at points. The cone of rays starts at the point, moved inwards by kPointOffset. The axis of the
+  /// cone is the reversed normal. points: 3 #P numbers, x y z in the unit of the mesh. normals: 3 #P numbers;
+  /// directions outwards, of any length above 0. Returns #P values in the unit of the mesh; NaN where no ray hits the
+  /// opposite side, which is usual for points outside of the shape.
   ///
   /// Values are defined as for faces (docs/method.md), with the given normal instead of the normal of the face. Rays
-  /// ignore no face. At the barycentre of a face, with the normal of the face, the value is less than the value of the
-  /// face by about kPointOffset times the diagonal of the bounding box. Walls thinner than this offset are not
-  /// resolved. ConeRotation::Hashed rotates each cone by a hash of its point; values then differ from the values of
+  /// can hit every face. At the barycentre of a face, with the normal of the face, the value is less than the value of
+  /// the face by about kPointOffset times the diagonal of the bounding box. Walls thinner than this offset are not
+  /// resolved. ConeRotation::Hashed rotates each cone by a hash of its point. Values then differ from the values of
   /// faces by the noise of the rays. Points farther from the bounding box than 1/128 of its longest side are traced in
-  /// double precision, more slowly. Points 2^31 times that side away have no value.
+  /// double precision, more slowly. Points farther away than 2^31 times the longest side have no value.
   ///
   /// The scene keeps the tracer: further calls with the same cone options only trace rays. Throws Error{ArraySize} if a
   /// size is not a multiple of 3 or the sizes differ, Error{NonFiniteNumber} with the index of a number that is not
@@ -76,20 +77,20 @@ class ASDFVK_API Scene {
   [[nodiscard]] std::vector<double> thicknessAt(std::span<const double> points, std::span<const double> normals,
                                                 const ThicknessOptions& thickness = {}, const RunControl& control = {});
 
-  /// The input face nearest to each point; the first one of equally near faces. Faces of zero area or with a non-finite
+  /// The input face nearest to each point. Of equally near faces, the first. Faces of zero area or with a non-finite
   /// corner are ignored. points: 3 #P numbers, x y z in the unit of the mesh. Returns #P input faces. Throws
   /// Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} if all faces are ignored.
   [[nodiscard]] std::vector<uint32_t> nearestFaces(std::span<const double> points, const RunControl& control = {});
 
-  /// Unsigned distance of each point to the nearest point of the triangles, in the unit of the mesh. Exact except for
-  /// rounding in double. A distance beyond the range of double is the largest double. Ignored faces, points and errors:
-  /// as for nearestFaces().
+  /// Unsigned distance of each point to the triangles, in the unit of the mesh. Exact except for rounding in double. A
+  /// distance beyond the range of double is the largest double. Points, ignored faces and errors: as for
+  /// nearestFaces().
   [[nodiscard]] std::vector<double> distance(std::span<const double> points, const RunControl& control = {});
 
-  /// Radius of the largest ball around each point inside of the shape: distance() if the point is behind its nearest
-  /// face, else NaN. A point outside of the bounding box also has NaN. On the surface the radius is about 0 or NaN.
-  /// Surfaces inside of the shape, for example of overlapping parts, also limit the ball. points and errors: as for
-  /// nearestFaces().
+  /// Radius of the largest ball inside of the shape around each point: distance() if the point is behind its nearest
+  /// face, else NaN. Points outside of the bounding box also have NaN. On the surface the radius is about 0 or NaN.
+  /// Surfaces inside of the shape, for example of overlapping parts, also limit the ball. Points and errors: as for
+  /// distance().
   [[nodiscard]] std::vector<double> radii(std::span<const double> points, const RunControl& control = {});
 
   /// First hit of each ray on either side of a face.
@@ -98,8 +99,8 @@ class ASDFVK_API Scene {
     std::vector<uint32_t> faces;    ///< #R input faces; kNoSegment without a hit.
   };
   /// Traces rays in double precision on the CPU, whatever the backend. origins, directions: 3 #R numbers each;
-  /// directions have any length above 0. A ray hits the first one of coincident faces. A ray from farther than 2^31
-  /// times the longest side of the bounding box hits nothing. Throws as valuesAt() does for points and normals.
+  /// directions have any length above 0. Of coincident faces, a ray hits the first. A ray from farther than 2^31 times
+  /// the longest side of the bounding box hits nothing. Throws as valuesAt() does for points and normals.
   [[nodiscard]] RayHits firstHits(std::span<const double> origins, std::span<const double> directions,
                                   const RunControl& control = {});
 

@@ -16,12 +16,11 @@
 
 namespace asdfvk {
 
-/// Choice of the backend that traces the rays.
 struct SessionOptions {
   /// One of backendNames(). "auto": a Vulkan device (GPUs first, then CPU devices such as lavapipe), else "cpu". If the
-  /// device of "auto" fails (lost, wrong values, out of memory), the next backend computes the mesh, and also all later
-  /// meshes unless memory was short; the results have WarningCode::BackendReplaced. "vulkan", "cpu" (float32, SIMD) and
-  /// "reference" (double precision): this backend only; throws Error of kind Device if it is not available.
+  /// device of "auto" fails, the next backend computes the mesh, and the result has WarningCode::BackendReplaced. Later
+  /// meshes use the replaced backend again only if memory was short. "vulkan", "cpu" (float32, SIMD), "reference"
+  /// (double precision): only this backend; Error of kind Device if the backend is not available.
   std::string backend = "auto";
   /// Vulkan device: an index in listDevices() or a part of a name. Empty: the device of the highest rank.
   std::string device;
@@ -36,17 +35,18 @@ inline constexpr uint32_t kNoSegment = 0xffffffff;
 /// Coordinates are in the unit of the mesh.
 struct ThinSurface {
   std::vector<std::array<Vec3d, 3>> triangles;
-  std::vector<uint32_t> regions;  ///< One index in ThicknessReport::regions per triangle.
+  std::vector<uint32_t> regions;  ///< Per triangle, an index in ThicknessReport::regions.
 };
 
-/// Result of a computation. `fields` has face fields with the following names: - "sdf" and "seed", with
-/// Options::measuresDiameter(): the shape diameter in the unit of the mesh; 1 for faces that
+/// Result of a computation. `fields` has face fields with the following names:
+/// - "sdf" and "seed", with Options::measuresDiameter(): the shape diameter in the unit of the mesh; 1 for faces that
 ///   cast rays.
 /// - "error", with an error estimate: the expected error in the unit of the mesh; 0 at seeds that keep their value.
 /// - "normalized", with Options::postprocesses(): 0 to 1.
 /// - "segment", with Options::segmentation: labels, ascending by the mean value of the segment.
-/// - "thickness" and "least_thickness", with Options::measuresThickness(): the wall thickness at the barycentre and the
-///   least one over all points of the face, in the unit of the mesh. A polygon has the least value of its triangles.
+/// - "thickness" and "least_thickness", with Options::measuresThickness(): the wall thickness at the barycentre, and
+///   the least one over all points of the face, in the unit of the mesh. A polygon has the least value of its
+///   triangles.
 /// - "centre" and "component", with Options::computesCentres: the skeleton point (the barycentre, moved inwards along
 ///   the normal by half of the shape diameter); the number of the component, whose faces are connected by edges.
 /// With PerElement::Vertices, fields per vertex with the same names follow.
@@ -66,11 +66,9 @@ struct Result {
   [[nodiscard]] const std::vector<uint8_t>& seed() const {
     return std::get<std::vector<uint8_t>>(requireField(fields, "seed").values);
   }
-  /// The field per face with the name; null if there is none.
   [[nodiscard]] const Field* field(std::string_view name) const { return findField(fields, name); }
 };
 
-/// Names of all fields that a result may have.
 [[nodiscard]] ASDFVK_API std::vector<std::string> resultFieldNames();
 
 struct DeviceInfo {
@@ -94,7 +92,7 @@ class ASDFVK_API Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// First line: the chosen device and the reason. Then one line per device that was not chosen.
+  /// First line: the chosen device and the reason. Each further line: a device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
   /// "vulkan", "cpu" or "reference". If "auto" replaces a backend, backend(), deviceLines() and runsOnCpu() change.
   [[nodiscard]] const std::string& backend() const;
