@@ -1,5 +1,5 @@
-// Access to the texels of the hierarchy: bindings 0 to 3 of every kernel that traverses the hierarchy. The texels are
-// either in images or in buffers; images are much faster on llvmpipe.
+// Access to the texels of the hierarchy: bindings 0 to 3 of every traversal kernel. The texels are in images or in
+// buffers; images are much faster on llvmpipe.
 #include "shared/bvh_layout.h"
 
 layout(constant_id = 5) const bool kFetchesTexels = true;

@@ -1,6 +1,5 @@
-// Nearest hits of all rays of a subgroup. The lanes share the stack and the node. A node is entered if a ray of any
-// lane enters it. Children are entered in the order of their distance along the ray of the first lane. All loops are
-// uniform over the subgroup.
+// Nearest hits of all rays of a subgroup. The lanes share the stack and the current node. The lanes enter each node
+// that any ray enters, in the order of the distances along the ray of the first lane. All loops are subgroup-uniform.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -20,7 +19,7 @@ Hit findNearestHitTogether(Query query) {
       ++stackSize;
     }
     const DeviceWideNode node = loadWideNode(index);
-    // If the subgroup has diverged, a lane may be at another node. The mask keeps its references within range.
+    // If the subgroup has diverged, another lane may be at another node. The mask keeps the children within range.
     const uint children = subgroupOr(enterChildren(node, query, hit.distance)) & node.childBits;
     const uint leaves = node.childBits & ~kWideInnerBits;
     uint triangles = children & leaves;

@@ -11,7 +11,7 @@ struct Hit {
   bool isComplete;  // False: the iteration limit ended the traversal.
 };
 
-// Replaces `hit` by the triangle in `primitive` if the triangle is nearer. distance: negative where the ray misses the
+// Replaces `hit` by the triangle in `primitive` if the triangle is nearer. distance: negative if the ray misses the
 // triangle.
 void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
   if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
@@ -55,23 +55,23 @@ void testTriangles(Query query, uint slot0, uint slot1, inout Hit hit) {
   keepNearest(distance1, slot1, triangle1.faceIndex, query.excludedFace, hit);
 }
 
-// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted; the scale corrects for
-// the missing shift. Signed conversions are faster than unsigned ones.
+// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted: the scale corrects the
+// missing shift. Signed conversions are faster than unsigned ones.
 vec4 distancesTo(uint bytes, float perByte, float start) {
   const vec4 planes = vec4(int(bytes & 0xffu), int(bytes & 0xff00u), int(bytes & 0xff0000u), int(bytes >> 24));
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// Per axis the size of one step of the bytes of a node.
+// Per axis, the size of one step of the bytes of a node.
 vec3 stepsOf(DeviceWideNode node) {
   return uintBitsToFloat(uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u);
 }
 
 // A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared as integers,
-// by their bits. This is the order of non-negative floats, and the reverse order of negative floats. All distances of a
-// box behind the origin are negative: by bits its exit is below its entry, so it is not entered. A minimum of floats
-// takes three instructions on llvmpipe because of NaNs, which do not occur here. kWideBoxMargin includes the margin for
-// rounding.
+// by their bits. Non-negative floats have the same order as integers, negative floats the reverse order. A box behind
+// the origin has negative distances only: as an integer its exit is below its entry, so that the ray does not enter the
+// box. On llvmpipe a minimum of floats takes three instructions because of NaNs, which do not occur here.
+// kWideBoxMargin covers rounding.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const ivec4 enter = max(max(floatBitsToInt(distancesTo(near.x, perByte.x, start.x)),
                               floatBitsToInt(distancesTo(near.y, perByte.y, start.y))),
@@ -84,7 +84,7 @@ uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
          (enter.w <= leave.w ? 0xf000u : 0u);
 }
 
-// The nibbles of childBits of the children that the ray enters before `limit`; the other nibbles are 0.
+// The nibbles of childBits of the children that the ray enters before `limit`. Other nibbles are 0.
 uint enterChildren(DeviceWideNode node, Query query, float limit) {
   const vec3 perByte = stepsOf(node) * query.inverseDirection;
   const vec3 start = (node.origin - query.origin) * query.inverseDirection;

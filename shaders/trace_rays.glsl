@@ -1,6 +1,6 @@
 // The lengths of the rays of cones, which trace_reduce.comp reduces to values. Workgroup (x, y) traces kLanesPerCone
-// rays, from ray y kLanesPerCone on, of kConesPerWorkgroup cones. With one lane per cone, neighbouring lanes trace the
-// same ray of neighbouring seeds; such rays visit nearly the same nodes.
+// rays of each of kConesPerWorkgroup cones, beginning with ray y * kLanesPerCone. With one lane per cone, neighbouring
+// lanes trace the same ray of neighbouring seeds; such rays visit nearly the same nodes.
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
@@ -15,7 +15,7 @@ layout(constant_id = 7) const bool kIsCgal = false;  // Definition::Cgal; otherw
 
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
-layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };  // Bits of the lengths, coneCount per ray.
+layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };  // The bits of coneCount lengths per ray.
 layout(set = 0, binding = 7) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
 layout(push_constant) uniform Push { ConePush push; };
 
@@ -33,14 +33,13 @@ ConeOrigin loadOrigin(uint cone) {
   return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
 }
 
-// The distance of a hit without the addition of intersectTriangle() on the outer side.
+// The distance of a hit without the addition for the outer side in intersectTriangle().
 float distanceOf(Hit hit, vec3 normal, vec3 direction) {
   return dot(normal, direction) < 0.0 ? hit.distance - kOuterSideFactor * push.contactDistance : hit.distance;
 }
 
-// The length of a ray; kDropped for a miss and for a false hit. Whether a hit is false depends on the angle between two
-// normals: of the hit face and of the seed face (minus the axis). In CGAL's definition it depends on the angle between
-// the normal of the hit face and the ray.
+// The length of a ray; kDropped for a miss and for a false hit. Whether a hit is false depends on an angle. Paper:
+// between the normals of hit face and seed face (minus the axis). Cgal: between the ray and the normal of the hit face.
 float validLength(Hit hit, vec3 axis, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.primitive);

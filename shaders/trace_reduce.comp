@@ -1,6 +1,6 @@
 #version 450
 // The shape diameter of one cone per lane, from the lengths of its rays (the twin of coneValue() in src/cone/cone.h).
-// Lengths are compared by their bits, which have the same order as the lengths, because only invalid rays are negative.
+// Lengths are compared by their bits. Bits and lengths have the same order, because only invalid rays are negative.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
@@ -25,7 +25,7 @@ uint countBelow(uint bits) {
   return count;
 }
 
-// Bits of the length with the given rank: the largest number with at most `rank` lengths below it.
+// Bits of the length with the given rank: the largest number that exceeds at most `rank` lengths.
 uint findRank(uint rank) {
   uint bits = 0u;
   for (uint bit = 0x40000000u; bit != 0u; bit >>= 1)
@@ -33,7 +33,6 @@ uint findRank(uint rank) {
   return bits;
 }
 
-// The bits of the length of the next rank.
 uint findNext(uint bits, uint rank) {
   if (countBelow(bits + 1u) > rank + 1u) return bits;
   uint next = kNotValid;
@@ -41,7 +40,6 @@ uint findNext(uint bits, uint rank) {
   return next;
 }
 
-// Bits of the absolute difference of a length from the median.
 uint deviationBits(uint ray, float median) {
   if (lengthBits[ray] == kNotValid) return kNotValid;
   return floatBitsToUint(abs(uintBitsToFloat(lengthBits[ray]) - median));
@@ -105,7 +103,7 @@ void main() {
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const uint bits = lengths[ray * push.coneCount + cone];
     const bool isIncomplete = bits == kIterationLimitBits;
-    // Tested by the bits, because a device may assume that there are no NaNs such as kIterationLimitBits.
+    // Tests the bits, because a device may assume that there are no NaNs such as kIterationLimitBits.
     const bool isValid = bits <= kInfinityBits || bits == 0x80000000u;
     incompleteCount += isIncomplete ? 1u : 0u;
     validCount += isValid ? 1u : 0u;

@@ -10,7 +10,7 @@ DeviceWideNode loadWideNode(uint index) {
   return decodeWideNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u), fetchNode(t + 4u));
 }
 
-// Moves nibble s to s ^ the octant of the signs.
+// Moves nibble s to nibble s ^ octant, where the signs are the bits of the octant.
 uint permuteNibbles(uint bits, bvec3 isNegative) {
   if (isNegative.x) bits = (bits & 0x0f0f0f0fu) << 4 | (bits >> 4 & 0x0f0f0f0fu);
   if (isNegative.y) bits = (bits & 0x00ff00ffu) << 8 | (bits >> 8 & 0x00ff00ffu);
@@ -21,10 +21,9 @@ uint permuteNibbles(uint bits, bvec3 isNegative) {
 // The exponent of a power of two below 2^31.
 uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
 
-// Inner children of one node that are still to be entered. `base` is the childBase of the node. `bits` has bit 4 p + 3
-// for each of these children, where p = slot of the child ^ octant of the ray: the lowest of these bits is the nearest
-// child. It also has bit 4 s + 2 for each slot s of the node with an inner child. `bits` is 0 if the ray enters no
-// inner child.
+// Inner children of one node that are still to be entered. base: childBase of the node. bits: 0 if the ray enters no
+// inner child. Otherwise bit 4 p + 3 is set for each of these children, where p = slot of the child ^ octant of the
+// ray; the lowest such bit is the nearest child. Bit 4 s + 2 is set for each slot s of the node with an inner child.
 struct Group {
   uint base, bits;
 };
@@ -36,7 +35,7 @@ Group groupOf(DeviceWideNode node, uint children, bvec3 isNegative) {
 
 bool hasMore(Group group) { return (group.bits & kWideInnerBits) != 0u; }
 
-// Removes the nearest child from a non-empty group and returns its node.
+// Removes the nearest child from a non-empty group. Returns its node.
 uint takeNearest(inout Group group, bvec3 isNegative) {
   const uint rest = (group.bits & kWideInnerBits) >> 3;
   const uint nearest = rest & (~rest + 1u);
@@ -48,16 +47,16 @@ uint takeNearest(inout Group group, bvec3 isNegative) {
   return group.base + rank;
 }
 
-// Triangles of one node that are still to be tested. `bits` marks them, `all` marks all triangles of the node, both in
-// the nibbles of DeviceWideNode::childBits; `base` is the triangleBase of the node.
+// Triangles of one node that are still to be tested. bits: these triangles. all: all triangles of the node. Both are
+// nibbles as in DeviceWideNode::childBits. base: triangleBase of the node.
 struct Leaves {
   uint base, bits, all;
 };
 
 const Leaves kNoLeaves = Leaves(0u, 0u, 0u);
 
-// Postponed triangles; an empty entry is followed by empty ones only. Without kPostponesTriangles only the first entry
-// is used.
+// Postponed triangles; entries after an empty entry are empty. Without kPostponesTriangles, only the first entry is
+// used.
 struct LeafQueue {
   Leaves first, second, third;
 };
@@ -73,7 +72,7 @@ void add(inout LeafQueue queue, Leaves leaves) {
   }
 }
 
-// Removes and returns a primitive; returns `otherwise` if the queue is empty.
+// Removes a primitive and returns it; `otherwise` if the queue is empty.
 uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   const uint lowest = queue.first.bits & (~queue.first.bits + 1u);
   const uint primitive = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
@@ -87,9 +86,9 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
 }
 
 // With kPostponesTriangles, tests of triangles are postponed until a lane of the subgroup has triangles of three nodes.
-// With tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
+// Tests after each node would leave most lanes idle while a few lanes test triangles. Two triangles are tested at a
 // time, which hides the latency of loading them. Without kPostponesTriangles, a lane with triangles waits until each
-// lane of the subgroup has triangles or has no node left (Aila and Laine 2009). This needs fewer registers.
+// lane of the subgroup has triangles or has no node left (Aila and Laine 2009). The second way needs fewer registers.
 Hit findNearestHit(Query query) {
   uint stackBases[kStackSize];
   uint stackBits[kStackSize];

@@ -1,6 +1,6 @@
 #version 450
 // Conjugate gradients, second half of an iteration: the scalars, then x += alpha p, r -= alpha q and p = r + beta p.
-// After convergence or breakdown it sets the size of the following dispatches to 0 instead.
+// After convergence or breakdown, sets the size of the following dispatches to 0 instead.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

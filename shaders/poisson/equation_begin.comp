@@ -1,7 +1,7 @@
 #version 450
-// Computes the start of an equation: its constant terms, the residual weights (0 for a face that is not unknown), and
-// the differences. Also computes the partial sums of two squared norms: of the right-hand side (as directionSquared)
-// and of the residual.
+// Computes the constant terms of an equation, the residual weights (0 for faces that are not unknowns), and the
+// differences. Also computes the partial sums of two squared norms: of the right-hand side (as directionSquared) and of
+// the residual.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"

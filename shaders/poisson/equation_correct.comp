@@ -1,5 +1,5 @@
 #version 450
-// Adds a correction in scaled form, times push.scale, to differences.
+// Adds a scaled correction, times push.scale, to differences.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"

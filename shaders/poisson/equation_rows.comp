@@ -1,6 +1,6 @@
 #version 450
-// The rows of S for a graph (shared/poisson_layout.h): an entry per arc, the first three in the row itself. The
-// couplings of all arcs are written too; rows with more than three arcs use the couplings beyond the third.
+// The rows of S for a graph (shared/poisson_layout.h). A row has one entry per arc; the first three are in the row
+// itself. An array has all couplings, from which rows with more than three arcs read the further couplings.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"
@@ -12,7 +12,7 @@ layout(set = 0, binding = 0) writeonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 4) readonly buffer InverseRoots { float inverseRoots[]; };
 layout(set = 0, binding = 5) writeonly buffer Couplings { float couplings[]; };
 
-// Bits are the same in both directions: the product of the roots comes first.
+// The product of the roots comes first, so that the bits are the same in both directions.
 float couplingOf(uint face, uint arc) {
   const uint neighbour = neighbours[arc];
   precise float roots = inverseRoots[face] * inverseRoots[neighbour];

@@ -3,7 +3,7 @@
 #ifndef PUSH_STRUCT
 #define PUSH_STRUCT PoissonPush
 #endif
-layout(local_size_x_id = 1) in;                      // Equal to kLaneCount, which needs an id of its own.
+layout(local_size_x_id = 1) in;                      // Has the value of kLaneCount, but a separate id.
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
 layout(push_constant) uniform Push { PUSH_STRUCT push; };
@@ -13,11 +13,11 @@ shared mat2x3 laneSums[kLaneCount];
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }
 uint rowStride() { return push.workgroupCount * kLaneCount; }
 
-// The sum over the lanes of the workgroup, returned to each lane. The tree has a fixed shape, so that the bits are the
-// same in every run on a device.
+// The sum over the lanes of the workgroup, returned to each lane. The order of the sum is fixed, so that the bits are
+// the same in every run on a device.
 mat2x3 workgroupSum(mat2x3 value) {
   const uint lane = gl_LocalInvocationID.x;
-  barrier();  // All lanes have read the previous sum.
+  barrier();  // Waits until all lanes have read the previous sum.
   laneSums[lane] = value;
   barrier();
   for (uint count = kLaneCount / 2u; count > 0u; count /= 2u) {

@@ -1,5 +1,4 @@
-// The approximations of src/core/simd.h and src/predict/prediction_kernel.cpp, so that the kernels of device and CPU
-// have the same systematic errors.
+// The approximations of src/core/simd.h and src/predict/prediction_kernel.cpp, for equal systematic errors.
 
 // 1 / sqrt(x) for positive x, relative error 1e-3.
 float approximateRsqrt(float x) {
@@ -16,8 +15,8 @@ float expNegative(float x) {
   return powerOfRest * uintBitsToFloat(uint(whole) << 23);
 }
 
-// The square of the angle with this cosine, by its series. The error is 0.3 % at 90 degrees; at larger angles weights
-// are almost 0.
+// The square of the angle with this cosine, by a series. Error: 0.3 % at 90 degrees. Weights of larger angles are about
+// 0.
 float squaredAngle(float cosine) {
   const float u = max(1.0 - cosine, 0.0);
   return u * (2.0 + u * (1.0 / 3.0 + u * (4.0 / 45.0 + u * (1.0 / 35.0 + u * (16.0 / 1575.0)))));

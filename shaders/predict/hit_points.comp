@@ -1,12 +1,12 @@
 #version 450
-// The hit points of seeds, and which of them are outliers in the cone of their seed: a workgroup per seed, a ray per
+// The hit points of seeds. Marks the points that are outliers in the cone of the seed. A workgroup per seed, a ray per
 // lane. The twin of src/predict/hit_points.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_hit.h"
 #include "shared/cone_rules.h"
 #include "shared/prediction_layout.h"
 
-layout(local_size_x_id = 3) in;  // Equal to kLanesPerCone, which needs an id of its own.
+layout(local_size_x_id = 3) in;  // Has the value of kLanesPerCone, but a separate id.
 layout(constant_id = 0) const uint kLanesPerCone = 32u;
 layout(constant_id = 1) const uint kRayCount = 30u;
 layout(constant_id = 2) const bool kIsCgal = false;     // Definition::Cgal; otherwise Definition::Paper.
@@ -23,8 +23,8 @@ shared float middles[2];
 
 PredictionRay loadRay(uint ray) { return decodePredictionRay(tableBlocks[ray]); }
 
-// Each lane computes the ranks of its rays among all rays; the rays of the two middle ranks determine the median (the
-// same ray twice for an odd count). Returns the number of valid rays and their mean.
+// Each lane computes the ranks of its rays among all rays. The lengths of the two middle ranks determine the median
+// (for an odd count the same length twice). Returns the number of valid rays and their mean length.
 void findMiddles(uint lane, out uint validCount, out float mean) {
   validCount = 0u;
   mean = 0.0;
@@ -62,7 +62,7 @@ void findMiddleDeviations(uint lane, uint validCount, float median) {
   }
 }
 
-// The largest difference from the median of a length that is kept. Precondition: a barrier after the lengths are
+// The largest difference from the median of a length that is kept. Preconditions: a barrier after the lengths are
 // written and, if kIsCgal, after findMiddleDeviations().
 float outlierBound(uint validCount, float mean, float median) {
   if (kIsCgal) return push.outlierDeviations * medianOfMiddles();
@@ -105,7 +105,7 @@ void main() {
     }
     lengths[ray] = validLength;
   }
-  if (lane == 0u) {  // Without a valid ray, findMiddles() does not write them.
+  if (lane == 0u) {  // findMiddles() does not write the middles without a valid ray.
     middles[0] = 0.0;
     middles[1] = 0.0;
   }

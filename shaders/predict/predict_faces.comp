@@ -1,7 +1,7 @@
 #version 450
 // The prediction of faces from the hit points of the seeds of their cells, a face per lane. Each pass projects the
-// points again, which needs no memory for any number of rays. Each lane adds in the order of its points, so that the
-// bits are the same in every run. The twin of src/predict/prediction.cpp and prediction_kernel.cpp.
+// points again, so that projections need no memory. Each lane adds in the order of its points, so that the bits are the
+// same in every run. The twin of src/predict/prediction.cpp and prediction_kernel.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
@@ -16,9 +16,8 @@ layout(set = 0, binding = 2) readonly buffer Work { uint work[]; };  // See Pred
 layout(set = 0, binding = 3) buffer Values { uint values[]; };       // Per face: the bits of a length, or kNoValueBits.
 layout(push_constant) uniform Push { PredictionPush push; };
 
-const float kMinSquaredLength = 1e-37;  // The inverse of the square root is finite.
+const float kMinSquaredLength = 1e-37;  // The inverse of its square root is finite.
 
-// The seeds of the current face.
 uint seeds[kMaxContributingSeedCount];
 float seedWeights[kMaxContributingSeedCount];  // Negative for an absent seed.
 
@@ -31,8 +30,7 @@ PredictionPoint loadPoint(uint index) {
 
 PredictionPoint loadSeed(uint seed) { return loadPoint(seed * (push.rayCount + 1u)); }
 
-// The weight of a seed is a Gaussian of its distance and of the angle between its normal and the normal of the face.
-// Returns the total weight.
+// The weight of a seed is a Gaussian of its distance and of the angle between the normals. Returns the total weight.
 float weighSeeds(PredictionFace at, uint cell) {
   const uint firstSeed = 2u * push.itemCount + cell * kMaxContributingSeedCount;
   float distanceSum = 0.0;
@@ -61,7 +59,6 @@ float weighSeeds(PredictionFace at, uint cell) {
   return sum;
 }
 
-// A point seen from the virtual cone.
 struct ConePoint {
   float distance;
   // The number of rays of the virtual cone that the point represents, up to a factor; 0 outside of the cone.
@@ -95,11 +92,10 @@ uint firstPointOf(uint i) { return seeds[i] * (push.rayCount + 1u) + 1u; }
 // End of the points of a seed; 0 for a seed that is ignored.
 uint endOf(uint i, float minWeight) { return seedWeights[i] >= minWeight ? firstPointOf(i) + push.rayCount : 0u; }
 
-// Each block of points has its own sum, and these sums are added: rounding errors are smaller with many rays.
+// Each block of points has its own sum. Adding these sums has smaller rounding errors with many rays.
 const uint kBlockSize = 64u;
 
-// Sums over the points in the cone. Differences are from the median length of the seed of the cell, which reduces
-// rounding errors.
+// Sums over the points in the cone. Lengths are relative to the seed's median length, which reduces rounding errors.
 struct ConeSums {
   float mass, difference, square;
   float weight, weightedLength;  // Sums over the inliers.
@@ -129,13 +125,13 @@ ConeSums sumUp(PredictionFace at, float minWeight, float medianLength) {
   return sums;
 }
 
-// The median is between the lengths `low` and `high`. massToLow, massToHigh: mass of the points up to each of the two.
+// The median is between the lengths `low` and `high`. massToLow, massToHigh: mass of the points up to `low` and `high`.
 struct MedianBounds {
   float low, high, massToLow, massToHigh;
 };
 
-// The quarter of the interval where the mass reaches `halfMass`. ofDeviations: whether the median is that of the
-// absolute differences of the lengths from `centre`.
+// The quarter of the interval in which the mass reaches `halfMass`. ofDeviations: the median is that of the absolute
+// differences of the lengths from `centre`.
 MedianBounds quarterOf(PredictionFace at, float minWeight, MedianBounds bounds, float halfMass, bool ofDeviations,
                        float centre) {
   const float quarter = 0.25 * (bounds.high - bounds.low);
@@ -169,7 +165,7 @@ float medianBetween(PredictionFace at, float minWeight, float low, float high, f
   return bounds.low + share * (bounds.high - bounds.low);
 }
 
-// The weight of the points with a length in the window, and the sum of weight times length.
+// For the points with a length in the window: the total weight, and the sum of weight times length.
 vec2 poolWithin(PredictionFace at, float minWeight, float low, float high) {
   vec2 pooled = vec2(0.0);
   for (uint i = 0u; i < kMaxContributingSeedCount; ++i) {
@@ -210,7 +206,7 @@ uint predict(PredictionFace at, uint cell) {
   const vec2 pooled = poolWithin(at, minWeight, median - bound, median + bound);
   const float weight = kPooledShare * pooled.x + (1.0 - kPooledShare) * sums.weight;
   const float sum = kPooledShare * pooled.y + (1.0 - kPooledShare) * sums.weightedLength;
-  // No length is kept where rounding left a deviation of almost 0; then all lengths are almost equal.
+  // If all lengths are almost equal, rounding can leave a deviation of almost 0, and no length is kept.
   return floatBitsToUint(weight > 0.0 ? sum / weight : mean);
 }
 

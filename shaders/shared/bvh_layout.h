@@ -1,5 +1,5 @@
-// Layout of the bounding volume hierarchy on a device; included by C++ and by GLSL. Both arrays consist of 16-byte
-// texels (format rgba32ui); floats are stored as their bits. Coordinates are normalised, see Normalization.
+// Layout of the bounding volume hierarchy on a device. Both arrays consist of 16-byte texels (format rgba32ui); floats
+// are stored as their bits. Coordinates are normalised, see Normalization.
 //
 //   node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
 //   byte  0  origin.xyz  exponents                            texel 0
@@ -10,19 +10,18 @@
 //
 // Node 0 is the root. On each axis the box of the child in slot s spans origin + lower[s] * scale to origin + upper[s]
 // * scale. lower[s] and upper[s] are bytes. `scale` is a power of two; its biased exponent is byte 0 (x), 1 (y) or 2
-// (z) of `exponents`. Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with as many
-// triangles as the nibble has set bits; 0 no child. The nodes of inner children are consecutive from index childBase
-// on, in the order of the slots. Likewise, the triangles of leaves are consecutive from index triangleBase on. Slots
-// are assigned so that a ray whose direction has the sign bits q (x in bit 0) hits the children approximately in the
-// order of slot ^ q.
+// (z) of `exponents`. Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with one, two
+// or three triangles; 0 no child. The inner children have consecutive node indices from childBase on, in the order of
+// the slots. Likewise, the triangles of leaves have consecutive indices from triangleBase on. Slots are assigned so
+// that a ray whose direction has the sign bits q (x in bit 0) hits the children approximately in the order of slot ^ q.
 //
 //   triangle, 48 bytes, in primitive order
 //   byte  0  v0.xyz  faceIndex                                texel 0
 //   byte 16  v1.xyz  normalU                                  texel 1
 //   byte 32  v2.xyz  normalV                                  texel 2
 //
-// normalU and normalV are the octahedral encoding of the normal (Cigolle et al. 2014). The normal is computed from the
-// double-precision mesh, because the normal of the rounded corners would be noise on small faces.
+// normalU and normalV are the octahedral encoding of the normal (Cigolle et al. 2014) of the double-precision mesh. On
+// small faces, the normal of the rounded corners would be noise.
 #ifndef ASDFVK_BVH_LAYOUT_H
 #define ASDFVK_BVH_LAYOUT_H
 
@@ -37,7 +36,7 @@ using glsl::vec3;
 const uint kWideNodeTexelCount = 5u;
 const uint kBvhTriangleTexelCount = 3u;
 
-// Capacity of a traversal stack, in levels; the builder splits at the median where SAH splits would exceed it.
+// Capacity of a traversal stack, in levels. If SAH splits would exceed the capacity, the builder splits at the median.
 const uint kMaxBvhDepth = 48u;
 
 const uint kWideChildCount = 8u;
@@ -79,7 +78,7 @@ DeviceTriangle decodeTriangle(uvec4 t0, uvec4 t1, uvec4 t2) {
                         uintBitsToFloat(t2.xyz), uintBitsToFloat(t2.w));
 }
 
-// A vector in the direction of the normal. Its length is between 1 / sqrt(3) and 1.
+// Parallel to the normal, with a length between 1 / sqrt(3) and 1.
 vec3 octahedralDirection(float u, float v) {
   const float z = 1.0 - abs(u) - abs(v);
   const float fold = max(-z, 0.0);

@@ -1,4 +1,3 @@
-// Input and output of the cone kernels; included by C++ and by GLSL.
 #ifndef ASDFVK_CONE_LAYOUT_H
 #define ASDFVK_CONE_LAYOUT_H
 
@@ -11,25 +10,25 @@ using glsl::vec3;
 
 const uint kConeOriginTexelCount = 3u;
 
-// The start of a cone, 48 bytes; kernels read it as texels of 16 bytes (format rgba32ui). Normalised coordinates. The
-// axis of the frame is cross(tangent, bitangent).
+// The start of a cone, 48 bytes, in normalised coordinates. Kernels read it as texels of 16 bytes (format rgba32ui).
+// The axis of the frame is cross(tangent, bitangent).
 struct ConeOrigin {
   vec3 origin;
-  uint excludedFace;  // Hits on this face are ignored: the representative of the seed face.
+  uint excludedFace;  // The representative of the seed face; hits on this face are ignored.
   vec3 tangent;
   uint unused0;
   vec3 bitangent;
   uint unused1;
 };
 
-// The seed of a cone, 8 bytes, from which cone_origins.comp makes the start of the cone.
+// The seed of a cone, 8 bytes. cone_origins.comp makes the start of the cone from it.
 struct ConeSeed {
   uint triangle;   // Index in the order of the hierarchy, with kFlippedFrameBit.
-  float halfTurn;  // Tangent of half the angle by which the frame is turned about its axis: coneRotation().
+  float halfTurn;  // tan(angle / 2) of the rotation of the frame about its axis, coneRotation().
 };
 
-// Set in ConeSeed::triangle where coneFrame() in src/cone/cone.h takes its first case. The host decides the case, so
-// that rounding on the device does not select another frame.
+// Set in ConeSeed::triangle if coneFrame() in src/cone/cone.h uses its first case. The host decides the case, so that
+// rounding on the device does not select another frame.
 const uint kFlippedFrameBit = 0x40000000u;
 
 // One ray of every cone, 16 bytes and one texel, in the frame of the cone.

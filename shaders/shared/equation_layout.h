@@ -1,9 +1,8 @@
-// Structs that the kernels of the equation on a graph (shaders/poisson/equation_*.comp) share with the host. Included
-// by C++ and by GLSL.
+// Structs that the kernels of the equation on a graph (shaders/poisson/equation_*.comp) share with the host.
 //
 // The unknowns are differences from a base value of each face, in units in which values and weights are about 1.
-// Between two guided faces the bases are the values of the guiding field, and the divergence of the field cancels. The
-// rest is the sum of w_fg (e_g - e_f) over the differences e. Float32 is precise enough for this sum.
+// Between two guided faces, the bases are the values of the guiding field; then the divergence of the field cancels.
+// The sum of w_fg (e_g - e_f) over the differences e remains, for which float32 is precise enough.
 #ifndef ASDFVK_EQUATION_LAYOUT_H
 #define ASDFVK_EQUATION_LAYOUT_H
 

@@ -1,5 +1,4 @@
-// C++ equivalents of the GLSL types in structs shared by host and device. The structs have no padding: their sizes are
-// asserted, and the offset of a member is the sum of the sizes of the members before it.
+// C++ equivalents of the GLSL types in structs shared by host and device. Sizes are asserted: there is no padding.
 #pragma once
 
 #include <cstdint>

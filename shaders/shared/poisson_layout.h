@@ -1,9 +1,8 @@
 // Structs shared by the kernels of the Poisson solvers and the host, and the scalars of a conjugate-gradient iteration.
-// Included by C++ and by GLSL.
 //
-// The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A. The
-// diagonal of S is 0. Conjugate gradients on this form are Jacobi-preconditioned conjugate gradients on A without a
-// division.
+// The system with the matrix A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, where D is the
+// diagonal of A. The diagonal of S is 0. Conjugate gradients on this form equal Jacobi-preconditioned conjugate
+// gradients on A, without a division.
 #ifndef ASDFVK_POISSON_LAYOUT_H
 #define ASDFVK_POISSON_LAYOUT_H
 
@@ -13,8 +12,8 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-// A row of S, two blocks of 16 bytes: its first three entries and the location of the others. On a manifold mesh a row
-// has at most three entries. An absent entry has coupling 0, and its column is the index of the row.
+// A row of S, two blocks of 16 bytes: its first three entries and the location of further entries, which rows of
+// manifold meshes do not have. An absent entry has coupling 0, and its column is the index of the row.
 const uint kPoissonRowBlockCount = 2u;
 const uint kPoissonRowHeadLength = 3u;  // Entries in the row itself.
 struct PoissonRow {
@@ -24,20 +23,19 @@ struct PoissonRow {
   uint tailCount;
 };
 
-// Each workgroup writes one partial sum per scalar, and each workgroup adds up the partial sums of all workgroups.
+// Each workgroup writes one partial sum per scalar, and adds the partial sums of all workgroups.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
-// State of the iteration, 16 bytes. Double-buffered: an iteration reads one state and writes the other, so that no
-// workgroup reads a word that another workgroup writes.
+// State of the iteration, 16 bytes. An iteration reads one of two states and writes the other, so that no workgroup
+// reads a word that another workgroup writes.
 struct CgState {
   float residualSquared;   // Squared weighted norm of the residual before the last iteration; 1 at the start.
-  float toleranceSquared;  // The iteration has converged when residualSquared is at or below this.
+  float toleranceSquared;  // The iteration has converged if residualSquared is at most this number.
   uint iterationCount;
   uint status;  // kCgRunning, or the reason of the end.
 };
 
-// Operand of vkCmdDispatchIndirect, 12 bytes. x is set to 0 when the run ends, so that the remaining recorded
-// iterations do nothing.
+// Operand of vkCmdDispatchIndirect, 12 bytes. x becomes 0 at the end of the run: the remaining iterations do nothing.
 struct DispatchSize {
   uint x, y, z;
 };
@@ -55,19 +53,17 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
-  // Number of workgroups of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while
-  // the kernel runs, from the DispatchSize that cg_step.comp overwrites.
+  // Number of workgroups of a dispatch that is not empty. gl_NumWorkGroups is no substitute: while the kernel runs,
+  // some drivers load it from the DispatchSize that cg_step.comp overwrites.
   uint workgroupCount;
 };
 
-// The scalars of an iteration, one description for every backend: in C++ a template over float and double, in GLSL
-// float.
+// The scalars of an iteration for every backend: in C++ a template over float and double, in GLSL float.
 //
 // One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
 // p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. The recurrence of Chronopoulos and
-// Gear (1989) multiplies the residual. Here the matrix multiplies the direction, and every iteration sums r.r. In
-// float32 this recurrence therefore drifts no more than the textbook iteration, and it needs one vector fewer than
-// Chronopoulos and Gear's.
+// Gear (1989) multiplies the residual by the matrix. Here, the matrix multiplies the direction, and every iteration
+// sums r.r: the iteration needs one vector fewer, and in float32 drifts no more than the textbook iteration.
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
 const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.
@@ -100,8 +96,8 @@ struct CgRules {
     uint status;
   };
 
-  // Whether the absolute value is below kMaxCgSum; false for a NaN. GLSL tests the bits, because a device may assume
-  // that no NaN occurs.
+  // Whether |sum| is below kMaxCgSum; false for NaN. GLSL tests the bits, because devices may assume that no NaN
+  // occurs.
   ASDFVK_CG_FUNCTION bool isBounded(Real sum) {
 #ifdef __cplusplus
     return sum > -kMaxCgSum && sum < kMaxCgSum;
@@ -110,7 +106,7 @@ struct CgRules {
 #endif
   }
 
-  // rounding: a p.Mp at or below this share of p.p consists of rounding errors; a step would then change x but not the
+  // rounding: a p.Mp of at most this share of p.p is a rounding error, with which a step changes x but not the
   // residual.
   ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
     CgStep next;
@@ -125,7 +121,7 @@ struct CgRules {
     if (!(isBounded(sums.residualDot) && isBounded(sums.directionSquared) && isBounded(sums.productDot))) return next;
     if (!(sums.residualDot > Real(0) && sums.productDot > rounding * sums.directionSquared)) return next;
     const Real alpha = sums.residualDot / sums.productDot;
-    // The ratio of the next r.r to the current r.r. Rounding can make the ratio negative when the residual is tiny.
+    // The ratio of the next r.r to the current r.r. Rounding can make a tiny ratio negative.
     const Real beta =
         Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
     if (!(isBounded(alpha) && isBounded(beta))) return next;

@@ -1,6 +1,6 @@
-// Structs shared by the kernels of the prediction and the host, and the constants of the prediction. Included by C++
-// and by GLSL. Arrays of structs are read as blocks of 16 bytes; floats are stored as their bits. Coordinates and
-// lengths are normalised, see Normalization.
+// Structs shared by the kernels of the prediction and the host, and the constants of the prediction. Arrays of structs
+// are read as blocks of 16 bytes; floats are stored as their bits. Coordinates and lengths are normalised, see
+// Normalization.
 #ifndef ASDFVK_PREDICTION_LAYOUT_H
 #define ASDFVK_PREDICTION_LAYOUT_H
 
@@ -11,31 +11,31 @@ using glsl::uint;
 using glsl::vec3;
 #endif
 
-// A ray represents the surface around its hit point. This surface fills one solid angle seen from the seed and another
-// one seen from the virtual cone. The ratio of the two is limited to this factor and its inverse. At greater ratios,
-// the point is close to one of the origins and far from the other, and the surface around it is not a disc.
+// A ray represents the surface around its hit point. This surface fills one solid angle as seen from the seed, and
+// another one as seen from the virtual cone. The ratio of the two angles and its inverse are limited to this factor.
+// Greater ratios occur if the point is close to one origin and far from the other; the surface around the point is then
+// not a disc.
 const float kMaxSolidAngleChange = 4.0f;
 
 // The outlier rule is applied twice: to the lengths of all seeds together (pooled), and to the lengths in the cone of
-// one seed. This share of a length's weight depends on the pooled rule, the rest on the rule within the cone. The
-// pooled rule is less noisy.
+// one seed. This share of a length's weight depends on the pooled rule, which is less noisy. The other share depends on
+// the rule within the cone.
 const float kPooledShare = 0.75f;
 
 // Passes of the search for a median. Each pass reduces the interval that contains the median to a quarter; within the
-// last interval, lengths are taken as evenly distributed. The median of the lengths is between mean - deviation and
-// mean + deviation. The median of the differences from it (the spread) needs another pass, because its first interval
-// is less tight.
+// last interval, lengths are assumed to be evenly distributed. The median of the lengths is between mean - deviation
+// and mean + deviation. The median of the differences (the spread) needs another pass, because its interval is wider.
 const uint kMedianPassCount = 2u;
 const uint kSpreadPassCount = 3u;
 
-// The lower bound of a seed's weight, so that a single seed contributes at any distance.
+// The lower bound of a seed's weight: a single seed contributes at any distance.
 const float kMinSeedWeight = 1e-6f;
 
 // Standard deviation of the Gaussian weight of the angle between the normals of the seed and of the face.
 const float kNormalDeviationRadians = 0.5f;
 
-// A seed with less than this share of the total weight is ignored: this adds 1 % to the error and saves a third of the
-// time (docs/experiments.md).
+// A seed with less than this share of the total weight is ignored. The threshold adds 1 % to the error and saves a
+// third of the time (docs/experiments.md).
 const float kMinWeightShare = 0.08f;
 
 // Largest number of seeds that a device uses for one face: the seed of its cell and the seeds of neighbouring cells.
@@ -56,22 +56,21 @@ struct PredictionRay {
   float solidAngle;  // See Cone in src/cone/cone.h.
 };
 
-// A seed, 16 bytes. The axis of its cone is minus the normal of the face; the bitangent is cross(axis, tangent).
+// A seed, 16 bytes. The axis of its cone is the reversed face normal; the bitangent is cross(axis, tangent).
 struct PredictionSeed {
   vec3 tangent;
   uint face;
 };
 
-// The hit point of a ray, 32 bytes. The points of a seed are a PredictionPoint for the seed itself, then one per ray.
-// The point of the seed has its barycentre, its face, its normal and, in solidAngleRatio, the median length of its
-// valid rays (0 if there are none).
+// The hit point of a ray, 32 bytes. A seed has a PredictionPoint for itself, then one per ray. The point of the seed
+// has its barycentre, face and normal, and in solidAngleRatio the median length of its valid rays (0 without any).
 const uint kPredictionPointBlockCount = 2u;
 struct PredictionPoint {
   vec3 position;
   uint face;  // The representative that the ray hits; kNoFace for a miss.
   vec3 normal;
-  // The area that the ray represents at the point, divided by the unit of Cone::solidAngles; negative for an outlier in
-  // the cone of its seed and for a false hit.
+  // The area that the ray represents at the point, divided by the unit of Cone::solidAngles. Negative for a false hit,
+  // and for an outlier in the cone of its seed.
   float solidAngleRatio;
 };
 
@@ -80,9 +79,9 @@ struct PointPush {
   float outlierDeviations;  // Cone::outliers.
 };
 
-// One array of words holds the faces to be predicted and their cells. It has a face and the index of a cell for each
-// item, then kMaxContributingSeedCount indices of seeds for each cell.
-const uint kNoSeed = 0xffffffffu;  // The index of an absent seed, and of the cell of a face without a cell.
+// One array of words has the faces to be predicted and the cells: a face and the index of a cell per item, then
+// kMaxContributingSeedCount indices of seeds per cell.
+const uint kNoSeed = 0xffffffffu;  // The index of an absent seed or cell.
 struct PredictionPush {
   uint itemCount;
   uint rayCount;
