@@ -26,12 +26,12 @@ static_assert(std::endian::native == std::endian::little, "the binary formats ar
 
 namespace {
 
-/// Names of the files that are being written, for a signal handler. The thread or handler that replaces a name by null
-/// owns the name, so that the handler never reads a freed name.
+/// Names of the files that are being written, for a signal handler. A thread or a handler that replaces a name by null
+/// owns the name. Therefore the handler never reads a freed name.
 std::array<std::atomic<const char*>, 64> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
-/// ".asdf-vk-HOST-": process numbers are unique within one machine or container only.
+/// ".asdf-vk-HOST-". The host is needed because process numbers are unique within one machine or container only.
 const std::string& temporaryPrefix() {
   static const std::string prefix = [] {
     std::array<char, HOST_NAME_MAX + 1> host{};
@@ -59,7 +59,7 @@ void removeTemporaries(const std::filesystem::path& folder, const Select& select
   }
 }
 
-/// Returns false also for a zombie, a process that has ended and that its parent has not waited for.
+/// False for a zombie: a process that has ended, but whose parent has not waited for it.
 bool isRunning(int process) {
   if (::kill(process, 0) != 0 && errno == ESRCH) return false;
   std::ifstream stream(fmt::format("/proc/{}/stat", process));
@@ -174,7 +174,7 @@ void AtomicFile::withdrawTemporary() noexcept {
     announced_.reset();
     return;
   }
-  // The signal handler has taken the name and may still read it; the process is about to end.
+  // The signal handler has taken the name, may still read the name, and ends the process.
   (void)announced_.release();
 }
 
@@ -194,7 +194,7 @@ void AtomicFile::flush() {
   used_ = 0;
 }
 
-/// Checks the result of ::close(), because a full network disk may report its error only there.
+/// Checks the result of ::close(), because some full network disks report the error only in this call.
 void AtomicFile::close() {
   if (descriptor_ < 0) return;
   flush();

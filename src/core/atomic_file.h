@@ -9,9 +9,9 @@
 
 namespace asdfvk {
 
-/// Atomic replacement of a file: bytes go to a temporary file beside the target, and commit() renames it to the target.
+/// Atomic replacement of a file: bytes go to a temporary file beside the target, which commit() renames to the target.
 /// Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
-/// file keeps its mode; a symbolic link is followed, also if its target does not exist. Targets that are not regular
+/// file keeps its mode. A symbolic link is followed, also if its target does not exist. Targets that are not regular
 /// files (/dev/null, a FIFO) and "-" (standard output) are written directly. Every failure throws
 /// Error{OutputNotWritable} with the error text of the operating system.
 class AtomicFile {
@@ -21,8 +21,8 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Returns memory for `size` bytes. advance() then appends the bytes that the caller wrote there. Precondition: size
-  /// <= kMaxReserve.
+  /// Returns memory for `size` bytes, at most kMaxReserve, for the caller to write. advance() appends the written
+  /// bytes.
   [[nodiscard]] char* reserve(size_t size) {
     if (size > kBufferSize - used_) flush();
     return buffer_.get() + used_;
@@ -38,7 +38,6 @@ class AtomicFile {
     advance(sizeof(T));
   }
 
-  /// Writes the remaining bytes and renames the file to its target.
   void commit();
 
   /// Commits two files. Both temporary files are complete before the first is renamed. If the second cannot be renamed,
@@ -67,19 +66,19 @@ class AtomicFile {
   size_t used_ = 0;
 };
 
-/// The path with the symbolic links at its end resolved. The file itself need not exist.
+/// Resolves the symbolic links at the end of the path. The file itself need not exist.
 [[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
 
-/// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain.
-/// Processes of other containers with the same host name are not visible; their files remain if the file system
-/// supports flock().
+/// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain,
+/// if the processes are visible. Processes of other containers with this host name are not visible: their files remain
+/// only if the file system supports flock().
 void removeAbandonedFiles(const std::filesystem::path& folder);
 
 /// Removes the temporary files that an ended process of this host left in a folder.
 void removeFilesOfProcess(const std::filesystem::path& folder, int process);
 
-/// Removes the temporary files that this process is writing; beyond 64 files, the others remain. Async-signal-safe, for
-/// a signal handler that then ends the process.
+/// Removes the temporary files that this process is writing, at most 64. Async-signal-safe, for a signal handler that
+/// then ends the process.
 void removeUnfinishedFiles() noexcept;
 
 }  // namespace asdfvk

@@ -5,8 +5,9 @@
 
 namespace asdfvk {
 
-/// A task for an idle thread of the parallel loops. If no thread has begun it, wait() and the destructor run it on the
-/// calling thread. A parallel loop of the creating thread may run it earlier, except within callIsolated().
+/// A task for an idle thread of the parallel loops. If no thread has begun the task, wait() and the destructor run the
+/// task on the calling thread. A parallel loop of the creating thread may run the task earlier, except within
+/// callIsolated().
 class BackgroundTask {
  public:
   explicit BackgroundTask(std::function<void()> body);
@@ -14,7 +15,6 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Waits for the end of the task. Throws what the task throws.
   void wait();
 
  private:

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An axis-aligned box; empty (min > max) until something is added. Coordinates may be any finite numbers of T: a size
-/// or a diagonal that would overflow is the largest number of T.
+/// An axis-aligned box; empty (min > max) until something is added. Coordinates may be any finite numbers of T. A size
+/// or diagonal that would overflow is the largest number of T.
 template <typename T>
 struct Box3 {
   Vec3<T> min{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
@@ -41,7 +41,7 @@ struct Box3 {
     const Vec3<T> s = size();
     return saturated(std::hypot(s.x, s.y, s.z));
   }
-  /// Precondition: a unit in which areas neither overflow nor underflow, such as normalised units.
+  /// Precondition: areas neither overflow nor underflow, as in normalised units.
   [[nodiscard]] T halfArea() const {
     const Vec3<T> s = size();
     return s.x * s.y + s.y * s.z + s.z * s.x;
@@ -54,8 +54,8 @@ struct Box3 {
 using Box3d = Box3<double>;
 using Box3f = Box3<float>;
 
-/// Whether each side of `inner` lies inside the same side of `outer` by more than `margin`. With a negative margin,
-/// `inner` may extend beyond `outer` by less than -margin.
+/// Whether `inner` lies inside `outer` with a distance of more than `margin` between corresponding sides. A negative
+/// margin lets `inner` extend beyond `outer` by less than -margin.
 [[nodiscard]] inline bool containsBy(double margin, const Box3d& outer, const Box3d& inner) {
   for (size_t axis = 0; axis < 3; ++axis)
     if (!(inner.min[axis] - outer.min[axis] > margin && outer.max[axis] - inner.max[axis] > margin)) return false;

@@ -24,10 +24,10 @@ struct Buckets {
   }
 };
 
-/// Entries grouped by bucket number, for callers that read each bucket once and do not keep it. A radix sort in two
-/// steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of which
-/// would wait for memory. Time: linear for small buckets, n log n in the worst case. The result does not depend on the
-/// number of threads. Entry has operator<; its default constructor should leave it uninitialised.
+/// Entries grouped by bucket number, for callers that read each bucket once and keep none. A radix sort in two steps;
+/// the second step works on runs of buckets that fit into a cache. The sort avoids atomic operations, which wait for
+/// memory. Time: linear for small buckets, n log n in the worst case. The result does not depend on the number of
+/// threads. Entry has operator<. Its default constructor should leave the entry uninitialised.
 template <typename Entry>
 class StagedEntries {
  public:
@@ -117,8 +117,8 @@ class StagedEntries {
     }
   }
 
-  /// room(begin, size) returns the memory for the entries of a run; visit(bucket, begin, entries) is called for each
-  /// bucket. begin: position of the first entry of the run or bucket among all entries, in the order of the buckets.
+  /// room(begin, size) returns the memory for the entries of a run. visit(bucket, begin, entries) is called for each
+  /// bucket. begin: position of the first entry of the run or bucket among all entries in bucket order.
   template <typename Room, typename Visit>
   void forEachRun(const Room& room, const Visit& visit) const {
     PerThread<std::vector<uint32_t>> ends;
@@ -148,7 +148,6 @@ class StagedEntries {
   std::unique_ptr<Staged[]> staged_;  ///< Entries with their bucket numbers, grouped by run.
 };
 
-/// Sorts entries into buckets by StagedEntries and stores them.
 template <typename Entry, typename Emit>
 [[nodiscard]] Buckets<Entry> sortIntoBuckets(size_t bucketCount, size_t itemCount, const Emit& emit) {
   return StagedEntries<Entry>(bucketCount, itemCount, emit).toBuckets();

@@ -12,9 +12,8 @@ class CheckFailure : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Throws CheckFailure with "FILE:LINE: text".
 [[noreturn]] void failCheck(const char* file, int line, const char* text);
-/// failCheck() with " (LEFT against RIGHT)" appended.
+/// Appends " (LEFT against RIGHT)" to the message.
 [[noreturn]] void failCheck(const char* file, int line, const char* text, const std::string& left,
                             const std::string& right);
 
@@ -22,7 +21,6 @@ class CheckFailure : public std::logic_error {
 [[nodiscard]] std::string checkedNumber(uint64_t value);
 [[nodiscard]] std::string checkedNumber(double value);
 
-/// The text of a number in the message of a check.
 template <typename T>
 [[nodiscard]] std::string checkedText(T value) {
   static_assert(std::is_arithmetic_v<T>);
@@ -42,8 +40,7 @@ template <typename T>
     if (!(condition)) ::asdfvk::failCheck(__FILE__, __LINE__, #condition); \
   } while (false)
 
-/// Throws CheckFailure unless `left op right` holds for two numbers. The message has both numbers. For example
-/// ASDFVK_CHECK_OP(a, <=, b).
+/// Like ASDFVK_CHECK for `left op right`, with both numbers in the message: ASDFVK_CHECK_OP(a, <=, b).
 #define ASDFVK_CHECK_OP(left, op, right)                                                                   \
   do {                                                                                                     \
     const auto& asdfvkLeft = (left);                                                                       \

@@ -10,8 +10,8 @@ namespace asdfvk {
 template <typename Signature>
 class FunctionRef;
 
-/// A reference to a callable object, which must outlive the reference. A function with a FunctionRef as parameter is
-/// not a template, so its definition can be in a .cpp file. Unlike std::function, a FunctionRef allocates no memory.
+/// A reference to a callable object, which must outlive the reference. A function with a FunctionRef parameter needs no
+/// template and can be defined in a .cpp file. Unlike std::function, a FunctionRef allocates no memory.
 template <typename Result, typename... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

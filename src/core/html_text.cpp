@@ -6,8 +6,8 @@
 namespace asdfvk {
 namespace {
 
-/// Bytes of the UTF-8 character at the start of the text, or 0 where the text starts with none. Overlong forms,
-/// surrogates and code points above U+10FFFF are no characters.
+/// Bytes of the UTF-8 character at the start of the text; 0 if the text does not start with a valid character. Overlong
+/// forms, surrogates and code points above U+10FFFF are invalid.
 size_t characterSize(std::string_view text) {
   const auto byteAt = [&](size_t i) { return i < text.size() ? static_cast<uint8_t>(text[i]) : uint8_t{0}; };
   const auto continues = [&](size_t i) { return (byteAt(i) & 0xc0) == 0x80; };

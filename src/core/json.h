@@ -11,9 +11,7 @@ namespace asdfvk {
 /// Only layers that link nlohmann_json (src/layers.txt) may include this header.
 using Json = nlohmann::ordered_json;
 
-/// The value, or null if it is not finite.
 [[nodiscard]] inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-/// An array of the three coordinates.
 [[nodiscard]] inline Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 
 }  // namespace asdfvk
@@ -27,7 +25,6 @@ using Json = nlohmann::ordered_json;
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))          \
   }
 
-/// In JSON, an empty optional is null.
 template <typename T>
 struct nlohmann::adl_serializer<std::optional<T>> {
   static void to_json(asdfvk::Json& json, const std::optional<T>& value) {

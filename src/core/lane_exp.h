@@ -7,8 +7,8 @@
 
 #include "core/simd.h"
 
-/// exp() of vectors, with the same bits as exp() of glibc 2.28 and later on processors with fused multiply-add.
-/// Algorithm and constants: S. Nagy, ARM Optimized Routines (MIT license), math/exp.c, 128 table entries and degree 5.
+/// exp() of vectors, with the bits of exp() of glibc 2.28 and later on processors with fused multiply-add. Source: S.
+/// Nagy, ARM Optimized Routines (MIT license), math/exp.c, with a table of 128 entries and degree 5.
 namespace asdfvk {
 
 /// Row i of the table: 2^(i/128) is approximately (1 + tail) times the double with the bits `bits` + i 2^45.
@@ -67,7 +67,7 @@ template <typename Doubles>
   const auto fma = [](const Doubles& a, const Doubles& b, const Doubles& c)
                        ASDFVK_ALWAYS_INLINE { return fusedMultiplyAdd(a, b, c); };
   const auto all = [](double number) ASDFVK_ALWAYS_INLINE { return broadcast<Doubles>(number); };
-  constexpr double kShift = 0x1.8p52;  // Adding it rounds to a whole number, in the lowest bits of the sum.
+  constexpr double kShift = 0x1.8p52;  // Adding kShift rounds to a whole number, in the lowest bits of the sum.
   const Doubles shifted = fma(x, all(0x1.71547652b82fep0 * 128), all(kShift));
   const Doubles whole = shifted - kShift;
   const Doubles r = fma(whole, all(-0x1.cf79abc9e3b3ap-47), fma(whole, all(-0x1.62e42fefa0000p-8), x));

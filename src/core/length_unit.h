@@ -7,7 +7,6 @@
 
 namespace asdfvk {
 
-/// A unit of length.
 struct LengthUnitRow {
   LengthUnit unit;
   std::string_view name;  ///< A value of Mesh::unit, for example "mm".

@@ -4,7 +4,6 @@
 
 namespace asdfvk {
 
-/// The straight line between two points.
 struct LineSegment {
   Vec3d from, to;
 };

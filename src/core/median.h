@@ -7,16 +7,15 @@
 
 namespace asdfvk {
 
-/// The median; for an even count the upper of the two middle numbers, so that the result is one of the numbers.
-/// Reorders the numbers. Precondition: at least one number, and no NaN.
+/// The median; for an even count the upper of the middle two. Reorders the numbers, at least one and none of them NaN.
 [[nodiscard]] inline double upperMedian(std::vector<double>& numbers) {
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());
   return *middle;
 }
 
-/// The number at index round(share * (count - 1)) of the numbers in ascending order. share: 0 to 1. Reorders the
-/// numbers. Precondition: at least one number, and no NaN.
+/// The number at index round(share * (count - 1)) in ascending order. share: 0 to 1. Reorders the numbers.
+/// Precondition: at least one number, and no NaN.
 [[nodiscard]] inline double percentileOf(std::vector<double>& numbers, double share) {
   const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(numbers.size() - 1)));
   std::nth_element(numbers.begin(), numbers.begin() + rank, numbers.end());

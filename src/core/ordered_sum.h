@@ -28,7 +28,7 @@ inline constexpr double kMinPlainSquare = 1e-200, kMaxPlainSquare = 1e300;
 template <typename Entry>
 [[nodiscard]] double orderedNorm(size_t count, const Entry& entry) {
   const double squared = orderedSum(count, [&](size_t i) { return entry(i) * entry(i); });
-  // Between these bounds no square has overflowed, and squares that underflowed cannot change the sum.
+  // If the sum is between these bounds, no square has overflowed, and squares that underflowed do not matter.
   if (squared > kMinPlainSquare && squared < kMaxPlainSquare) return std::sqrt(squared);
   double largest = 0;
   for (size_t i = 0; i < count; ++i) {

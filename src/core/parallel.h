@@ -9,25 +9,24 @@
 
 #include "core/function_ref.h"
 
-/// Parallel loops, run by TBB. Only parallel.cpp includes TBB, because its headers have 94,000 lines. Therefore
+/// Parallel loops by TBB. Only parallel.cpp includes TBB, because the headers of TBB have 94,000 lines. Therefore
 /// parallel.cpp also defines BackgroundTask and ThreadLimit.
 namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
-/// Number of threads that the existing ThreadLimit objects allow.
 [[nodiscard]] size_t threadLimit();
-/// Number of threads without any limit.
+/// The number of threads without any limit.
 [[nodiscard]] size_t defaultThreadCount();
 /// Maximum number of threads of a parallel loop that starts here: threadLimit(), or less within callWithThreads().
 [[nodiscard]] size_t maxThreadCount();
 
-/// Calls body(begin, end) for disjoint ranges whose union is [0, count), in parallel. A range of more than `grain`
-/// items may be divided.
+/// Calls body(begin, end) in parallel for disjoint ranges whose union is [0, count). Ranges above `grain` may be
+/// divided.
 void forEachRange(size_t count, size_t grain, FunctionRef<void(size_t begin, size_t end)> body);
 
-/// A loop that runs many times over the same items. Each thread gets the same ranges in each run, so that their data
-/// stay in its cache.
+/// A loop that runs many times over the same items. Each thread gets the same ranges in each run, so that the data of
+/// these ranges stay in its cache.
 class RepeatedLoop {
  public:
   RepeatedLoop();
@@ -39,14 +38,12 @@ class RepeatedLoop {
   std::unique_ptr<State> state_;
 };
 
-/// Calls both functions, in parallel.
 void callBoth(FunctionRef<void()> first, FunctionRef<void()> second);
 
-/// Calls `body` on this thread. While a parallel loop of `body` waits for other threads, this thread runs only tasks
-/// that were created within the call.
+/// Calls `body` on this thread. While a parallel loop of `body` waits, this thread runs only tasks that `body` created.
 void callIsolated(FunctionRef<void()> body);
 
-/// Calls `body` on this thread. Its parallel loops use at most `threadCount` threads, this one included.
+/// Calls `body` on this thread. The parallel loops of `body` use at most `threadCount` threads, this thread included.
 void callWithThreads(uint32_t threadCount, FunctionRef<void()> body);
 
 /// Calls body(i) for every i in [0, count), in parallel. If body(i) writes only data of i, the result has the same bits
@@ -58,7 +55,7 @@ void forEachInParallel(size_t count, const Body& body) {
   });
 }
 
-/// Like forEachInParallel(), for few long calls: each may run on a thread of its own.
+/// Like forEachInParallel(), for few long calls: each call may run on a separate thread.
 template <typename Body>
 void forEachTask(size_t count, const Body& body) {
   forEachRange(count, 1, [&](size_t begin, size_t end) {
@@ -80,7 +77,6 @@ template <typename Value, size_t kBlockSize = kItemsPerTask, typename Fold, type
   return result;
 }
 
-/// Counts, in parallel, the i in [0, count) for which holds(i) is true.
 template <typename Holds>
 [[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
   const auto countOf = [&](size_t begin, size_t end) {
@@ -91,7 +87,6 @@ template <typename Holds>
   return foldInParallel<uint64_t>(count, countOf, std::plus<>());
 }
 
-/// The maximum of Value{} and of valueOf(i) for all i in [0, count), computed in parallel.
 template <typename Value, typename ValueOf>
 [[nodiscard]] Value maxInParallel(size_t count, const ValueOf& valueOf) {
   const auto greater = [](const Value& a, const Value& b) { return std::max(a, b); };
@@ -103,8 +98,8 @@ template <typename Value, typename ValueOf>
   return foldInParallel<Value>(count, greatestOf, greater);
 }
 
-/// Sorts [begin, end) by `less`, in parallel where it is long. Not stable, but the order is the same on any number of
-/// threads. The last merge runs on one thread.
+/// Sorts by `less`, in parallel if the range is long. Not stable, but the order is the same on any number of threads.
+/// The last merge runs on one thread.
 template <typename Iterator, typename Less = std::less<>>
 void sortInParallel(Iterator begin, Iterator end, const Less& less = {}) {
   constexpr auto kWorthDividing = 1 << 15;
@@ -127,7 +122,7 @@ class PointerPerThread {
   std::unique_ptr<State> state_;
 };
 
-/// One Value per thread. make() creates it when the thread calls local() for the first time.
+/// One Value per thread. make() creates the Value when the thread calls local() for the first time.
 template <typename Value>
 class PerThread {
  public:
@@ -143,7 +138,7 @@ class PerThread {
     if (pointer == nullptr) pointer = new Value(make_());
     return *static_cast<Value*>(pointer);
   }
-  /// Calls visit(value) for each value that was made, in no particular order, on this thread.
+  /// On this thread, calls visit(value) for each value that was made. The order is not defined.
   template <typename Visit>
   void forEach(const Visit& visit) {
     pointers_.forEach([&](void* pointer) {

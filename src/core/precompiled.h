@@ -1,5 +1,5 @@
-// The precompiled header of every layer that includes core: the headers that most files include. Files still include
-// the headers that they use, so that the build also works with CMAKE_DISABLE_PRECOMPILE_HEADERS.
+// The precompiled header of every layer that includes core: the most frequent headers. Files still include the headers
+// that they use, so that the build also works with CMAKE_DISABLE_PRECOMPILE_HEADERS.
 #pragma once
 
 #include <fmt/core.h>

@@ -2,8 +2,8 @@
 
 namespace asdfvk {
 
-/// Fetches memory into the cache. GCC would remove the calls of a function that only prefetches, because such a
-/// function has no effect; the assembly statement is an effect.
+/// Fetches memory into the cache. The assembly statement is a side effect: without one, GCC removes calls of a function
+/// that only prefetches.
 inline void prefetchMemory(const void* place) {
   __builtin_prefetch(place);
   __asm__ volatile("");

@@ -12,8 +12,8 @@
 
 namespace asdfvk {
 
-/// Sorts by keyOf(item), a uint32_t of at most maxKey, with a stable parallel radix sort from the lowest digit on. Time
-/// and additional memory are linear in the number of items. The result does not depend on the number of threads.
+/// Sorts by keyOf(item), a uint32_t of at most maxKey, with a stable parallel radix sort that begins with the lowest
+/// digit. Time and additional memory are linear. The result does not depend on the number of threads.
 template <typename Item, typename KeyOf>
 void sortByKey(UnsetVector<Item>& items, uint32_t maxKey, const KeyOf& keyOf) {
   constexpr uint32_t kMaxDigitBits = 11;

@@ -6,8 +6,8 @@
 
 namespace asdfvk {
 
-/// A seeded generator (SplitMix64, Steele, Lea and Flood 2014). Its numbers are the same with every standard library,
-/// unlike those of std::shuffle and the std distributions.
+/// A seeded generator (SplitMix64, Steele, Lea and Flood 2014). Unlike std::shuffle and the std distributions, Random
+/// gives the same numbers with every standard library.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
@@ -31,7 +31,6 @@ class Random {
   /// A uniformly distributed number in [0, 1).
   [[nodiscard]] double real() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
-  /// Shuffles by the algorithm of Fisher and Yates.
   template <typename T>
   void shuffle(std::span<T> items) {
     for (size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[index(static_cast<uint32_t>(i))]);

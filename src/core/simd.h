@@ -12,9 +12,9 @@
 /// Operators are element-wise and round like the scalar operators: results have the same bits on every instruction set.
 /// Compilers split a vector that is wider than the registers.
 ///
-/// Code for several instruction sets is called through dispatch(). In it, all functions that take or return vectors are
-/// always inlined, so that they are compiled for the instruction set of their caller and need no calling convention.
-/// Their definitions must precede their callers: otherwise GCC ignores the attribute.
+/// dispatch() calls code for several instruction sets. In this code, functions that take or return vectors are always
+/// inlined: they are compiled for the instruction set of the caller, and need no calling convention. Definitions must
+/// precede callers: otherwise GCC ignores the attribute.
 #define ASDFVK_ALWAYS_INLINE __attribute__((always_inline))
 
 namespace asdfvk {
@@ -24,14 +24,13 @@ using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
 using Double4 = double __attribute__((vector_size(32)));
 
-/// The vector type of signed integers with as many lanes as V, of the same size. As a mask: -1 for true, 0 for false.
+/// The vector of signed integers with the lane count and size of V. As a mask: -1 for true, 0 for false.
 template <typename V>
 using IntsOf = decltype(V{} == V{});
 
 template <typename V>
 using NumberOf = std::remove_cvref_t<decltype(V{}[0])>;
 
-/// Number of lanes of a vector.
 template <typename V>
 inline constexpr size_t kLaneCount = sizeof(V) / sizeof(NumberOf<V>);
 
@@ -44,15 +43,15 @@ template <typename V, typename Number>
   return vector;
 }
 
-/// Writes kLaneCount<V> numbers, at any alignment. Number may differ from the type of the elements but must have their
-/// size: the elements of a mask of doubles have the type long with GCC and long long with Clang.
+/// Writes kLaneCount<V> numbers, at any alignment. Number must have the size of the elements, but may be another type:
+/// the elements of a mask of doubles are long with GCC and long long with Clang.
 template <typename V, typename Number>
 ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   static_assert(sizeof(Number) == sizeof(NumberOf<V>));
   std::memcpy(numbers, &vector, sizeof vector);
 }
 
-/// The number in every lane. A shuffle, because GCC 12 compiles `number - V{}` for 64-byte vectors element by element.
+/// The number in every lane, by a shuffle: GCC 12 compiles `number - V{}` for 64-byte vectors element by element.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V broadcast(NumberOf<V> number) {
   V first{};
@@ -75,8 +74,8 @@ template <typename V>
   return a > b ? a : b;
 }
 
-/// The mask of the lanes where a <= b. lessEqual(), notEqual() and select() replace operators that GCC 12 compiles
-/// element by element for 64-byte masks.
+/// The mask of the lanes where a <= b. lessEqual(), notEqual() and select() exist because GCC 12 compiles the operators
+/// for 64-byte masks element by element.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline IntsOf<V> lessEqual(const V& a, const V& b) {
   if constexpr (sizeof(V) < 64)
@@ -99,8 +98,7 @@ template <typename V>
   return reinterpret_cast<V>(mask & reinterpret_cast<IntsOf<V>>(a));
 }
 
-/// The bitwise or of all 64-bit words of a vector. With 32-bit lanes, the upper half of the result is the or of the odd
-/// lanes.
+/// The bitwise or of all 64-bit words. With 32-bit lanes, the upper half of the result belongs to the odd lanes.
 template <typename Ints>
 ASDFVK_ALWAYS_INLINE inline uint64_t orLanes(const Ints& lanes) {
   if constexpr (sizeof(Ints) > 16) {
@@ -138,7 +136,7 @@ template <typename Floats>
   return y * (1.500881f - 0.5f * x * y * y);
 }
 
-/// approximateRsqrt() to a relative error of 1e-6, by a second Newton step.
+/// 1 / sqrt(x) to a relative error of 1e-6, by a second Newton step.
 template <typename Floats>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats rsqrt(const Floats& x) {
   const Floats y = approximateRsqrt(x);
@@ -148,22 +146,20 @@ template <typename Floats>
 /// exp(-x) to a relative error of 1e-4, for x from 0 to 80.
 template <typename Floats>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats expNegative(const Floats& x) {
-  const Floats exponent = 127.0f - x * 1.44269504f;  // The bias makes it positive, so that truncation rounds down.
+  const Floats exponent = 127.0f - x * 1.44269504f;  // The bias makes the sum positive: truncation rounds down.
   const auto whole = __builtin_convertvector(exponent, IntsOf<Floats>);
   const Floats rest = exponent - __builtin_convertvector(whole, Floats);
   const Floats powerOfRest = 0.99992522f + rest * (0.695833507f + rest * (0.226067254f + rest * 0.0780244537f));
   return powerOfRest * reinterpret_cast<Floats>(whole << 23);
 }
 
-/// The instruction sets that dispatch() chooses from. Ascending: a machine with an instruction set has all earlier
-/// ones.
+/// The instruction sets of dispatch(), ascending: a machine with an instruction set has all earlier ones.
 enum class InstructionSet {
   Baseline,  ///< The instruction set for which the program is compiled.
   Avx2,      ///< AVX2 with fused multiply-add, which only __builtin_fma() uses.
   Avx512,
 };
 
-/// Whether this machine has the instruction set.
 [[nodiscard]] inline bool hasInstructionSet(InstructionSet instructionSet) {
   if (instructionSet == InstructionSet::Baseline) return true;
 #ifdef __x86_64__
@@ -175,7 +171,6 @@ enum class InstructionSet {
 #endif
 }
 
-/// The widest instruction set of this machine.
 [[nodiscard]] inline InstructionSet widestInstructionSet() {
   for (const InstructionSet wide : {InstructionSet::Avx512, InstructionSet::Avx2})
     if (hasInstructionSet(wide)) return wide;
@@ -193,9 +188,9 @@ template <typename Code>
 }
 #endif
 
-/// Runs `code`, compiled for the instruction set, and returns its result. code: a lambda
-/// `[&]<typename Floats>() ASDFVK_ALWAYS_INLINE { ... }`, where Floats is the vector of floats that fills a register,
-/// at most Widest (Float8 or Float16). Precondition: this machine has the instruction set.
+/// Runs `code`, compiled for the instruction set, and returns its result. code: a lambda `[&]<typename Floats>()
+/// ASDFVK_ALWAYS_INLINE { ... }`. Floats: the vector of floats that fills a register, at most Widest (Float8 or
+/// Float16). Precondition: this machine has the instruction set.
 template <typename Widest, typename Code>
 auto dispatch([[maybe_unused]] InstructionSet instructionSet, const Code& code) {
 #ifdef __x86_64__

@@ -22,7 +22,7 @@ namespace asdfvk {
   return lower;
 }
 
-/// The text with every control character replaced by a space, so that a message with any file name is one line.
+/// Control characters become spaces, so that a message with any file name is one line.
 [[nodiscard]] inline std::string oneLine(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -53,7 +53,7 @@ template <typename Names>
   return fmt::format("{} {}s", groupDigits(count), singular);
 }
 
-/// The number that the whole text spells, or nothing where the text is not a number.
+/// The number that the whole text represents; empty if the text is not a number.
 template <typename T>
 [[nodiscard]] std::optional<T> numberIn(std::string_view text) {
   T value{};
@@ -62,8 +62,8 @@ template <typename T>
   return value;
 }
 
-/// A diameter, thickness or area in a report, a picture or a legend. It has four significant digits, or up to nine
-/// where a length that differs from `limit` would otherwise have the text of `limit`.
+/// Text of a diameter, thickness or area in a report, a picture or a legend: four significant digits. Up to nine digits
+/// are used if the text of a different length would equal the text of `limit`.
 [[nodiscard]] inline std::string lengthText(double length, std::optional<double> limit = {}) {
   for (int digits = 4; limit && digits <= 9; ++digits)
     if (std::string text = fmt::format("{:.{}g}", length, digits); text != fmt::format("{:.{}g}", *limit, digits))
@@ -71,14 +71,12 @@ template <typename T>
   return fmt::format("{:.4g}", length);
 }
 
-/// A limit of lengths: nine significant digits, without the rounding of a conversion of units.
+/// Text of a limit with nine significant digits, which hide the rounding of unit conversions.
 [[nodiscard]] inline std::string limitText(double limit) { return fmt::format("{:.9g}", limit); }
 
-/// The greatest number of bytes that appendNumber() writes.
 inline constexpr size_t kNumberTextSize = 32;
 
-/// Writes the shortest text that reads back as the same number, or "nan" for NaN of either sign. Returns the end of the
-/// text.
+/// Writes the shortest text that reads back as the same number, or "nan" for NaN of either sign. Returns its end.
 template <typename T>
 [[nodiscard]] char* appendNumber(char* to, T value) {
   if constexpr (std::is_floating_point_v<T>) {

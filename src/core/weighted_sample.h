@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// Numbers with weights, for quantiles. No number is NaN. Precondition of min(), max() and quantile(): sort() was
-/// called, and there is at least one number.
+/// Numbers with weights, for quantiles. No number is NaN. Precondition of min(), max() and quantile(): there is at
+/// least one number, and sort() was called.
 class WeightedSample {
  public:
   void add(double number, double weight) { entries_.push_back({number, weight}); }

@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// Writes all bytes to a file descriptor. Continues after a short write and after a signal. Returns 0, or the errno of
-/// the failure; some of the bytes may have been written then.
+/// Writes all bytes to a file descriptor. Continues after a short write and after a signal. Returns 0 or errno; after a
+/// failure some of the bytes may have been written.
 [[nodiscard]] inline int writeAll(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
