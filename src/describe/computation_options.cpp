@@ -1,5 +1,5 @@
-// The options of a computation and of a session, one row each. The help of the program, the man page, docs/options.md,
-// the keywords of Python and the JSON report are derived from the rows.
+// One row per option of a computation or session. Help, man page, docs/options.md, keywords of Python and the JSON
+// report are derived from the rows.
 #include "describe/computation_options.h"
 
 #include <fmt/core.h>
@@ -41,7 +41,6 @@ const Options& optionsOf(const void* target) { return static_cast<const Computat
 
 constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
 
-/// Reads 0.8, "0.8" or "0.8mm".
 bool readLength(const OptionValue& value, std::optional<double>& length, LengthUnit& unit) {
   std::string_view text = textIn(value);
   const LengthUnitRow* found = nullptr;
@@ -145,8 +144,8 @@ OptionValue writeCheck(const void* target) {
 #define COMPUTATION_MEMBER(path) ASDFVK_MEMBER(ComputationSettings, path)
 #define COMPUTATION_CHOICE(path, names) ASDFVK_CHOICE(ComputationSettings, path, names)
 
-// The names of samplers, solvers, backends and kernels repeat the tables of other layers; tests/cli/options_test.cpp
-// compares them.
+// The names of samplers, solvers, backends and kernels repeat tables of other layers. tests/cli/options_test.cpp
+// compares the names.
 const std::array kComputationRows{
     OptionRow{
         .name = "recipe",
@@ -227,7 +226,7 @@ const std::array kComputationRows{
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.estimatesError),
               .text = "Do not estimate the error. This saves about as much time as the interpolation takes",
-              .more = "The sampler then selects all seeds: none are placed at large expected errors or at extreme "
+              .more = "The sampler then selects all seeds, and none is placed at large expected errors or extreme "
                       "values, which costs a little accuracy.",
               .flags = "--no-estimate"},
     OptionRow{.name = "rays",
@@ -286,7 +285,7 @@ const std::array kComputationRows{
                       "means parts. cgal: soft clustering and graph cut, as CGAL does; implies --postprocess cgal; use "
                       "it with --seeds all",
               .bareValue = "parts",
-              .wanted = "one of none|parts|cgal; the number of parts is an option of its own, parts"},
+              .wanted = "one of none|parts|cgal; the option parts sets the number of parts"},
     OptionRow{.name = "parts",
               .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.parts.partCount),
@@ -384,7 +383,7 @@ const std::array kComputationRows{
               .needs = "measure=thickness|both"},
     OptionRow{.name = "check",
               .group = kOutputGroup,
-              .text = "Recompute N random traced faces, and N random faces of all, with the double-precision "
+              .text = "Recompute N random traced faces, and N random faces of the mesh, with the double-precision "
                       "reference; N is 2000 if not given. Exit code 5 if traced faces disagree",
               .placeholder = "[=N|all]",
               .keywordType = "int | str",
@@ -443,16 +442,17 @@ const std::array kComputationRows{
     OptionRow{.name = "per",
               .group = kOutputGroup,
               .access = COMPUTATION_CHOICE(options.per, kPerElements),
-              .text = "Elements of the fields. vertex: add a field per vertex for each field per face, with its name: "
-                      "area-weighted means over the faces of a vertex. .csv and .npy then have fields per vertex only"},
+              .text = "Elements of the fields. vertex: for each field per face, add a field per vertex of the same "
+                      "name, with area-weighted means over the faces of a vertex. .csv and .npy then have fields per "
+                      "vertex only"},
 };
 
 const std::array kSessionRows{
     OptionRow{.name = "backend",
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, backend),
-              .text = "What traces the rays. vulkan: a Vulkan device. cpu: the cores of the CPU. reference: the CPU in "
-                      "double precision. auto: the first of these that is available",
+              .text = "Backend that traces the rays. vulkan: a Vulkan device. cpu: the cores of the CPU. reference: "
+                      "the CPU in double precision. auto: the first of these that is available",
               .valueNames = "auto|vulkan|cpu|reference"},
     OptionRow{.name = "device",
               .group = kDeviceGroup,
@@ -470,7 +470,8 @@ const std::array kSessionRows{
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, threadCount),
               .range = fromTo(0, 1024),
-              .text = "Number of CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on it",
+              .text = "Number of CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on the "
+                      "number",
               .placeholder = "N"},
     OptionRow{.name = "kernel",
               .group = kExperimentGroup,

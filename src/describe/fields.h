@@ -9,7 +9,6 @@ namespace asdfvk {
 
 enum class FieldType { Real, Flag, Label };
 
-/// A field that a result may have.
 struct FieldRow {
   const char* name;
   const char* label;
@@ -23,8 +22,7 @@ struct FieldRow {
 /// All fields, in the order of a result.
 [[nodiscard]] std::span<const FieldRow> fieldRows();
 
-/// Makes the field with the name and the entries. Precondition: fieldRows() has a row with the name, and `values` has
-/// the type of the row.
+/// Preconditions: fieldRows() has a row with the name, and `values` has the type of the row.
 [[nodiscard]] Field makeField(std::string_view name, Field::Values values);
 
 }  // namespace asdfvk

@@ -44,7 +44,7 @@ bool isInRange(const OptionRange& range, double value) {
   return isAbove && (range.excludesMax ? value < range.max : value <= range.max) && std::isfinite(value);
 }
 
-/// The value as a number; unset if it is not a number.
+/// Unset if the value is not a number.
 std::optional<double> numberOf(const OptionValue& value) {
   if (const auto* whole = std::get_if<uint64_t>(&value)) return static_cast<double>(*whole);
   if (const auto* real = std::get_if<double>(&value)) return *real;
@@ -76,7 +76,7 @@ bool hasName(const OptionRow& row, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Sets the option. Returns false for an invalid value.
+/// Returns false for an invalid value.
 bool assign(const OptionRow& row, void* target, const OptionValue& value) {
   if (row.read != nullptr) return row.read(target, value);
   const auto set = [&](auto member) -> bool {
@@ -112,7 +112,7 @@ bool assign(const OptionRow& row, void* target, const OptionValue& value) {
   return std::visit(set, row.access.member(target));
 }
 
-/// Converts a text to the type of the option; returns the text itself if it does not convert.
+/// Converts a text to the type of the option; keeps the text if the conversion fails.
 OptionValue typed(const OptionRow& row, const std::string& text) {
   const OptionKind kind = row.access.kind;
   if (kind == OptionKind::Whole) {
@@ -131,7 +131,7 @@ OptionValue typed(const OptionRow& row, const std::string& text) {
               {{"option", spelled(row, spelling)}});
 }
 
-/// The number of letters to insert, remove or replace to turn `a` into `b` (V. Levenshtein, 1966).
+/// The Levenshtein distance (1966): the number of letters to insert, remove or replace to turn `a` into `b`.
 size_t distanceOf(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});

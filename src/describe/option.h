@@ -15,24 +15,22 @@
 #include "asdf_vk/api.h"
 #include "asdf_vk/choices.h"
 
-/// Rows of options. Flags, help, range checks, JSON, keywords of Python and documents are derived from the rows.
+/// Flags, help, range checks, JSON, keywords of Python and documents are derived from rows, one per option.
 namespace asdfvk {
 
-/// A value of an option, as front ends pass it and reports show it. std::monostate: no value.
+/// std::monostate means no value.
 using OptionValue = std::variant<std::monostate, bool, uint64_t, double, std::string>;
 
-/// Spelling of the name of an option in messages and reports: --time-budget, timeBudgetSeconds, time_budget,
-/// time-budget.
+/// Spelling of option names in messages and reports: --time-budget, timeBudgetSeconds, time_budget, time-budget.
 enum class OptionSpelling { Flag, CamelCase, SnakeCase, Name };
 
-/// A member with named values, such as an enumeration.
 struct ChoiceMember {
   void* member;
   const char* (*get)(const void* member);
   bool (*set)(void* member, std::string_view name);  ///< False for an unknown name.
 };
 
-/// The member of a struct of options that an option sets.
+/// The types of the members that options set.
 using OptionMember = std::variant<bool*, double*, uint32_t*, uint64_t*, std::string*, std::optional<double>*,
                                   std::optional<uint32_t>*, ChoiceMember>;
 
@@ -40,7 +38,7 @@ enum class OptionKind { Special, Flag, Real, Whole, Text, Choice };
 
 /// Access of a row to its member; see ASDFVK_MEMBER and ASDFVK_CHOICE.
 struct OptionAccess {
-  /// Special: there is no member; OptionRow::read and OptionRow::write replace it.
+  /// Special: there is no member; OptionRow::read and OptionRow::write are used instead.
   OptionKind kind = OptionKind::Special;
   OptionMember (*member)(void* target) = nullptr;
   std::string (*names)() = nullptr;  ///< The names of a Choice: "paper|balanced|quality".
@@ -64,7 +62,7 @@ template <const auto& kNames, typename T>
           }};
 }
 
-/// OptionRow::access of a member of Target. ASDFVK_CHOICE is for a member with named values.
+/// OptionRow::access of a member of Target. ASDFVK_CHOICE: of a member with named values.
 #define ASDFVK_MEMBER(Target, path)                                            \
   OptionAccess {                                                               \
     kindOfMember<decltype((std::declval<Target&>().path))>(),                  \
@@ -76,7 +74,7 @@ template <const auto& kNames, typename T>
         [] { return joined(choices); }                                                                                \
   }
 
-/// Range of allowed numbers. The range of a whole number must include its bounds.
+/// A range of whole numbers must include its bounds.
 struct OptionRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool excludesMin = false, excludesMax = false;
@@ -88,8 +86,7 @@ struct OptionRange {
 [[nodiscard]] constexpr OptionRange aboveAndBelow(double min, double max) { return {min, max, true, true}; }
 [[nodiscard]] constexpr OptionRange aboveUpTo(double min, double max) { return {min, max, true, false}; }
 
-/// An option. The parameter `target` of the functions is the struct that the options of the table set, for example
-/// ComputationSettings.
+/// An option. target: the struct that the options of the table set, for example ComputationSettings.
 struct OptionRow {
   const char* name;  ///< "time-budget"
   const char* group;
@@ -98,7 +95,7 @@ struct OptionRow {
   const char* text = "";         ///< Text of the help, without range, default and final full stop.
   const char* more = "";         ///< Further sentences for the man page and docs/options.md.
   const char* placeholder = "";  ///< Stands for the value in the help. Empty for flags and options with named values.
-  /// Option (with allowed values) without which this row has no effect: "measure=thickness|both", "thinner-than".
+  /// The option that this option needs, with allowed values: "measure=thickness|both", "thinner-than".
   const char* needs = "";
   const char* defaultText = nullptr;  ///< Shown instead of the default value.
   const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
@@ -107,9 +104,9 @@ struct OptionRow {
   const char* valueNames = nullptr;   ///< Allowed values of a string option: "auto|seed|ray".
   bool emptyIsAuto = false;           ///< The name "auto" sets the member to an empty string.
   std::vector<std::string> (*moreNames)() = nullptr;  ///< Returns further allowed values of a string option.
-  const char* bareValue = nullptr;  ///< Value of the option where it is given without one; null: a value is required.
+  const char* bareValue = nullptr;  ///< Value of an option that is given without a value; null: a value is required.
   const char* wanted = nullptr;     ///< Description of valid values for messages: "an error such as 1%".
-  /// Sets the option. Returns false or throws for an invalid value.
+  /// Returns false or throws for an invalid value.
   bool (*read)(void* target, const OptionValue& value) = nullptr;
   OptionValue (*write)(const void* target) = nullptr;
   void (*apply)(void* target) = nullptr;  ///< Called after the option is set.
@@ -117,45 +114,44 @@ struct OptionRow {
 
 using OptionRows = std::span<const OptionRow>;
 
-/// The row with the name; null if there is none.
+/// Null if there is no such row.
 [[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
 
 [[nodiscard]] ASDFVK_API std::string spelled(const OptionRow& row, OptionSpelling spelling);
-/// The option with a value, spelled for the front end: --segment cgal, segment=cgal, segment='cgal'.
+/// The option and its value for the front end: --segment cgal, segment=cgal, segment='cgal'.
 [[nodiscard]] std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
-/// Names of the allowed values; empty if values have no names.
+/// The allowed values; empty if the values have no names.
 [[nodiscard]] ASDFVK_API std::vector<std::string> namesOf(const OptionRow& row);
 /// The placeholder, or the names of the values with bars between them. Empty for a flag.
 [[nodiscard]] ASDFVK_API std::string placeholderOf(const OptionRow& row);
-/// The range as a text: "from 0 to 1". Empty without a range.
+/// "from 0 to 1". Empty without a range.
 [[nodiscard]] ASDFVK_API std::string rangeText(const OptionRow& row);
-/// Description of valid values: "a number from 0 to 1".
+/// "a number from 0 to 1".
 [[nodiscard]] ASDFVK_API std::string wantedText(const OptionRow& row);
 
-/// Sets an option from a text of a command line. Throws Error{OptionOutOfRange} and Error{UnknownName} with the detail
-/// "option" and a message such as "--rays: '0' is not a whole number from 1 to 1024".
+/// Throws Error{OptionOutOfRange} and Error{UnknownName} with the detail "option" and a message such as "--rays: '0' is
+/// not a whole number from 1 to 1024".
 void setOptionText(const OptionRow& row, void* target, const std::string& text,
                    OptionSpelling spelling = OptionSpelling::Flag);
-/// Sets an option to a typed value. shown: the value as the message shows it. Throws as setOptionText().
+/// shown: the value in the message. Throws as setOptionText().
 ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue& value, const std::string& shown,
                           OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API OptionValue valueOf(const OptionRow& row, const void* target);
-/// The value as a text: "-" for no value, "on" or "off" for a flag.
+/// "-" for no value, "on" or "off" for a flag.
 [[nodiscard]] std::string toText(const OptionValue& value);
 
-/// The default value as documents show it. defaults: a target with default values.
+/// The default value for documents. defaults: a target with default values.
 [[nodiscard]] ASDFVK_API std::string defaultText(const OptionRow& row, const void* defaults);
 
-/// Whether the option that `row` needs has one of the required values.
 [[nodiscard]] bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target);
 
 /// The needed option with its value: "--segment cgal". Empty if the row needs no option.
 [[nodiscard]] ASDFVK_API std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling);
 
-/// Names of the options that the caller has set, and their spelling in messages.
+/// The options that the caller has set, and their spelling in messages.
 struct GivenOptions {
   std::set<std::string, std::less<>> names;
   OptionSpelling spelling = OptionSpelling::CamelCase;
@@ -166,16 +162,15 @@ struct GivenOptions {
 /// Throws Error{OptionConflict} if a given option has no effect: "--clusters needs --segment cgal".
 void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given);
 
-/// Throws Error{OptionOutOfRange} or Error{UnknownName} if a value is out of its range. target: a copy of the settings;
-/// its members are overwritten with their values.
+/// Throws Error{OptionOutOfRange} or Error{UnknownName} for a value out of range. target: a copy of the settings, whose
+/// members are assigned their own values.
 void requireInRange(OptionRows rows, void* target, OptionSpelling spelling);
 
-/// Throws Error{OptionConflict} with the detail "option". message: options in braces, such as {seeds=all}, are spelled
-/// for the front end.
+/// Throws Error{OptionConflict} with the detail "option". message: {seeds=all} is spelled for the front end.
 [[noreturn]] ASDFVK_API void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling);
 
-/// Up to three of the names that are similar to `name`, for example "--seeds or --rng-seed" for "--seed". Similar names
-/// differ in few letters, or have a word that begins with `name`. Empty if there are none.
+/// Up to three names that are similar to `name`, for example "--seeds or --rng-seed" for "--seed". Similar names differ
+/// in few letters, or have a word that begins with `name`. May be empty.
 [[nodiscard]] ASDFVK_API std::string similarNames(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace asdfvk

@@ -1,4 +1,4 @@
-// Rules of implication and exclusion between options. All front ends apply them.
+// Rules of implication and exclusion between options, for all front ends.
 #include "asdf_vk/error.h"
 #include "describe/computation_options.h"
 
@@ -11,7 +11,7 @@ constexpr uint32_t kCgalRayCount = 25;  // The default of CGAL's sdf_values().
   refuse(computationRows(), message, spelling);
 }
 
-/// Applies a limit of the thickness, which implies Measure::Thickness.
+/// A limit of the thickness implies Measure::Thickness.
 void applyLimit(ComputationSettings& computation, const GivenOptions& given) {
   Options& options = computation.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
@@ -47,8 +47,7 @@ void refuseContradictions(const Options& options, const GivenOptions& given) {
                  given.spelling);
   if (options.interpolation.pooling > 0 && options.interpolation.guidance != Guidance::Prediction)
     refuseOption(
-        "{pooling} moves values to the prediction, which {recipe=paper} and {guidance=none} or curvature do not have; "
-        "drop one of the two",
+        "{pooling} needs a prediction, which {recipe=paper} and {guidance=none} or curvature exclude; drop one",
         given.spelling);
   if (options.parts.partCount && (given.has("detail") || options.parts.detail != 1))
     refuseOption("{parts} and {detail} contradict each other; drop one", given.spelling);

@@ -8,7 +8,6 @@
 
 namespace asdfvk {
 
-// Conversions of the types that members of a report have.
 void to_json(Json& json, const Vec3d& point) { json = arrayOf(point); }
 void to_json(Json& json, WarningCode code) { json = nameOf(code); }
 void to_json(Json& json, ThicknessVerdict verdict) { json = nameOf(verdict); }

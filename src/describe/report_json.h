@@ -13,10 +13,9 @@ void to_json(nlohmann::ordered_json& json, const TraceVariant& variant);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const OptionValue& value);
 
-/// The JSON object with a key for each member of the report.
 [[nodiscard]] nlohmann::ordered_json toJson(const Report& report);
 
-/// The value of the key "options" of the JSON report: the options that affect the result.
+/// The JSON report's key "options": the options that affect the result.
 [[nodiscard]] nlohmann::ordered_json optionValues(const ComputationSettings& computation,
                                                   const SessionSettings& session);
 

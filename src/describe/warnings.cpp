@@ -48,9 +48,8 @@ std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
       "input faces have fewer than three corners: they get no value");
   add("zeroAreaFaceCount", defects.zeroAreaFaceCount, face + "has zero area: it casts no rays",
       faces + "have zero area: they cast no rays");
-  add("duplicateFaceCount", defects.duplicateFaceCount,
-      face + "duplicates an earlier one: rays pass through its own copies",
-      faces + "duplicate earlier ones: rays pass through their own copies");
+  add("duplicateFaceCount", defects.duplicateFaceCount, face + "duplicates an earlier one: its rays ignore its copies",
+      faces + "duplicate earlier ones: their rays ignore their copies");
   add("nonManifoldEdgeCount", defects.nonManifoldEdgeCount,
       "edge has more than two faces: values are interpolated across all of them",
       "edges have more than two faces: values are interpolated across all of them");

@@ -8,11 +8,10 @@
 
 namespace asdfvk {
 
-// Functions that make warnings: a sentence, and the values of the sentence as details. src/pipeline/prepared_mesh.cpp
-// makes the warning about inverted components.
+// Functions that make a warning: a sentence, with its values as details. src/pipeline/prepared_mesh.cpp has another
+// one.
 
-/// One warning per kind of defect, with the number of defects. isOfPolygons: the mesh has polygons, so that the
-/// sentences say "triangles" instead of "faces".
+/// One warning per kind of defect. isOfPolygons: sentences say "triangles" instead of "faces".
 [[nodiscard]] std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons);
 
 [[nodiscard]] Warning componentsReversed(uint64_t count);
@@ -40,10 +39,8 @@ struct MissingValues {
 /// clearShare: share of the pairs of patches that have a clear line of sight.
 [[nodiscard]] Warning thinShell(double clearShare);
 [[nodiscard]] Warning partCountDiffers(uint32_t requested, uint32_t found);
-/// skipped: Mesh::skipped.
 [[nodiscard]] Warning skippedContent(const std::vector<std::string>& skipped);
 
-/// agreement: PartsReport::agreement.
 [[nodiscard]] Warning uncertainParts(double agreement);
 
 /// areaShare: share of the area in faces that are larger than half of their value.

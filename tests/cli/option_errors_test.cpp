@@ -89,7 +89,7 @@ TEST_CASE("unknown, doubled and bare options are refused") {
   CHECK_EQ(refusal({"a.ply", "--bogus"}), "--bogus is unknown; asdf-vk --help lists the options");
   CHECK_EQ(refusal({"a.ply", "--seed", "5"}), "--seed is unknown; did you mean --seeds or --rng-seed?");
   CHECK_EQ(refusal({"a.ply", "--segment", "5"}),
-           "--segment: '5' is not one of none|parts|cgal; the number of parts is an option of its own, parts");
+           "--segment: '5' is not one of none|parts|cgal; the option parts sets the number of parts");
   CHECK(refusal({"a.ply", "--rays", "3", "--rays", "4"}).find("--rays") != std::string::npos);
   CHECK(refusal({"a.ply", "--rays"}).find("--rays") != std::string::npos);
   CHECK_EQ(refusal({"--help=some"}), "--help: 'some' is not 'all'; write --help or --help=all");
@@ -221,8 +221,7 @@ TEST_CASE("options that would have no effect are refused") {
 
 TEST_CASE("pooling without a prediction is refused") {
   const std::string message =
-      "--pooling moves values to the prediction, which --recipe paper and --guidance none or curvature do not have; "
-      "drop one of the two";
+      "--pooling needs a prediction, which --recipe paper and --guidance none or curvature exclude; drop one";
   CHECK_EQ(refusal({"a.ply", "b.ply", "--pooling", "0.5", "--recipe", "paper"}), message);
   CHECK_EQ(refusal({"a.ply", "--recipe", "quality", "--guidance", "none"}), message);
   CHECK_EQ(refusal({"a.ply", "--recipe", "paper", "--pooling", "0"}), "accepted");

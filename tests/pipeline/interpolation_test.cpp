@@ -201,7 +201,7 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         o.interpolation.pooling = 0.5;
         o.interpolation.guidance = Guidance::None;
       },
-      ErrorCode::OptionConflict, "pooling moves values to the prediction");
+      ErrorCode::OptionConflict, "pooling needs a prediction");
   requireFailure(
       [](Options& o) {
         o.estimatesError = false;
