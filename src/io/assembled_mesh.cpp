@@ -23,14 +23,15 @@ Placement Placement::after(const Placement& inner) const {
 }
 
 AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize) {
-  // Limits are divided instead of multiplying counts, because the counts of a hostile file may overflow in a product.
+  // Dividing the limits avoids an overflow of the product of two counts in a hostile file.
   constexpr uint64_t kMaxBytesPerByte = 64;
   const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * fileSize);
   if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||
       vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit)
-    throw Error(ErrorCode::InputTooLarge,
-                fmt::format("its instances have {} in all, more than {} MiB of memory hold; export fewer instances",
-                            counted(faceCount, "face"), limit >> 20));
+    throw Error(
+        ErrorCode::InputTooLarge,
+        fmt::format("its instances have {} in all, which need more than {} MiB of memory; export fewer instances",
+                    counted(faceCount, "face"), limit >> 20));
   requireAtMost(kMaxTriangleCount, faceCount, "faces");
   requireAtMost(kMaxIndexCount, vertexCount, "vertices");
   vertices_.reserve(vertexCount);

@@ -30,15 +30,14 @@ struct PartMesh {
   std::vector<Face> faces;
 };
 
-/// Greatest memory of all instances in bytes, or 64 times the size of the file where that is more.
+/// Limit of the memory of all instances, in bytes, unless 64 times the size of the file is more.
 inline constexpr uint64_t kMaxInstanceBytes = uint64_t{1} << 30;
 
-/// Joins the placed parts of a file into one mesh. Parts share no vertices, so that each is a component of its own.
+/// Joins the placed parts of a file into one mesh. Parts share no vertices, so that each part is a separate component.
 class AssembledMesh {
  public:
-  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} where 32-bit
-  /// indices do not suffice, Error{InputTooLarge} where instances take more than kMaxInstanceBytes and more than 64
-  /// times the file.
+  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} if 32-bit indices
+  /// do not suffice, Error{InputTooLarge} if instances exceed both kMaxInstanceBytes and 64 times the file.
   AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize);
 
   /// Reverses the faces of a mirrored part, so that its outside stays outside.

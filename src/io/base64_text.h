@@ -6,8 +6,7 @@
 
 namespace asdfvk {
 
-/// Decodes base64 (RFC 4648), with or without padding. Returns nothing for text with other characters or of an
-/// impossible length.
+/// Decodes base64 (RFC 4648), with or without padding. Empty if a character or the length is invalid.
 [[nodiscard]] std::optional<std::vector<char>> base64Bytes(std::string_view text);
 
 }  // namespace asdfvk

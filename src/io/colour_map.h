@@ -8,7 +8,6 @@ namespace asdfvk {
 
 using Rgba = std::array<uint8_t, 4>;
 
-/// The colour of a face without a value.
 inline constexpr Rgba kNoValueColour{128, 128, 128, 255};
 
 /// Values at the ends of the colour map.
@@ -20,8 +19,8 @@ struct ColourRange {
 [[nodiscard]] ColourRange percentileRange(std::span<const double> values);
 
 /// The perceptual colour map viridis (Smith and van der Walt 2015, CC0), interpolated linearly between nine of its
-/// colours. Values beyond the range have the colour of the nearer end. If both ends of the range are equal, all values
-/// have the middle colour. NaN is grey.
+/// colours. Values beyond the range have the colour of the nearer end. If the ends are equal, all values have the
+/// middle colour. NaN is grey.
 [[nodiscard]] Rgba colourOf(double value, const ColourRange& range);
 
 }  // namespace asdfvk

@@ -26,7 +26,7 @@ uint64_t CornerWelder::slotOf(const Vec3d& point) const {
 }
 
 uint32_t CornerWelder::indexOf(Vec3d point) {
-  point = point + Vec3d{};  // -0 becomes 0.
+  point = point + Vec3d{};  // Converts -0 to 0.
   const bool isNan = std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z);
   const uint64_t slot = isNan ? 0 : slotOf(point);
   if (!isNan && table_[slot] != kEmptySlot) return table_[slot];

@@ -7,11 +7,11 @@
 
 namespace asdfvk {
 
-/// Assigns one index to equal points, in order of first appearance. Points are equal if their coordinates are; -0
-/// equals 0, and a point with a NaN equals no point. For formats without indices, or whose indices split points.
+/// Assigns one index to equal points. Indices ascend in the order of first appearance. -0 equals 0, and a point with a
+/// NaN equals no point. For formats without indices, or with several indices per point.
 class CornerWelder {
  public:
-  /// expectedPointCount: expected number of distinct points, for the initial capacity.
+  /// Expected number of distinct points, for the initial capacity.
   explicit CornerWelder(uint64_t expectedPointCount);
 
   /// Throws Error{MeshTooLarge} for more than kMaxIndexCount points.

@@ -40,8 +40,8 @@ class Descriptor {
   int value_;
 };
 
-/// Reads a whole file. The file is not mapped into memory, because a mapped file that shrinks ends the process. "-" is
-/// standard input. Pipes are read to their end. Throws Error{UnreadableInput} with the error text of the operating
+/// Reads a whole file; "-" is standard input. Pipes are read to their end. Does not map the file into memory, because
+/// truncating a mapped file would end the process. Throws Error{UnreadableInput} with the error of the operating
 /// system.
 UnsetVector<char> bytesOf(const std::filesystem::path& path) {
   const Descriptor descriptor(path);
@@ -52,7 +52,7 @@ UnsetVector<char> bytesOf(const std::filesystem::path& path) {
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
     failInput("is a device, not a file");
   constexpr size_t kMaxRead = size_t{1} << 30, kFirstOfPipe = size_t{1} << 16;  // Linux reads at most 2 GiB at once.
-  // One byte more than the size of the file, so that the read that finds the end of the file needs no larger buffer.
+  // One byte more than the file: the read that finds the end needs no larger buffer.
   UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
   for (size_t size = 0;;) {
     if (size == bytes.size()) bytes.resize(2 * size);

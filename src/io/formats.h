@@ -14,40 +14,38 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// How certainly the content of a file has a format. Match::Certain takes precedence over the extension of the
-/// file, and the extension over Match::Possible.
+/// How certainly the content has a format. Match::Certain overrides the extension, which overrides Match::Possible.
 enum class Match { None, Possible, Certain };
 
-/// A file format, defined as kNAMEFormat in src/io/NAME_*.cpp. A function is null where the format lacks the operation.
+/// A file format, defined as kNAMEFormat in src/io/NAME_*.cpp. A null function: the format lacks the operation.
 struct FileFormat {
   std::string_view name;                       ///< Lower case.
   std::array<std::string_view, 4> extensions;  ///< Lower case, without the dot; unused entries are empty.
-  /// Detects the format from the content of a file. Null for a format that is only written.
+  /// Null for a format that is only written.
   Match (*detect)(std::span<const char> bytes) = nullptr;
 
-  /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Throws Error{UnreadableInput}
-  /// for a file that is truncated, has further bytes after its end, has an index out of range, or has no face with
-  /// three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h. Memory: at most 64 times the size
-  /// of the input and a few MB. Faces other than triangles are triangulated and stored in Mesh::polygons
-  /// (mesh/input_faces.h).
+  /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Polygons are triangulated and
+  /// stored in Mesh::polygons (mesh/input_faces.h). Memory: at most 64 times the size of the input and a few MB. Throws
+  /// Error{UnreadableInput} for a file that is truncated, has further bytes after its end, has an index out of range,
+  /// or has no face with three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h.
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
-  /// Writes a second file, besidePathOf(), to which the first refers by ResultView::besideName(); null for a format of
-  /// one file. The second file is written where needsBeside(result) is true and the first is a file with a name.
+  /// Writes the second file, besidePathOf(), which the first file names by ResultView::besideName(). Called if
+  /// needsBeside(result) is true and the first file has a name. Null for a format of one file.
   void (*writeBeside)(AtomicFile& file, const ResultView& result) = nullptr;
   bool (*needsBeside)(const ResultView& result) = nullptr;
   bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
 };
 
-/// The path of the second file, for example "horse.obj.mtl" for the result "horse.obj".
+/// For example "horse.obj.mtl" for "horse.obj".
 [[nodiscard]] std::filesystem::path besidePathOf(const std::filesystem::path& path);
 
-/// The table of formats, in the order of detection.
+/// The formats are in the order of detection.
 [[nodiscard]] std::span<const FileFormat* const> fileFormats();
 
-/// extension: in upper or lower case, with or without the dot. Returns null for an unknown extension.
+/// extension: in upper or lower case, with or without the dot. Null if unknown.
 [[nodiscard]] const FileFormat* formatOfExtension(std::string_view extension);
 
 /// Returns the first format with Match::Certain, otherwise the format of the extension, otherwise the first format with

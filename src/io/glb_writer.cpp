@@ -1,9 +1,9 @@
 // Binary glTF 2.0. Each corner of each triangle has its own vertex, because the fields belong to faces and viewers show
-// faces flat. Without parts there is one primitive, whose COLOR_0 shows the field. With the field "segment" there is a
-// primitive and a material per part, in the order of the part numbers. There is then no COLOR_0, because viewers
-// multiply it with the colour of the material, and because Blender ignores the colours of materials if it exists. The
-// fields are attributes _NAME in float32, 0 for no value. The attribute _FACE is the input face, where triangles are
-// not in the order of input faces; it is exact up to 16,777,216.
+// faces flat. Without parts there is one primitive, whose COLOR_0 shows the field. With the field "segment" each part
+// is a primitive with a material, in the order of the part numbers. There is then no COLOR_0, because viewers multiply
+// COLOR_0 with the colour of the material. Blender ignores the colours of materials if COLOR_0 exists. The fields are
+// attributes _NAME in float32, 0 for no value. The attribute _FACE, which is exact up to 16,777,216, is the input face
+// if triangles are not in the order of input faces.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -58,7 +58,6 @@ class ResultTriangles {
   Mesh mesh_;
 };
 
-/// The triangles of one part.
 struct GlbGroup {
   uint32_t part = 0;
   uint64_t begin = 0, end = 0;  ///< Range in GlbWriter::order_.
@@ -135,7 +134,7 @@ class GlbWriter {
     }
   }
 
-  /// Makes coordinates relative to the middle of the mesh where float32 does not hold them exactly.
+  /// Makes coordinates relative to the middle of the mesh if float32 does not represent them exactly.
   void placeAtOrigin() {
     Vec3d low{1, 1, 1}, high{-1, -1, -1};
     bool isFirst = true;
@@ -151,7 +150,7 @@ class GlbWriter {
     if (!result_.hasFloatVertices()) origin_ = middle_;
   }
 
-  /// The position of a corner. A triangle with a non-finite corner, which glTF does not allow, collapses to a point.
+  /// A triangle with a non-finite corner, which glTF does not allow, collapses to a point.
   [[nodiscard]] Vec3f pointOf(uint32_t triangle, uint32_t corner) const {
     const bool isWhole = mesh_.hasFiniteCorners(triangle);
     return static_cast<Vec3f>((isWhole ? mesh_.vertices[mesh_.faces[triangle][corner]] : middle_) - origin_);
@@ -201,7 +200,6 @@ class GlbWriter {
                              }});
   }
 
-  /// The least and greatest coordinates of a group, as they are written.
   [[nodiscard]] std::pair<Vec3f, Vec3f> boundsOf(const GlbGroup& group) const {
     Vec3f low = pointOf(order_[group.begin], 0), high = low;
     for (uint64_t i = group.begin; i < group.end; ++i)

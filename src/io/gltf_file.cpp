@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is read by copyi
 
 constexpr uint64_t kGlbHeaderSize = 12, kChunkGlbHeaderSize = 8;
 constexpr uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-constexpr int kMaxJsonDepth = 64;  // Depth of JSON values; glTF itself needs about ten.
+constexpr int kMaxJsonDepth = 64;  // glTF needs about ten.
 
 enum GltfType : uint32_t { kGltfByte = 5120, kGltfUByte, kGltfShort, kGltfUShort, kGltfUInt = 5125, kGltfFloat };
 

@@ -17,20 +17,19 @@ namespace asdfvk {
 
 using GltfJson = nlohmann::json;
 
-/// Returns a member, or null if the object has none of that name. Throws where `object` is not a JSON object.
+/// Returns null if the object has no such member. Throws if `object` is not a JSON object.
 [[nodiscard]] const GltfJson* gltfMember(const GltfJson& object, const char* key, std::string_view where);
-/// Returns a non-negative integer, or `fallback` if there is no such member. Throws if there is neither.
+/// Returns a non-negative integer, or `fallback` if there is no such member. Throws if both are missing.
 [[nodiscard]] uint64_t gltfWhole(const GltfJson& object, const char* key, std::optional<uint64_t> fallback,
                                  std::string_view where);
-/// Returns an array, or null if there is no such member.
+/// Null if there is no such member.
 [[nodiscard]] const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_view where);
-/// Returns a string, which is empty if there is no such member.
+/// Empty if there is no such member.
 [[nodiscard]] std::string gltfText(const GltfJson& object, const char* key, std::string_view where);
 /// Reads numbers.size() finite numbers into `numbers`. Returns false if there is no such member.
 [[nodiscard]] bool gltfNumbers(const GltfJson& object, const char* key, std::span<double> numbers,
                                std::string_view where);
 
-/// The numbers of an accessor.
 class GltfAccessor {
  public:
   [[nodiscard]] uint64_t count() const { return count_; }
@@ -40,14 +39,13 @@ class GltfAccessor {
 
  private:
   friend class GltfFile;
-  /// Elements of a buffer, `stride` bytes apart.
+  /// Elements of a buffer. stride: distance of two elements in bytes.
   struct Elements {
     const char* data = nullptr;  ///< Null: all elements are 0.
     uint64_t stride = 0;
     uint32_t componentType = 0;
   };
   [[nodiscard]] static uint32_t wholeAt(const Elements& elements, uint64_t i);
-  /// The sparse element i if there is one, otherwise the element of the buffer.
   [[nodiscard]] const char* elementAt(uint64_t i) const;
 
   uint64_t count_ = 0;
@@ -64,10 +62,10 @@ class GltfFile {
   [[nodiscard]] const GltfJson& document() const { return document_; }
   [[nodiscard]] uint64_t size() const { return size_; }
   [[nodiscard]] uint64_t countOf(const char* array) const;
-  /// Item `index` of an array of the document, for example of "nodes".
+  /// Item of an array of the document, for example of "nodes".
   [[nodiscard]] const GltfJson& item(const char* array, uint64_t index, std::string_view where) const;
 
-  /// The accessor of the given index, opened for vectors of three numbers or for indices.
+  /// Opens the accessor of the given index for vectors of three numbers, or for indices.
   [[nodiscard]] GltfAccessor vectors(uint64_t accessor) const;
   [[nodiscard]] GltfAccessor indices(uint64_t accessor) const;
 

@@ -1,7 +1,7 @@
 // glTF 2.0 (Khronos), as .glb or as .gltf with embedded data: the meshes of the default scene, placed by its nodes. The
 // mesh of a node is a part. Vertices of a part at the same point become one, because glTF splits vertices where normals
 // or texture coordinates differ. Positions may have any type of KHR_mesh_quantization. The reader ignores materials,
-// textures, cameras and animations; Mesh::skipped lists other content that it leaves out. No other file is opened.
+// textures, cameras and animations. Mesh::skipped lists other ignored content. Other files are not opened.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,7 +23,6 @@ namespace {
 
 enum GltfMode : uint64_t { kPoints = 0, kLines, kLineStrip = 3, kTriangles, kTriangleStrip, kTriangleFan };
 
-/// A primitive: its vertices, and the indices of its corners.
 struct GltfPrimitive {
   uint64_t mode = kTriangles;
   GltfAccessor positions;
@@ -116,7 +115,7 @@ class GltfReader {
              const Work& work) {
     const std::string where = fmt::format("node {}", index);
     const GltfJson& node = file_.item("nodes", index, "scene");
-    if (isVisited[index]++ != 0) failInput(fmt::format("{} has two parents; nodes are trees", where));
+    if (isVisited[index]++ != 0) failInput(fmt::format("{} has two parents; nodes must form trees", where));
     Placement placement = outer.after(placementOf(node, where));
     if (!placement.isFinite()) failInput(fmt::format("{}: its transform overflows", where));
     if (const GltfJson* const extensions = gltfMember(node, "extensions", where))
@@ -126,7 +125,7 @@ class GltfReader {
     if (gltfMember(node, "mesh", where) != nullptr) {
       const uint64_t mesh = gltfWhole(node, "mesh", std::nullopt, where);
       (void)file_.item("meshes", mesh, where);
-      // The joints place a mesh with a skin; its node does not.
+      // The joints place a mesh with a skin; the node of the mesh does not.
       const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
       skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
       morphCount_ += isFirstPass_ && (hasWeights(node) || hasWeights(file_.item("meshes", mesh, where))) ? 1 : 0;
@@ -135,7 +134,7 @@ class GltfReader {
     path.push_back({index, 0, placement});
   }
 
-  /// Whether morph targets change the shape. By default they do not.
+  /// Whether morph targets change the shape.
   static bool hasWeights(const GltfJson& json) {
     const GltfJson* const weights = gltfArray(json, "weights", "weights");
     return weights != nullptr &&
@@ -165,7 +164,7 @@ class GltfReader {
     }
     for (uint64_t node = 0; node < isChild.size(); ++node)
       if (isChild[node] == 0) roots.push_back(node);
-    if (roots.empty() && !isChild.empty()) failInput("every node is a child of another; nodes are trees");
+    if (roots.empty() && !isChild.empty()) failInput("every node is a child of another; nodes must form trees");
     return roots;
   }
 

@@ -1,4 +1,4 @@
-// NumPy's .npy, version 1.0, with the first field of a result: shape (n,) or (n, 3), type '<f4', '|u1' or '<u4'.
+// NumPy's .npy, version 1.0: the first field of a result, with shape (n,) or (n, 3) and type '<f4', '|u1' or '<u4'.
 #include "io/npy_file.h"
 
 #include <fmt/core.h>
@@ -17,7 +17,7 @@ namespace asdfvk {
 namespace {
 
 constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);  // The last two bytes are version 1.0.
-constexpr size_t kPrefixSize = 10;                          // The magic and the size of the rest of the header.
+constexpr size_t kPrefixSize = 10;                          // The magic and the size of the remaining header.
 // One entry for each alternative of Field::Values.
 constexpr std::array<std::string_view, 3> kTypes{"<f4", "|u1", "<u4"};
 constexpr std::array<uint64_t, 3> kEntrySizes{4, 1, 4};

@@ -14,7 +14,6 @@ namespace asdfvk {
 /// The header; its size is a multiple of 64 bytes.
 [[nodiscard]] std::string npyHeader(const Field& field);
 [[nodiscard]] uint64_t npyEntriesSize(const Field& field);
-/// Calls put with successive parts of the entries.
 void putNpyEntries(const Field& field, const std::function<void(std::span<const char>)>& put);
 
 }  // namespace asdfvk

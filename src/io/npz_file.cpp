@@ -1,6 +1,6 @@
 // NumPy's .npz: an uncompressed zip archive (APPNOTE.TXT of PKWARE, 4.3) with a member FIELD.npy per field. The comment
 // of a member is "face" or "vertex". A vertex field with the name of a face field is the member vertex_FIELD.npy with
-// the comment "vertex FIELD". The file has the members, each after its local header, and then the central directory.
+// the comment "vertex FIELD". The central directory follows the members and their local headers.
 #include <fmt/core.h>
 #include <zlib.h>
 
@@ -20,15 +20,15 @@ namespace {
 
 constexpr uint32_t kLocalSignature = 0x04034b50, kCentralSignature = 0x02014b50, kEndSignature = 0x06054b50;
 constexpr uint64_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22;
-// The comment of a member that does not have the name of its field starts with this word.
+// First word of the comment if the names of member and field differ.
 constexpr std::string_view kRenamed = "vertex ";
 constexpr uint16_t kZipVersion = 20;
-// 1980-01-01, the first date of the format. With the current date the bytes of a result would vary.
+// 1980-01-01, the first date of the format. The current date would make the bytes of a result vary.
 constexpr uint16_t kFirstDate = 0x21;
 
-/// CRC-32 of a part. For several parts, `earlier` is the checksum of the previous parts.
+/// earlier: the checksum of the previous parts.
 uint32_t checksumOf(std::span<const char> part, uint32_t earlier = 0) {
-  if (part.empty()) return earlier;  // At a null pointer zlib would start again.
+  if (part.empty()) return earlier;  // zlib would start again at a null pointer.
   return static_cast<uint32_t>(::crc32_z(earlier, reinterpret_cast<const Bytef*>(part.data()), part.size()));
 }
 
@@ -59,7 +59,7 @@ void putCentralHeader(AtomicFile& file, const ZipMember& member) {
   file.write(member.kind);
 }
 
-/// Members with their names and kinds; the other numbers are not yet set.
+/// The sizes and checksums are not yet set.
 std::vector<ZipMember> namedMembers(FieldReferences fields) {
   std::set<std::string_view> faceNames;
   for (const Field& field : fields)

@@ -1,5 +1,5 @@
-// Wavefront OBJ: the statements `v` and `f`. The reader ignores the other statements of the format and opens no file
-// that a statement names, for example mtllib. The statement `call` and unknown statements are errors.
+// Wavefront OBJ: the statements `v` and `f`. The reader ignores the other statements of the format, and opens no file
+// that a statement such as mtllib names. The statement `call` and unknown statements are errors.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class ObjReader {
 
   Mesh read() {
     while (!text_.atEnd()) readStatement();
-    // A face may refer to later vertices, so positive indices are checked at the end of the file.
+    // Positive indices are checked at the end of the file, because a face may refer to later vertices.
     if (highestIndex_ > mesh_.vertices.size())
       failAtLine(highestIndexLine_, fmt::format("vertex index {} is out of range; the mesh has {}, numbered from 1",
                                                 highestIndex_, counted(mesh_.vertices.size(), "vertex", "vertices")));

@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices, each with a colour, and the faces in file order. Each part has a material (usemtl); a second
-// file defines the materials. OBJ cannot store the values of fields.
+// Wavefront OBJ: vertices with colours, and the faces in file order. Each part has a material (usemtl), which a second
+// file defines. OBJ cannot store the values of fields.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace asdfvk {
 namespace {
 
-/// For example "part_3": some readers end a name at a blank.
+/// For example "part_3". Some readers end a name at a blank.
 std::string materialOf(uint32_t part) {
   std::string name = nameOfPart(part);
   std::replace(name.begin(), name.end(), ' ', '_');

@@ -1,6 +1,6 @@
-// The Object File Format of Geomview in ASCII: the keyword [ST][C][N]OFF, which may be missing, the counts, one vertex
-// per line, and the faces. The numbers after the coordinates of a vertex (texture coordinates, a colour, a normal) must
-// agree with the prefixes of the keyword and are ignored. The colour of a face, up to four numbers, is ignored too.
+// The Object File Format of Geomview in ASCII: the optional keyword [ST][C][N]OFF, the counts, one vertex per line, and
+// the faces. The numbers after the coordinates of a vertex (texture coordinates, a colour, a normal) must agree with
+// the prefixes of the keyword, but are ignored. The colour of a face, up to four numbers, is ignored too.
 #include <fmt/core.h>
 
 #include <optional>
@@ -14,7 +14,7 @@
 namespace asdfvk {
 namespace {
 
-/// The keyword of an OFF file and the numbers that it announces after the coordinates of each vertex.
+/// The keyword of an OFF file, and the numbers after the coordinates of each vertex.
 struct OffHeader {
   std::string_view keyword = "OFF";
   bool hasColours = false;          ///< 3 or 4 numbers.
@@ -28,8 +28,8 @@ struct OffHeader {
   }
 };
 
-/// Accepts a digit directly after the keyword ("OFF3 1 0" occurs in files). Accepts the prefixes in any order, because
-/// programs write different orders and the order has no effect here.
+/// Accepts a digit directly after the keyword ("OFF3 1 0" occurs in files), and prefixes in any order, because programs
+/// write different orders.
 std::optional<OffHeader> parseKeyword(std::string_view word) {
   const size_t at = word.find("OFF");
   if (at == std::string_view::npos) return std::nullopt;
@@ -82,7 +82,6 @@ uint64_t readCount(TextScanner& text, std::string_view name) {
   return static_cast<uint64_t>(count);
 }
 
-/// Skips the remaining numbers of the line and returns their count.
 uint64_t skipNumbersOnLine(TextScanner& text, std::string_view expected) {
   uint64_t count = 0;
   for (; !text.atLineEnd(); ++count) static_cast<void>(text.number(expected));
@@ -138,8 +137,9 @@ Mesh parseOff(std::span<const char> bytes) {
   const uint64_t faceCount = readCount(text, "the face count");
   if (!text.atLineEnd()) static_cast<void>(readCount(text, "the edge count"));
   text.requireLineEnd("the counts");
-  // The shortest vertex has six bytes, "0 0 0\n"; the shortest face has two, "0\n". The last line may lack its line
-  // break.
+  // The shortest vertex has six bytes, "0 0 0
+  // ", the shortest face two, "0
+  // ". The last line may have no line break.
   const uint64_t remaining = text.remaining() + 1;
   if (vertexCount > remaining / 6 || faceCount > (remaining - 6 * vertexCount) / 2)
     failAtLine(text.line(), fmt::format("{} and {} do not fit into the remaining {}; "

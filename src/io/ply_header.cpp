@@ -184,7 +184,7 @@ class HeaderParser {
     header_.vertexCount = assignRoles(header_.elements);
   }
 
-  /// Bytes of the next line break. Where lines end with CR alone, an LF after end_header is the first byte of the body.
+  /// Bytes of the next line break. If lines end with CR alone, an LF after end_header belongs to the body.
   [[nodiscard]] uint64_t breakLength() const {
     if (text_.remaining() == 0) return 0;
     const char* at = text_.position();

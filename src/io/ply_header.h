@@ -15,7 +15,6 @@ class ResultView;
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
-/// Bytes of a number of this type in a binary file.
 [[nodiscard]] constexpr uint64_t sizeOf(PlyType type) {
   constexpr std::array<uint8_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
   return kSizes[static_cast<size_t>(type)];
@@ -40,7 +39,6 @@ struct PlyElement {
   std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};  ///< Properties x, y, z of Vertices.
   size_t indices = kNoProperty;  ///< Property vertex_indices or vertex_index of Faces and Strips.
 
-  /// Lower bound of the bytes of one row.
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const;
 };
 
@@ -52,10 +50,9 @@ struct PlyHeader {
   uint64_t vertexCount = 0;          ///< Below 2^32.
 };
 
-/// Reads and checks the header. Throws Error{UnreadableInput} with the line. Names are views into `bytes`.
+/// Throws Error{UnreadableInput} with the line. Names are views into `bytes`.
 [[nodiscard]] PlyHeader parsePlyHeader(std::span<const char> bytes);
 
-/// FileFormat::write of PLY.
 void writePly(AtomicFile& file, const ResultView& result);
 
 }  // namespace asdfvk

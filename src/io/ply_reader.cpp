@@ -1,6 +1,6 @@
 // PLY 1.0 (Turk 1994): a header (ply_header.h), then the rows of its elements, in ASCII or in binary of either byte
-// order (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and one or both of the
-// elements `face`, with the list vertex_indices or vertex_index, and `tristrips`. Elements may be in any order. The
+// order (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and at least one of the
+// elements `face` (with the list vertex_indices or vertex_index) and `tristrips`. Elements may be in any order. The
 // reader ignores all other elements and properties. In ASCII each row begins on a new line.
 #include <fmt/core.h>
 
@@ -19,8 +19,8 @@ namespace asdfvk {
 namespace {
 
 /// Converts the vertex indices of a strip to triangles: each index after the second forms a triangle with its two
-/// predecessors. Every other triangle is reversed, so that all have the winding of the first. Triangles with a repeated
-/// vertex only connect strips and are not faces.
+/// predecessors. Every second triangle is reversed, so that all triangles have the winding of the first. Triangles with
+/// a repeated vertex only connect strips and are not faces.
 class TriangleStrip {
  public:
   explicit TriangleStrip(InputFaces& faces) : faces_(faces) {}
@@ -45,8 +45,7 @@ class TriangleStrip {
   uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
 };
 
-/// Reads the rows of all elements. Allocates memory for an element only after its count has been checked against the
-/// rest of the file.
+/// Reads the rows of all elements. Compares the count of an element with the rest of the file, then allocates memory.
 template <typename Source>
 class PlyBody {
  public:

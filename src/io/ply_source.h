@@ -14,7 +14,7 @@
 
 namespace asdfvk {
 
-/// The number of type T at `at`, unaligned, in the byte order of the file.
+/// at: may be unaligned.
 template <typename T, bool kIsSwapped>
 [[nodiscard]] T loadScalar(const char* at) {
   std::array<char, sizeof(T)> bytes;
@@ -24,7 +24,7 @@ template <typename T, bool kIsSwapped>
   return std::bit_cast<T>(bytes);
 }
 
-/// The number at `at`, of the given type, as double or int64_t; both hold every value of the integer types.
+/// double and int64_t hold every value of the integer types.
 template <typename Out, bool kIsSwapped>
 [[nodiscard]] Out loadPly(const char* at, PlyType type) {
   switch (type) {
@@ -45,24 +45,22 @@ template <typename Out, bool kIsSwapped>
     case PlyType::Float64:
       break;
   }
-  // After the switch: with a default case for values that are no PlyType, GCC 14 would warn of reads beyond the array
-  // of sizeOf().
+  // This type is read after the switch, because a default case would cause a warning of GCC 14.
   return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
 }
 
-// PlyAsciiSource and PlyBinarySource read the numbers after a PLY header and have the same interface. expected: the
-// name of the number, for the error message of a truncated file. fail() reports the position of the last number.
+// PlyAsciiSource and PlyBinarySource read the numbers after a PLY header through the same functions. expected: name of
+// the number in the error message of a truncated file. fail() reports the position of the last number.
 
-/// Rows of text. A row may continue on further lines, but every row begins on a new line, so that an error message
-/// names the line of a row with a wrong number of values.
+/// Rows of text. A row may continue on further lines, but begins on a new line: thus an error message names the line of
+/// a row with a wrong number of values.
 class PlyAsciiSource {
  public:
   PlyAsciiSource(std::span<const char> bytes, const PlyHeader& header)
       : text_(bytes.subspan(header.bodyOffset), {}, header.bodyLine) {}
 
   [[nodiscard]] uint64_t remaining() const { return text_.remaining(); }
-  /// Whether the rest of the file can hold `count` rows of at least minRowSize bytes; the last row may lack its line
-  /// break.
+  /// Whether the rest of the file can hold `count` rows of at least minRowSize bytes. The last row needs no line break.
   [[nodiscard]] bool canHoldRows(uint64_t count, uint64_t minRowSize) const {
     return count <= (text_.remaining() + 1) / minRowSize;
   }
@@ -85,7 +83,7 @@ class PlyAsciiSource {
   TextScanner text_;
 };
 
-/// Rows of bytes. kIsSwapped: the byte order of the file is not the byte order of the host.
+/// kIsSwapped: the byte orders of file and host differ.
 template <bool kIsSwapped>
 class PlyBinarySource {
  public:

@@ -54,7 +54,7 @@ class RowWriter {
   bool isFirst_ = true;
 };
 
-/// The fields of an element: the main field as `quality`, the colours of the shown field, the other fields by name.
+/// Columns of an element: the main field as `quality`, the colours of the shown field, the other fields by name.
 class ElementFields {
  public:
   ElementFields(const ResultView& result, FieldLocation location, std::initializer_list<std::string_view> reservedNames)
@@ -80,7 +80,6 @@ class ElementFields {
   }
 
   void writeProperties(AtomicFile& file) const {
-    // One entry for each alternative of Values.
     constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};
     if (main_ != nullptr) file.write("property float quality\n");
     if (!colours_.empty())

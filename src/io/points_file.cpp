@@ -1,5 +1,5 @@
-// Skeleton points as a binary PLY with the element `vertex`: double x y z, float radius, and uint part where there are
-// segments. Or skeleton points as trees in SWC, the text format of neurons (Cannon et al. 1998).
+// Writes skeleton points: as a binary PLY with the element `vertex` (double x y z, float radius, and uint part if there
+// are segments), or as trees in SWC, the text format of neurons (Cannon et al. 1998).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void writePly(AtomicFile& file, std::span<const SkeletonPoint> points, const Fie
   }
 }
 
-/// Writes trees with one root each. The root is the point with the greatest radius, where a neuron has its body.
+/// Each tree has one root: the point with the greatest radius, where a neuron has its body.
 class SwcWriter {
  public:
   explicit SwcWriter(AtomicFile& file) : file_(file) {
@@ -108,8 +108,8 @@ class SwcWriter {
   int64_t id_ = 0;
 };
 
-/// A tree per component, in the order of the first points of the components. Points without a radius, which occur where
-/// walls touch, are left out.
+/// A tree per component, in the order of the first points of the components. Omits points of radius 0, which occur
+/// where walls touch.
 void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* component) {
   std::erase_if(points, [](const SkeletonPoint& point) { return !(point.radius > 0); });
   const auto componentOf = [&](const SkeletonPoint& point) {

@@ -28,7 +28,6 @@ constexpr std::array<Rgba, 12> kPartColours{{{78, 121, 167, 255},
                                              {121, 112, 110, 255}}};
 constexpr Rgba kUnsetColour{210, 209, 204, 255}, kSetColour{31, 85, 160, 255};
 
-/// Converts a field on the faces to a field on the vertices.
 Field onVertices(const ResultView& result, const Field& field) {
   Field moved{.name = field.name, .location = FieldLocation::PerVertex};
   std::visit(

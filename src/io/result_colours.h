@@ -10,18 +10,16 @@
 
 namespace asdfvk {
 
-/// The colour of a part: one of twelve colours, or for later parts a darker shade of one. Grey for no part
-/// (4294967295).
+/// One of twelve colours; for later parts, a darker shade of one. Grey for no part (4294967295).
 [[nodiscard]] Rgba colourOfPart(uint32_t part);
 /// For example "part 3"; "no part" for 4294967295.
 [[nodiscard]] std::string nameOfPart(uint32_t part);
 
-/// The colour of each entry of a field of one component: real numbers by the colour map over percentileRange(), labels
-/// by colourOfPart(), flags in blue where they are set.
+/// The colour of each entry of a field of one component. Real numbers have the colours of the colour map over
+/// percentileRange(), labels the colours of colourOfPart(); set flags are blue.
 [[nodiscard]] std::vector<Rgba> coloursOf(const Field& field);
 
-/// The colours of coloursOf(), one per vertex. For a field per face, a vertex has the mean value or the least label of
-/// its faces.
+/// coloursOf() per vertex. From a field per face, a vertex gets the mean value or the least label of its faces.
 [[nodiscard]] std::vector<Rgba> vertexColoursOf(const ResultView& result, const Field& field);
 
 /// The linear light of a screen colour (sRGB, IEC 61966-2-1); 0 to 1 for each channel.

@@ -1,6 +1,6 @@
 // STL, in ASCII or binary. A binary file is recognised by the exact size that its face count implies. STL has no
 // indices, so corners at the same point become one vertex; otherwise no face would have a neighbour. The reader ignores
-// normals and attribute bytes; the vertex order decides which side is outside.
+// normals and attribute bytes: the order of the corners decides which side is outside.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -30,8 +30,8 @@ uint64_t binaryFaceCount(std::span<const char> bytes) {
   return count;
 }
 
-/// Whether the size is exactly that of a binary STL. No text has this size: four printable bytes would be a huge face
-/// count.
+/// Whether the size is exactly that of a binary STL. A text never has this size: four printable bytes at the place of
+/// the face count would be a huge count.
 bool hasBinarySize(std::span<const char> bytes) {
   return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + binaryFaceCount(bytes) * kFaceSize;
 }
@@ -83,7 +83,7 @@ void requireKeyword(TextScanner& text, std::string_view keyword) {
 
 Face readFacet(TextScanner& text, CornerWelder& welder) {
   requireKeyword(text, "normal");
-  // Not read as numbers: some programs write words such as 1.#IND for the normal of a face without area.
+  // The normal may have any words: some programs write 1.#IND for a face of zero area.
   for (int i = 0; i < 3; ++i) static_cast<void>(text.word("a number of the normal"));
   requireKeyword(text, "outer");
   requireKeyword(text, "loop");

@@ -16,33 +16,30 @@
 // Representation of fields in files (names, columns of single components, numbers), and the arguments of a writer.
 namespace asdfvk {
 
-/// Fields selected for a writer.
 using FieldReferences = std::span<const std::reference_wrapper<const Field>>;
 
-/// One component of a field, for formats without vectors: a property of PLY, a column of CSV.
+/// A column for one component of a field, in formats without vectors (PLY, CSV).
 struct FieldColumn {
   std::string name;  ///< The name of the field, followed by _x, _y or _z if it has three components.
   const Field* field = nullptr;
   uint32_t component = 0;
 
-  /// Calls put(entry) with the entry of a face or vertex, a double, uint8_t or uint32_t.
   template <typename Put>
   void putEntry(uint64_t item, Put put) const {
     std::visit([&](const auto& entries) { put(entries[item * field->componentCount + component]); }, field->values);
   }
 };
 
-/// The columns of the fields at `location`, in order, except the field `omitted`. Throws Error{OptionConflict} for two
-/// columns of the same name and for a reserved name.
+/// The columns of the fields at `location`, in order, without the field `omitted`. Throws Error{OptionConflict} if two
+/// columns have the same name, and for a reserved name.
 [[nodiscard]] std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                                  std::initializer_list<std::string_view> reservedNames);
 
-/// An entry as float32 for formats without NaN: 0 for no value.
+/// Formats without NaN store 0 for no value.
 [[nodiscard]] inline float withoutNan(double value) { return value == value ? static_cast<float>(value) : 0.0f; }
 [[nodiscard]] inline uint8_t withoutNan(uint8_t value) { return value; }
 [[nodiscard]] inline uint32_t withoutNan(uint32_t value) { return value; }
 
-/// How a writer shows a result; see WriteOptions.
 struct ResultStyle {
   bool isAscii = false;
   std::string colourOf = {};
@@ -52,7 +49,7 @@ struct ResultStyle {
 /// The arguments of a writer: a mesh of input faces and the fields on it.
 class ResultView {
  public:
-  /// names: the fields to write, in this order and of both locations; if empty, all fields. Throws Error{UnknownField}
+  /// names: the fields to write, in this order and at both locations; if empty, all fields. Throws Error{UnknownField}
   /// for a name that no field has; Error{OptionConflict} for a field with an invalid or repeated name, with other than
   /// 1 or 3 components, or with a size that does not fit the mesh; the errors of requireValidArrays() for an invalid
   /// mesh. The arrays must outlive the view.
@@ -90,7 +87,7 @@ class ResultView {
     for (const float coordinate : mesh_.floats()) put(static_cast<T>(coordinate));
   }
 
-  /// The field that viewers show by default: the first field at `location` with real values and one component.
+  /// The default field of viewers: the first field at `location` with real values and one component.
   [[nodiscard]] const Field* mainField(FieldLocation location) const;
 
  private:

@@ -12,15 +12,15 @@ struct TextSyntax {
   bool backslashContinues = false;  ///< A backslash directly before a line break joins the two lines.
 };
 
-/// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Words are views into `bytes`. A
-/// missing word, or a word that is not a number, throws Error{UnreadableInput} with the line and `expected`, the name
-/// of the expected item, which may contain words of the file.
+/// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Words are views into `bytes`.
+/// expected: name of an item, which may contain words of the file. If the item is missing or is not a number, functions
+/// throw Error{UnreadableInput} with the line and `expected`.
 class TextScanner {
  public:
   /// Skips a UTF-8 byte order mark at the beginning.
   explicit TextScanner(std::span<const char> bytes, TextSyntax syntax = {}, uint64_t firstLine = 1);
 
-  /// The line of the last word, or of the position that a look-ahead reached.
+  /// The line of the last word, or of the end of a look-ahead.
   [[nodiscard]] uint64_t line() const { return line_; }
   [[nodiscard]] const char* position() const { return at_; }
   [[nodiscard]] uint64_t remaining() const { return static_cast<uint64_t>(end_ - at_); }
@@ -41,17 +41,15 @@ class TextScanner {
 
   /// The next word of this line; empty where there is none.
   [[nodiscard]] std::string_view wordOnLine() { return atLineEnd() ? std::string_view() : scanWord(); }
-  /// The next word, on this line or a later one.
   [[nodiscard]] std::string_view word(std::string_view expected);
-  /// The next word as a number: decimal, with or without exponent, or inf or nan. A number below the range of double
-  /// becomes 0; a number above it is an error.
+  /// Decimal, with or without exponent, or inf or nan. Numbers below the range of double are 0, numbers above are
+  /// errors.
   [[nodiscard]] double number(std::string_view expected);
-  /// The next word as a 64-bit integer.
   [[nodiscard]] int64_t integer(std::string_view expected);
 
-  /// Throws if the line has another word. after: the item before it, for the message.
+  /// after: the preceding item, for the message.
   void requireLineEnd(std::string_view after);
-  /// Throws if the text has another word. after: the item before it, for the message.
+  /// after: the preceding item, for the message.
   void requireEnd(std::string_view after);
   void skipLine();
   /// Precondition: the next byteCount bytes belong to one word.
@@ -97,7 +95,7 @@ class TextScanner {
   uint64_t line_;
 };
 
-/// The first word of a text; empty where there is none.
+/// Empty if the text has no word.
 [[nodiscard]] std::string_view firstWord(std::span<const char> bytes, char comment = '\0');
 
 }  // namespace asdfvk

@@ -1,7 +1,7 @@
 // 3MF (core specification 1.3, production extension 1.1): the objects of the build items, with their components and
-// transforms, in the unit of the file. An item is a part, and so is each component of it. Colours, materials and
-// metadata are ignored. Supports and beam lattices are left out; Mesh::skipped lists them. The reader opens files
-// within the archive only.
+// transforms, in the unit of the file. Each item is a part, and each of its components too. Colours, materials and
+// metadata are ignored. Supports and beam lattices are left out; Mesh::skipped lists them. Only files within the
+// archive are opened.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ constexpr std::array<UnitRow, 6> kModelUnits{
     {{"millimeter", "mm"}, {"micron", "um"}, {"centimeter", "cm"}, {"meter", "m"}, {"inch", "in"}, {"foot", "ft"}}};
 double micrometresOf(const UnitRow& row) { return findLengthUnit(row.unit)->micrometres; }
 
-/// An object that a build item places, or that is a component of another object.
+/// An object that is placed by a build item or is a component of another object.
 struct ObjectUse {
   size_t model = 0;
   uint64_t object = 0;
@@ -51,7 +51,6 @@ struct ModelObject {
   bool isSupport = false;
 };
 
-/// A model file of the archive.
 struct ModelFile {
   std::string path;
   const UnitRow* unit = kModelUnits.data();
@@ -59,7 +58,6 @@ struct ModelFile {
   std::vector<ObjectUse> items;
 };
 
-/// Counts that are the same in all instances of an object.
 struct ObjectCounts {
   uint64_t vertices = 0, faces = 0;
   uint32_t height = 1;  ///< Levels of components, the object included.
@@ -73,10 +71,10 @@ class ThreeMfReader {
 
   Mesh read();
 
-  /// The index of the model at a path within the archive. The model is read later.
+  /// The index of the model at a path within the archive. The model is not read yet.
   size_t modelAt(std::string_view path);
   [[nodiscard]] ModelFile& model(size_t index) { return models_[index]; }
-  /// Counts memory against the limit of instances. Throws Error{InputTooLarge} beyond it.
+  /// Adds to the memory of all instances. Throws Error{InputTooLarge} above the limit.
   void charge(uint64_t bytes);
   void countLattice() { ++latticeCount_; }
 
@@ -97,7 +95,6 @@ class ThreeMfReader {
   uint64_t chargedBytes_ = 0, latticeCount_ = 0, supportCount_ = 0;
 };
 
-/// Reads one model file.
 class ModelReader {
  public:
   ModelReader(ThreeMfReader& archive, size_t index, XmlScanner& xml) : archive_(archive), index_(index), xml_(xml) {}
@@ -121,7 +118,7 @@ class ModelReader {
 
  private:
   ModelFile& model() { return archive_.model(index_); }
-  /// Whether the current element is `name` of the core specification; several prefixes may stand for its namespace.
+  /// Whether the current element is `name` of the core specification. Several prefixes may stand for its namespace.
   [[nodiscard]] bool isCore(std::string_view name) const {
     const std::string_view found = xml_.name();
     if (!found.ends_with(name)) return false;
@@ -295,8 +292,8 @@ class ModelReader {
     xml_.skipElement();
   }
 
-  /// The specification requires shared vertices, but some writers split them, as STL does. Faces would then have no
-  /// neighbours.
+  /// Joins equal vertices if the mesh is open. Some writers split vertices, which the specification forbids; faces
+  /// would then have no neighbours.
   static void weldIfOpen(PartMesh& mesh) {
     TriangleMesh view;
     view.vertices = mesh.vertices;
@@ -318,7 +315,7 @@ class ModelReader {
 
 void ThreeMfReader::charge(uint64_t bytes) {
   chargedBytes_ += bytes;
-  constexpr uint64_t kMaxBytesPerByte = 20;  // Arrays that grow take three times their size for a moment.
+  constexpr uint64_t kMaxBytesPerByte = 20;  // Growing arrays need three times their size for a moment.
   const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * archive_.bytes().size());
   if (chargedBytes_ > limit)
     throw Error(ErrorCode::InputTooLarge, fmt::format("its mesh needs more than {} MiB of memory", limit >> 20));

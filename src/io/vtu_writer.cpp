@@ -1,4 +1,4 @@
-// VTK's unstructured grid in XML, with arrays as inline base64: PointData and CellData of Float32, UInt8 and UInt32.
+// VTK's unstructured grid in XML with inline base64: PointData and CellData of Float32, UInt8 and UInt32.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -61,8 +61,7 @@ class VtuWriter {
   }
 
  private:
-  /// Calls `emit` with a function that writes one entry. `emit` passes the `count` entries of the array to it, in
-  /// order.
+  /// emit(put) calls put(entry) for each of the `count` entries, in order.
   template <typename T, typename Emit>
   void writeArray(const std::string& attributes, uint64_t count, Emit emit) {
     file_.write(fmt::format("<DataArray type=\"{}\" {} format=\"binary\">", vtkTypeName<T>(), attributes));
@@ -96,7 +95,7 @@ class VtuWriter {
     });
   }
 
-  /// Writes no element where no field has that location.
+  /// Writes nothing if no field has that location.
   void writeFields(std::string_view element, FieldLocation location) {
     const auto isHere = [&](const Field& field) { return field.location == location; };
     if (std::none_of(result_.fields().begin(), result_.fields().end(), isHere)) return;

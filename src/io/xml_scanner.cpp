@@ -44,7 +44,7 @@ void XmlScanner::fail(std::string_view reason) const {
   failInput(fmt::format("{}, byte {}: {}", printable(document_), tagOffset_, reason));
 }
 
-/// Reads more bytes behind the unread ones. Returns false at the end of the document.
+/// Reads more bytes after the unread bytes. Returns false at the end of the document.
 bool XmlScanner::fill() {
   if (isAtEnd_) return false;
   buffer_.erase(0, at_);

@@ -10,25 +10,23 @@
 
 namespace asdfvk {
 
-/// Reads the tags of an XML document in pieces and skips the text between them. Rejects UTF-16, malformed documents,
-/// and document types, so that entities cannot be defined. Memory: some 100 KB.
+/// Reads the tags of an XML document in pieces and skips the text between the tags. Rejects UTF-16, malformed
+/// documents, and document types, which could define entities. Memory: some 100 KB.
 class XmlScanner {
  public:
   /// Reads up to `size` bytes; fewer only at the end of the document.
   using Read = std::function<size_t(char* to, size_t size)>;
   enum class Event { Start, End, Finished };
 
-  /// name: the name of the document, for messages.
   XmlScanner(Read read, std::string name);
 
-  /// Reads the next tag. An empty element gives a Start and an End. Throws Error{UnreadableInput} with the byte.
+  /// An empty element gives a Start and an End. Throws Error{UnreadableInput} with the byte.
   Event next();
-  /// Skips the rest of the element whose start was the last event.
   void skipElement();
 
   /// The name of the last tag, with its prefix. Valid until next().
   [[nodiscard]] std::string_view name() const { return tagName_; }
-  /// The value of an attribute of the last start tag, as it is in the file. Valid until next().
+  /// An attribute of the last start tag, as it is in the file. Valid until next().
   [[nodiscard]] std::optional<std::string_view> attribute(std::string_view name) const;
   [[nodiscard]] const std::vector<std::pair<std::string_view, std::string_view>>& attributes() const {
     return attributes_;
@@ -57,12 +55,12 @@ class XmlScanner {
   uint64_t tagOffset_ = 0;
   bool isAtEnd_ = false, hasRoot_ = false, endsElement_ = false;
   std::vector<std::string> open_;
-  std::string tag_;  ///< The last tag. Names and values are views into it.
+  std::string tag_;  ///< The last tag; names and values are views into this text.
   std::string_view tagName_;
   std::vector<std::pair<std::string_view, std::string_view>> attributes_;
 };
 
-/// Decodes the five entities of XML and the references to a space. Returns nothing for other references.
+/// Decodes the five entities of XML and the references to a space. Empty for other references.
 [[nodiscard]] std::optional<std::string> xmlDecoded(std::string_view text);
 
 }  // namespace asdfvk

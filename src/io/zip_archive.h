@@ -8,7 +8,6 @@
 
 namespace asdfvk {
 
-/// A file in a ZIP archive.
 struct ZipEntry {
   std::string_view name;
   uint64_t headerOffset = 0;
@@ -18,15 +17,14 @@ struct ZipEntry {
   uint16_t method = 0;
 };
 
-/// The directory of a ZIP archive (PKWARE APPNOTE 6.3, with ZIP64; stored and deflated files). Throws
-/// Error{UnreadableInput}.
+/// Reads the directory of a ZIP archive (PKWARE APPNOTE 6.3, with ZIP64). Throws Error{UnreadableInput}.
 class ZipArchive {
  public:
   /// The bytes must outlive the archive.
   explicit ZipArchive(std::span<const char> bytes);
 
   [[nodiscard]] std::span<const ZipEntry> entries() const { return entries_; }
-  /// The entry of that name, upper and lower case of ASCII letters being equal; null if there is none.
+  /// Ignores the case of ASCII letters. Null if there is no such entry.
   [[nodiscard]] const ZipEntry* find(std::string_view name) const;
   [[nodiscard]] std::span<const char> bytes() const { return bytes_; }
 
@@ -35,7 +33,7 @@ class ZipArchive {
   std::vector<ZipEntry> entries_;
 };
 
-/// Reads a file of an archive piece by piece. Verifies its size and checksum at its end.
+/// Reads a file of an archive piece by piece. Verifies size and checksum at the end.
 class ZipStream {
  public:
   /// The entry must outlive the stream. Throws Error{UnreadableInput} for an encrypted entry or an unknown method.
