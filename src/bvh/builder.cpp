@@ -15,14 +15,12 @@
 namespace asdfvk {
 namespace {
 
-// Faces per task.
 constexpr size_t kBlockFaceCount = 4096;
 
-// A float that is at or below d, and at or below d rounded to nearest. Branch-free: subtracts a bound of the rounding
-// error.
+// A float at or below d, and at or below d rounded to nearest. Branch-free: subtracts a bound of the rounding error.
 float roundedDown(double d) { return static_cast<float>(d - std::abs(d) * 0x1p-23 - 0x1p-149); }
 
-// The box contains the corners both in double and rounded to float.
+// The box contains the corners both in double and after rounding to float.
 SplitBox outerBox(const TriangleMesh& mesh, const Face& face, const Normalization& normalization) {
   const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
   const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
@@ -42,7 +40,6 @@ bool isFinite(const SplitBox& box) {
   return finite;
 }
 
-// The faces of the hierarchy, ascending.
 UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                             std::span<const uint32_t> representatives,
                                             const Normalization& normalization) {
@@ -68,27 +65,27 @@ UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const Face
   return triangles;
 }
 
-/// A part of the hierarchy under construction: either an inner node with two children, or a finished run of nodes.
+/// A part of the hierarchy under construction: an inner node with two children, or a finished run of nodes.
 struct Subtree {
   std::unique_ptr<Subtree> left, right;  ///< Both are set or both are null.
   SplitBox box;
-  /// Set if there are no children. The root is first; child indices are relative to this run.
+  /// Set if there are no children. The first node is the root. Child indices are relative to the run.
   std::vector<BvhNode> nodes;
   uint32_t depth = 0;    ///< Levels below the root of the subtree.
   size_t nodeCount = 0;  ///< All nodes of the subtree, root included.
 };
 
-// Parts up to this size are built by one thread, into one run of nodes.
+// Parts up to this size become one run of nodes, built by one thread.
 constexpr size_t kSequentialTriangleCount = 4096;
 
-// Upper bound on the levels that median splits and small trees need for `count` triangles.
+// Upper bound of the levels that median splits and small trees need for `count` triangles.
 uint32_t levelsOfMedianSplits(size_t count) {
   const size_t smallTreeCount = (count + kMaxSmallTreeCount - 1) / kMaxSmallTreeCount;
   return static_cast<uint32_t>(std::bit_width(smallTreeCount - 1) + kMaxSmallTreeCount - 1);
 }
 
-// Reorders the triangles and returns the number on the left. SAH may separate a single triangle; median splits of the
-// rest must then stay within kMaxBvhDepth.
+// Reorders the triangles and returns the number on the left. SAH may separate a single triangle; then median splits of
+// the remaining triangles must stay within kMaxBvhDepth.
 size_t splitTriangles(std::span<SplitTriangle> triangles, uint32_t level, const BvhOptions& options) {
   if (levelsOfMedianSplits(triangles.size()) < kMaxBvhDepth - level) {
     const size_t leftCount = splitBySah(triangles, options.binCount);
@@ -102,7 +99,6 @@ class RunBuilder {
   RunBuilder(const BvhOptions& options, std::span<uint32_t> primitiveFaces, Subtree& run)
       : options_(options), primitiveFaces_(primitiveFaces), run_(run) {}
 
-  // Returns the box of the triangles.
   SplitBox build(size_t nodeIndex, std::span<SplitTriangle> triangles, uint32_t firstPrimitive, uint32_t level,
                  uint32_t depth) {
     if (triangles.size() <= options_.maxLeafTriangleCount && options_.maxLeafTriangleCount == kMaxLeafTriangleCount)
@@ -164,9 +160,9 @@ class RunBuilder {
   Subtree& run_;
 };
 
-/// Builds over `triangles`, which it reorders. primitiveFaces: the array of all primitives; its entries from
-/// `firstPrimitive` on are written, one per triangle. level: number of levels above this part. Large parts are separate
-/// tasks; the result does not depend on the number of threads.
+/// Builds over `triangles`, and reorders them. primitiveFaces: the array of all primitives; one entry per triangle is
+/// written, from `firstPrimitive` on. level: number of levels above this part. Large parts are separate tasks. The
+/// result does not depend on the number of threads.
 std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, std::span<uint32_t> primitiveFaces,
                                       uint32_t firstPrimitive, uint32_t level, const BvhOptions& options) {
   auto subtree = std::make_unique<Subtree>();
@@ -200,9 +196,9 @@ struct Placement {
   uint32_t index = 0, next = 0;
 };
 
-// Assigns destinations to the runs of a subtree and writes the nodes above them. The parent determines the index of a
-// node. The descendants of the node start at `next`: first the two children, then all nodes below the left child, then
-// all nodes below the right child. Returns the index after the subtree.
+// Assigns destinations to the runs of a subtree, and writes the nodes above the runs. The parent determines the index
+// of a node. The descendants of a node start at `next`: first its two children, then all nodes below the left child,
+// then all nodes below the right child. Returns the index after the subtree.
 uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::span<BvhNode> nodes,
                std::vector<Placement>& placements) {
   if (!subtree.left) {

@@ -13,10 +13,10 @@
 namespace asdfvk {
 
 /// 32 bytes. Boxes are in normalised coordinates and rounded outwards: a box contains the corners of its triangles both
-/// in double and rounded to float.
+/// in double and after rounding to float.
 struct BvhNode {
   Vec3f min;
-  uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: first primitive.
+  uint32_t first = 0;  ///< Inner: index of the left child; the right child follows. Leaf: first primitive.
   Vec3f max;
   uint32_t triangleCount = 0;  ///< 0 for an inner node.
 
@@ -31,7 +31,7 @@ struct Bvh {
   Normalization normalization;
 };
 
-/// Costs of the surface-area heuristic, relative to each other: entering a node (two box tests) and one triangle test.
+/// Relative costs of the surface-area heuristic: of a node (two box tests) and of a triangle test.
 inline constexpr float kNodeCost = 1.0f;
 inline constexpr float kTriangleCost = 1.0f;
 
@@ -44,9 +44,9 @@ struct BvhOptions {
   uint32_t binCount = 16;  ///< Bins per axis, 2 to 32. Small sets of triangles use fewer bins.
 };
 
-/// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count. The
-/// hierarchy contains the non-degenerate faces that are their own representative (see coincidentRepresentatives()).
-/// Faces with non-finite normalised corners, which occur in meshes as wide as the range of double, are left out.
+/// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
+/// Contains a face if it is not degenerate and is its own representative (see coincidentRepresentatives()). Omits faces
+/// with non-finite normalised corners, which occur in meshes as wide as the range of double.
 [[nodiscard]] Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry,
                            std::span<const uint32_t> representatives, const BvhOptions& options = {});
 

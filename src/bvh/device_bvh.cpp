@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-// Prefetch distance in primitives: faces of consecutive primitives may be far apart in memory.
+// In primitives. The faces of consecutive primitives may be far apart in memory.
 constexpr size_t kPrefetchDistance = 16;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
@@ -20,8 +20,8 @@ struct OctahedralNormal {
   float u, v;
 };
 
-// Branch-free: the side of the sphere is unpredictable. -0, which occurs in the normals of reversed faces, has the code
-// of 0.
+// Branch-free, because the sign of z is unpredictable. -0, which occurs in normals of reversed faces, has the code of
+// 0.
 OctahedralNormal encodeNormal(const Vec3d& n) {
   const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
   const double u = n.x * scale, v = n.y * scale;
@@ -52,7 +52,7 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveF
 }  // namespace
 
 uint64_t maxBlockCount(const Bvh& bvh) {
-  const uint64_t innerCount = bvh.nodes.size() / 2;  // Each inner node has two children, and becomes a node or a leaf.
+  const uint64_t innerCount = bvh.nodes.size() / 2;  // Each inner node has two children and becomes a node or a leaf.
   return std::max(std::max<uint64_t>(1, innerCount) * kWideNodeTexelCount,
                   uint64_t{bvh.primitiveFaces.size()} * kBvhTriangleTexelCount);
 }

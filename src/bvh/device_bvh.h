@@ -18,7 +18,7 @@ struct DeviceBvh {
 
 inline constexpr size_t kDeviceBlockByteCount = 16;  ///< A texel, or a uvec4 of a storage buffer.
 
-/// Upper bound of the number of blocks in the largest array that encodeDeviceBvh() returns.
+/// Upper bound of the block count of the largest array that encodeDeviceBvh() returns.
 [[nodiscard]] uint64_t maxBlockCount(const Bvh& bvh);
 
 [[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry);

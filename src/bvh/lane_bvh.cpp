@@ -14,7 +14,7 @@ constexpr float kBeyondAll = 4;  // Outside of the normalised box, which ends at
 
 constexpr uint32_t kNoNode = ~0u;
 
-/// Children of a node by slot: their binary nodes, and their references in LaneNode::children.
+/// Children of a node by slot. nodes: binary nodes. references: entries of LaneNode::children.
 struct LaneChildren {
   std::array<uint32_t, kBvhLaneCount> nodes, references;
 };

@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// Whether the box of a node is within a distance of another box on each axis.
+/// Whether the box of a node is within `distance` of another box on each axis.
 template <typename Box>
 [[nodiscard]] bool overlaps(const BvhNode& node, const Box& box, double distance = 0) {
   for (size_t axis = 0; axis < 3; ++axis)
@@ -15,8 +15,8 @@ template <typename Box>
   return true;
 }
 
-/// Calls visit(face) for each primitive face of each leaf for which reaches(node) is true. Precondition: reaches(node)
-/// is then true for all nodes above the leaf. Ends when visit() returns false.
+/// Calls visit(face) for each primitive face of each leaf for which reaches(node) is true, until visit() returns false.
+/// Precondition: reaches(node) is true for all nodes above a leaf for which it is true.
 template <typename Reaches, typename Visit>
 void forEachLeafFace(const Bvh& bvh, const Reaches& reaches, const Visit& visit) {
   std::array<uint32_t, kMaxBvhDepth + 1> stack;

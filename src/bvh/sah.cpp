@@ -9,8 +9,8 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxBinCount = 32;
-// Number of triangles in the sample, which has a constant stride. The best split of the sample is nearly as good as the
-// best split of all triangles.
+// Triangles of the sample, taken at a constant stride. The best split of the sample is nearly as good as the best split
+// of all triangles.
 constexpr size_t kSampleCount = 1024;
 
 struct Bin {
@@ -18,14 +18,14 @@ struct Bin {
   uint32_t count;
 };
 
-// Maps doubled centres to bins, per axis. An axis has factor 0 and cannot be split where the centres coincide, or are
-// so close that the factor overflows.
+// Maps doubled centres to bins, per axis. Factor 0 means that the axis cannot be split, because the centres coincide or
+// are so close that the factor would overflow.
 struct Binning {
   Float4 origin, factor{};
   uint32_t binCount = 0;
 
   Binning(const SplitBox& centres, uint32_t count) : origin(centres.lower), binCount(count) {
-    // Slightly less than the bin count, so that rounding moves no centre beyond the last bin.
+    // Slightly less than the bin count: then rounding moves no centre beyond the last bin.
     const float width = static_cast<float>(count) * (1 - 0x1p-20f);
     const Float4 extents = centres.extents();
     for (size_t axis = 0; axis < 3; ++axis)
@@ -34,16 +34,14 @@ struct Binning {
   [[nodiscard]] IntsOf<Float4> binsOf(const SplitBox& box) const {
     return __builtin_convertvector((box.doubledCentre() - origin) * factor, IntsOf<Float4>);
   }
-  // Position in units of bins; the integer part is the index of the bin. May be out of range for triangles that are not
-  // in the sample.
+  // Position in units of bins; the integer part is the bin index. May be out of range for triangles outside the sample.
   [[nodiscard]] float place(const SplitBox& box, size_t axis) const {
     return (box.doubledCentre(axis) - origin[axis]) * factor[axis];
   }
 };
 
 struct Candidate {
-  float cost =
-      std::numeric_limits<float>::infinity();  // Half area times triangle count; not divided by the parent's area.
+  float cost = std::numeric_limits<float>::infinity();  // Half area times triangle count.
   size_t axis = 0;
   uint32_t firstRightBin = 0;
 };
@@ -68,7 +66,6 @@ void takeBest(std::span<const Bin> bins, size_t axis, Candidate& best) {
   }
 }
 
-// The box of the doubled centres of every stride-th triangle.
 SplitBox boundCentres(std::span<const SplitTriangle> triangles, size_t stride) {
   SplitBox centres = SplitBox::empty();
   for (size_t i = 0; i < triangles.size(); i += stride) {

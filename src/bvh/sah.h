@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// A box during the build. Upper bounds are stored negated, so that growing the box takes two minimums.
+/// A box during the build. Upper bounds are stored negated, so that enlarging the box takes two minimums.
 struct SplitBox {
   Float4 lower, negatedUpper;
 
@@ -37,7 +37,7 @@ struct SplitBox {
   }
 };
 
-/// A triangle during the build, 32 bytes: its box, and its face in the unused lane of the lower corner.
+/// A triangle during the build, 32 bytes: its box, with its face in the unused lane of the lower corner.
 struct SplitTriangle {
   SplitBox box;
 
@@ -47,9 +47,9 @@ struct SplitTriangle {
 };
 static_assert(sizeof(SplitTriangle) == 32);
 
-/// Splits by the binned surface-area heuristic (Wald 2007), evaluated over a sample where there are many triangles.
-/// Reorders `triangles` and returns the number of triangles on the left, at least one and less than all. Returns 0
-/// without reordering where all centres of the sample coincide. binCount: per axis, 2 to 32.
+/// Splits by the binned surface-area heuristic (Wald 2007), for many triangles by a sample. Reorders `triangles` and
+/// returns the number of triangles on the left, at least one and less than all. If all centres of the sample coincide,
+/// returns 0 and does not reorder. binCount: per axis, 2 to 32.
 [[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount);
 
 /// Splits at the median of the centres along their widest axis; if all centres coincide, into halves in the given

@@ -11,11 +11,11 @@ namespace {
 
 using Nearest = std::array<int32_t, kMaxSmallTreeCount>;
 
-// Clusters that are not part of another cluster.
+// Clusters that are not merged yet.
 struct Clusters {
   uint32_t count = 0;
   std::array<uint8_t, kMaxSmallTreeCount> nodes;
-  std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // Laid out like SplitBox.
+  std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // The layout of SplitBox.
 
   void add(uint32_t node, const SplitBox& box) {
     nodes[count] = static_cast<uint8_t>(node);
@@ -27,8 +27,8 @@ struct Clusters {
   }
 };
 
-// Ties go to the first pair in the order of (smaller index, greater index), so that the first of the nearest pairs is
-// mutual.
+// Of pairs with equal distances, the first by (smaller index, greater index) counts. Therefore the first of the nearest
+// pairs is mutual.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline void findNearest(const Clusters& clusters, Nearest& nearest) {
   using Ints = IntsOf<Floats>;

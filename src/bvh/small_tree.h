@@ -14,13 +14,12 @@ inline constexpr size_t kMaxSmallTreeCount = kMaxLeafTriangleCount;
 
 /// A hierarchy over few triangles, built by agglomerative clustering (Meister and Bittner 2018, but with all clusters
 /// as candidates). Each pass merges the pairs of clusters that are mutual nearest neighbours. The distance of two
-/// clusters is the area of their common box. For so few triangles this clustering is faster than top-down splitting,
-/// and its tree has no higher cost.
+/// clusters is the area of their common box. For so few triangles, clustering is faster than top-down splitting, and
+/// the tree has no higher cost.
 class SmallTree {
  public:
-  /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount triangles becomes a leaf where that
-  /// does not raise the cost. All instruction sets give the same tree. Precondition: the processor has
-  /// `instructionSet`.
+  /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount triangles becomes a leaf unless that
+  /// raises the cost. All instruction sets give the same tree. Precondition: the processor has `instructionSet`.
   SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount,
             InstructionSet instructionSet = widestInstructionSet());
 
@@ -32,7 +31,7 @@ class SmallTree {
     bool isLeaf = true;
   };
   [[nodiscard]] uint32_t root() const { return root_; }
-  /// Nodes with an index below triangles.size() are single triangles, the others have two children.
+  /// Nodes with an index below triangles.size() are single triangles. The other nodes have two children.
   [[nodiscard]] const Node& operator[](uint32_t node) const { return nodes_[node]; }
 
  private:

@@ -12,19 +12,19 @@
 namespace asdfvk {
 namespace {
 
-// Subtrees at these levels are separate tasks.
+// Subtrees whose level is less than this are separate tasks.
 constexpr uint32_t kParallelSearchLevelCount = 10;
 
 float halfAreaOf(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
 
-// Entry [i - 1]: the least cost of i children from both sides, and how many of these are from the left side.
+// Entry [i - 1]: the least cost of i children from both sides, and the number of these children from the left side.
 struct Sharing {
   std::array<float, kWideChildCount> costs;
   std::array<int32_t, kWideChildCount> leftCounts;
 };
 
-// Vectorised over i; loops over the number k of children from the left side. Ties go to the least k. More than
-// maxLeftCount children from the left side are never cheaper.
+// Vectorised over i; loops over the number k of children from the left side. Of equal costs, the least k counts. More
+// than maxLeftCount children from the left side are never cheaper.
 Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
                       const std::array<float, kWideChildCount>& right) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -50,7 +50,7 @@ Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t m
 constexpr int kExponentBias = 127;
 constexpr uint32_t kMaxByte = 255;
 
-// Exponents of normal doubles, from their bits: library calls would dominate the time of quantizeBoxes().
+// Exponents of normal doubles, from their bits. Library calls would dominate the time of quantizeBoxes().
 int exponentOf(double positive) { return static_cast<int>(std::bit_cast<uint64_t>(positive) >> 52) - 1023; }
 double powerOfTwo(int e) { return std::bit_cast<double>(static_cast<uint64_t>(e + 1023) << 52); }
 
@@ -63,8 +63,8 @@ int exponentFor(double extent) {
 
 constexpr float kNone = -1e30f;
 
-// Index of the greatest of eight numbers. It replaces the last three bits of each number, which are below the required
-// precision.
+// Index of the greatest of eight numbers. The index replaces the last three bits of each number, for which no precision
+// is required.
 uint32_t indexOfMax(const Float4& low, const Float4& high) {
   using Ints = IntsOf<Float4>;
   const Ints indices = {0, 1, 2, 3};
@@ -87,7 +87,7 @@ constexpr uint32_t kParallelLevelCount = 4;
 
 Box3f boxOf(const BvhNode& node) { return {node.min, node.max}; }
 
-// Writes the wide nodes; a parent determines the indices of its children.
+// Writes the wide nodes. A parent determines the indices of its children.
 class WideEncoder {
  public:
   WideEncoder(std::span<const BvhNode> nodes, std::span<const uint32_t> primitiveFaces)
@@ -99,8 +99,7 @@ class WideEncoder {
   WideBvh take() { return std::move(bvh_); }
 
  private:
-  // Descendants are written to nodes from `next` on and triangles from `primitive` on. Returns the number of levels
-  // below the node.
+  // Writes descendants to nodes from `next` on, and triangles from `primitive` on. Returns the levels below the node.
   uint32_t encode(uint32_t binaryNode, uint32_t index, uint32_t next, uint32_t primitive, uint32_t level) {
     const WideChildren children = collapse_.childrenOf(binaryNode);
     std::array<Box3f, kWideChildCount> boxes;

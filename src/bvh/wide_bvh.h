@@ -23,7 +23,7 @@ struct WideCosts {
   }
 };
 
-/// A child of a wide node: a node of the binary hierarchy that becomes a wide node or, with all nodes below it, a leaf.
+/// A binary node that is a child of a wide node. It becomes a wide node, or a leaf with all triangles below it.
 struct WideChild {
   uint32_t node = 0;
   bool isLeaf = false;
@@ -37,18 +37,17 @@ struct WideChildren {
   [[nodiscard]] std::span<const WideChild> all() const { return std::span(items).first(count); }
 };
 
-/// Collapses a binary hierarchy into one with up to eight children per node: selects the binary nodes that become wide
-/// nodes or leaves. Minimises the cost by the surface-area heuristic (Ylitie, Karras and Laine 2017, section 3.1).
+/// Collapses a binary hierarchy: selects the binary nodes that become wide nodes with up to eight children, or leaves.
+/// Minimises the cost by the surface-area heuristic (Ylitie, Karras and Laine 2017, section 3.1).
 class WideCollapse {
  public:
-  /// nodes: as in Bvh, at least one; a leaf has at most costs.maxLeafTriangleCount triangles. They must outlive this
-  /// object. Parallel, with the same result for any thread count.
+  /// nodes: those of a Bvh, at least one, with at most costs.maxLeafTriangleCount triangles per leaf. The nodes must
+  /// outlive this object. Parallel, with the same result for any thread count.
   explicit WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs = {});
 
-  /// Children of the wide node that replaces a binary node. Where the root is a leaf, it becomes a wide node whose only
-  /// child is this leaf.
+  /// Children of the wide node that replaces a binary node. A root that is a leaf becomes the only child of a wide
+  /// node.
   [[nodiscard]] WideChildren childrenOf(uint32_t node) const;
-  /// Consecutive primitives below a binary node.
   struct PrimitiveRange {
     uint32_t first = 0, count = 0;
   };
@@ -56,22 +55,19 @@ class WideCollapse {
     return nodes_[node].isLeaf() ? PrimitiveRange{nodes_[node].first, nodes_[node].triangleCount}
                                  : choices_[node].primitives;
   }
-  /// Number of wide nodes below the wide node that replaces a binary node.
   [[nodiscard]] uint32_t nodeCountBelow(uint32_t node) const {
     return nodes_[node].isLeaf() ? 0 : choices_[node].nodeCountBelow;
   }
 
  private:
-  // Cheapest ways to collapse a subtree of the binary hierarchy into at most i children of a wide node, i = 1 to 7.
-  // Entry [i - 1]: cost and number of wide nodes.
+  // Cheapest ways to collapse a binary subtree into at most i children of a wide node, i = 1 to 7, in entry [i - 1].
   struct Forests {
     std::array<float, kWideChildCount> costs;
     std::array<uint32_t, kWideChildCount> nodeCounts;
   };
-  // Choices at an inner node of the binary hierarchy.
   struct Choice {
-    // Nibble i - 1, for i = 2 to 8: how many of i children are below the left child; 0 if i - 1 children are as cheap.
-    // Nibble 0: 1 if the node becomes a leaf when it is a single child.
+    // Nibble i - 1, for i = 2 to 8 children: the number of these children below the left child; 0 if i - 1 children are
+    // as cheap. Nibble 0: 1 if the node becomes a leaf when it is a single child.
     uint32_t leftCounts;
     uint32_t nodeCountBelow;
     PrimitiveRange primitives;
@@ -87,14 +83,14 @@ class WideCollapse {
   UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 
-/// Margin of the boxes of a wide hierarchy on a device, in normalised units. With it, a ray enters each box that
-/// contains a triangle that the ray hits. It covers three errors of float32. The triangle test has an error of a few
-/// units of 2^-24 times coordinates up to 3.5. Decoding a box has an error of up to 6 units of 2^-24. The distance to a
-/// plane (shaders/ray_query.glsl) has three roundings, which each shift the plane by up to 3.5 units of 2^-24.
+/// Margin of the boxes of a wide hierarchy on a device, in normalised units: a ray enters each box that contains a
+/// triangle that the ray hits. The margin covers three errors of float32. The triangle test has an error of a few units
+/// of 2^-24 times coordinates up to 3.5. Decoding a box has an error of up to 6 units of 2^-24. The distance to a plane
+/// (shaders/ray_query.glsl) has three roundings; each of them shifts the plane by up to 3.5 units of 2^-24.
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
-/// Assigns a different slot s to each of at most eight children, so that a ray whose direction has the sign bits q hits
-/// the children approximately in ascending order of s ^ q. Greedy (Ylitie et al. 2017, section 3.2, use an auction).
+/// Assigns a different slot s to each of at most eight children. A ray whose direction has the sign bits q hits the
+/// children approximately in ascending order of s ^ q. Greedy (Ylitie et al. 2017, section 3.2, use an auction).
 [[nodiscard]] std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> children);
 
 /// A node with the boxes of `children` in `slots`, enlarged by kWideBoxMargin and rounded outwards. childBase,
@@ -102,15 +98,15 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
                                            const std::array<uint32_t, kWideChildCount>& slots);
 
-/// Wide nodes in the layout of shared/bvh_layout.h. Order in each subtree: the root; its children; all nodes below the
+/// Wide nodes in the layout of shared/bvh_layout.h. Order of a subtree: the root; its children; all nodes below the
 /// first child; all nodes below the second child; and so on.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
-  UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh. A subtree has the same range of primitives as in the Bvh.
+  UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh. A subtree has the range of primitives that it has in the Bvh.
   uint32_t depth = 0;                    ///< Levels below the root, at most kMaxBvhDepth.
 };
 
-/// Collapses `bvh`, which has at least one node, by WideCollapse. Parallel, with the same result for any thread count.
+/// Precondition: `bvh` has a node. Parallel, with the same result for any thread count.
 [[nodiscard]] WideBvh encodeWideBvh(const Bvh& bvh);
 
 }  // namespace asdfvk
