@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-// Number of consecutive rays that a device traces side by side. They should be neighbours.
+// Number of consecutive rays that a device traces side by side. These rays should be neighbours.
 constexpr size_t kRunLength = 8;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -26,8 +26,8 @@ struct Ray {
   double solidAngle = 1;
 };
 
-// Reorders whole rays so that each run of kRunLength is a compact patch of the cone: sectors of azimuth with `rows`
-// runs each, by increasing angle to the axis. There is one row unless sectors would be slivers.
+// Reorders rays so that each run of kRunLength is a compact patch of the cone: sectors of azimuth with `rows` runs
+// each, by increasing angle to the axis. One row is used unless the sectors would be slivers.
 void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
   const double runCount = std::ceil(static_cast<double>(rays.size()) / kRunLength);
   const double squareSectorCount = 2 * std::numbers::pi * std::sin(halfAngle / 2) / halfAngle;
@@ -58,9 +58,9 @@ std::vector<Ray> paperRays(uint32_t count, double halfAngle) {
   return rays;
 }
 
-// Ray i passes through the disk that closes the cone, at i / count of the radius of the disk.
+// Ray i passes through the disk that closes the cone, at the share i / count of the radius of the disk.
 std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
-  // The ray on the axis represents radii from 0 to half a step. This is their mean, in steps.
+  // The mean, in steps, of the radii from 0 to half a step, which the ray on the axis represents.
   constexpr double kAxisRadius = 0.25;
   std::vector<Ray> rays(count);
   for (size_t i = 0; i < rays.size(); ++i) {
@@ -81,8 +81,8 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
 
 }  // namespace
 
-/// Distance, by rounding to float32, of a point on a face from the plane of the face. A ray at the rim of the cone
-/// leaves the plane at the smallest angle, and so travels farthest within this distance.
+/// Distance of a point on a face from the plane of the face after rounding to float32. Rays at the rim of the cone
+/// leave the plane at the smallest angle, and so have the longest path within this distance.
 constexpr double kFloatPlaneError = 0x1p-22;
 constexpr double kMaxContactDistance = 0x1p-16;
 
@@ -99,7 +99,7 @@ Cone makeCone(const ConeOptions& options) {
       std::clamp(kFloatPlaneError / std::cos(cone.halfAngleRadians), kContactDistance, kMaxContactDistance);
   cone.rotation = options.rotation;
   if (isCgal) {
-    // The greatest number below 0 that is normal in float32: an angle of 90 degrees is not acute.
+    // The greatest negative number that is normal in float32: an angle of 90 degrees is not acute.
     cone.falseHitCosine = -static_cast<double>(std::numeric_limits<float>::min());
     cone.outliers = {.spread = OutlierRule::Spread::MedianDeviation, .deviations = 1.5, .slack = 0};
   }
@@ -144,7 +144,7 @@ ConeFrame cgalConeFrame(const Vec3d& inward) {
 
 double coneRotation(const Cone& cone, uint64_t key) {
   if (cone.rotation == ConeRotation::Fixed) return 0;
-  return 2 * std::numbers::pi * Random(key).real();  // The first random number of a seed is a hash of the seed.
+  return 2 * std::numbers::pi * Random(key).real();  // The first random number is a hash of the seed.
 }
 
 ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key) {

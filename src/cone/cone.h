@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// Lengths farther from the median than a multiple of their spread are outliers.
+/// Lengths are outliers if they differ from the median by more than a multiple of the spread.
 struct OutlierRule {
   enum class Spread {
     StandardDeviation,  ///< Population standard deviation about the mean.
@@ -24,9 +24,9 @@ struct OutlierRule {
 };
 
 /// The rays of every cone and the rules for their hits: a definition of the shape diameter as data. Rays are in the
-/// frame of the cone (z = the axis). They are ordered by azimuth, in sectors, so that each aligned group of 8 rays is a
-/// compact patch of the cone. Up to about 50 rays at 120 degrees a sector is one group; with more rays the groups of a
-/// sector are ordered by the angle to the axis. directions, weights and solidAngles have rayCount entries.
+/// frame of the cone (z = the axis). Rays are ordered by azimuth, in sectors, so that each aligned group of 8 rays is a
+/// compact patch of the cone. Up to about 50 rays at 120 degrees, a sector is one group; with more rays, the groups of
+/// a sector are ordered by the angle to the axis. directions, weights and solidAngles have rayCount entries.
 struct Cone {
   Definition definition = Definition::Paper;  ///< Selects the frame and the vector that falseHitCosine refers to.
   std::vector<Vec3d> directions;              ///< Unit.
@@ -35,8 +35,8 @@ struct Cone {
   double falseHitCosine = 0;        ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
   OutlierRule outliers;
   double halfAngleRadians = 0;  ///< Angle between the axis and the rim.
-  /// Faces that a ray reaches within this distance, in normalised units, are ignored. kContactDistance; more for cones
-  /// whose rays graze the face. See also kOuterSideFactor.
+  /// A ray ignores faces within this distance of its origin, in normalised units: kContactDistance, or more for cones
+  /// with grazing rays. See also kOuterSideFactor.
   double contactDistance = 0;
   ConeRotation rotation = ConeRotation::Fixed;
 };
@@ -45,9 +45,8 @@ struct Cone {
 /// tangent of the angle to the axis. Precondition: 1 to kMaxRayCount rays.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
-/// Whether a hit is false. Paper: the normal of the hit face is within the false-hit angle of the normal of the seed
-/// face. Cgal: the angle between the ray and the normal of the hit face is not acute. direction: the direction of the
-/// ray.
+/// Paper: the normals of hit face and seed face differ by less than the false-hit angle. Cgal: the angle between the
+/// ray and the normal of the hit face is not acute.
 [[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& direction,
                                      const Vec3d& hitNormal) {
   const double cosine = cone.definition == Definition::Paper ? dot(seedNormal, hitNormal) : -dot(direction, hitNormal);
@@ -61,36 +60,35 @@ struct ConeFrame {
   [[nodiscard]] Vec3d toWorld(const Vec3d& ray) const { return ray.x * tangent + ray.y * bitangent + ray.z * axis; }
 };
 
-/// Whether coneFrame() takes the first of its two cases.
+/// Whether coneFrame() uses the first of its two cases.
 [[nodiscard]] inline bool isConeFrameFlipped(const Vec3d& axis) { return axis.z < -0.7; }
 
 /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the discontinuity moved to axis.z = -0.7, because
 /// normals of axis-aligned walls have z = -1, 0 or 1. axis: unit, minus the normal of the face.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
 
-/// CGAL's frame. inward: not zero, of any length. The tangent depends on which coordinates of `inward` are exactly 0.
+/// CGAL's frame. inward: of any length above 0. The tangent depends on which coordinates of `inward` are exactly 0.
 [[nodiscard]] ConeFrame cgalConeFrame(const Vec3d& inward);
 
-/// Angle in radians, 0 to 2 pi, by which paperConeFrame() turns the frame with this key about its axis.
+/// Rotation by which paperConeFrame() turns the frame about its axis, in radians, 0 to 2 pi.
 [[nodiscard]] double coneRotation(const Cone& cone, uint64_t key);
 
-/// The frame of the rays at a unit normal, by Definition::Paper: coneFrame(-normal), turned about its axis by the
-/// rotation of the cone. key: the number that ConeRotation::Hashed hashes; for a face its index.
+/// The frame of the rays at a unit normal, by Definition::Paper: coneFrame(-normal), turned about its axis by
+/// coneRotation(). key: the number that ConeRotation::Hashed hashes; for a face its index.
 [[nodiscard]] ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key);
 
-/// The range of lengths that are not outliers.
 struct LengthWindow {
   double median = 0, bound = 0;
   [[nodiscard]] bool keeps(double length) const { return std::abs(length - median) <= bound; }
 };
 
-/// The median of the lengths (mean of the middle two for an even count) and the bound of the rule. Precondition: 1 to
-/// kMaxRayCount lengths.
+/// The median of the lengths (for an even count the mean of the middle two), and the bound of the rule. Precondition: 1
+/// to kMaxRayCount lengths.
 [[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule);
 
-/// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of the lengths in keptWindow().
-/// Returns kNoValue if there is no valid ray, or if the window contains no length, which is possible only if
-/// rule.deviations is below 1. lengths and weights have one entry per valid ray, in the order of the cone.
+/// The shape diameter: the weighted mean of the lengths in keptWindow(). Returns kNoValue if there are no lengths, or
+/// if the window contains no length (only possible if rule.deviations is below 1). lengths, weights: one entry per
+/// valid ray of a cone, in the order of the cone.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
                                const OutlierRule& rule = {});
 

@@ -10,7 +10,7 @@
 namespace asdfvk {
 namespace {
 
-// Mean of the middle two for an even count. Reorders `lengths`, which is not empty.
+// For an even count the mean of the middle two. Reorders `lengths`, which is not empty.
 double takeMedian(std::span<double> lengths) {
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());

@@ -8,9 +8,9 @@
 namespace asdfvk {
 namespace {
 
-// Added to the cosine of the angle from which walls oppose each other. With it, walls at exactly this angle oppose each
-// other despite rounding, such as the walls of a hexagonal prism at 120 degrees. The slack is 0.07 degrees at 120
-// degrees and 2.6 degrees at 180 degrees.
+// Added to the cosine of the angle between opposing walls. Because of this slack, walls at exactly this angle are
+// opposing despite rounding, such as the walls of a hexagonal prism at 120 degrees. The slack is 0.07 degrees at 120
+// and 2.6 at 180 degrees.
 constexpr double kOpposingWallSlack = 1e-3;
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// The opposing walls of a face: the faces whose normals differ from its normal by at least an angle. These walls limit
-/// the balls that touch the face from inside (touching_ball.h).
+/// The opposing walls of a face: the faces whose normals differ from its normal by at least an angle. Opposing walls
+/// limit the balls that touch the face from inside (touching_ball.h).
 struct OpposingWalls {
   double cosine = 0;  ///< Greatest cosine between the normals; includes a slack for rounding.
 

@@ -14,9 +14,9 @@ double diameterThrough(const Vec3d& v, const Vec3d& axis) {
   return depth > 0 ? dot(v, v) / depth : kInfinity;
 }
 
-/// The t in [0, 1] with the least diameter through a + t edge. With A = a . axis, B = edge . axis, C = |a|^2,
-/// D = a . edge and E = |edge|^2 the diameter is stationary where B E t^2 + 2 A E t = B C - 2 A D; the root with the
-/// greater depth is the minimum. Precondition: both ends are deeper than 0.
+/// The t in [0, 1] with the least diameter through a + t edge. With A = a . axis, B = edge . axis, C = |a|^2, D = a .
+/// edge and E = |edge|^2, the diameter is stationary where B E t^2 + 2 A E t = B C - 2 A D. The root with the greater
+/// depth is the minimum. Precondition: both ends are deeper than 0.
 double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
   const double depth = dot(a, axis), slope = dot(edge, axis), square = dot(edge, edge);
   const Vec3d turned = depth * edge - slope * a;
@@ -25,7 +25,7 @@ double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
   return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0;
 }
 
-/// A lower bound above the result is above `diameter` despite rounding, so that walls in any order give the same bits.
+/// A lower bound is compared with `diameter` plus a margin for rounding, so that walls in any order give the same bits.
 double withRounding(double diameter) { return diameter * (1 + 1e-9); }
 
 /// The part of a triangle that is deeper than minDepth: up to four corners with their depths.
@@ -47,7 +47,7 @@ class DeepPart {
 
   [[nodiscard]] std::span<const Vec3d> corners() const { return {corners_.data(), count_}; }
   [[nodiscard]] double depth(size_t corner) const { return depths_[corner]; }
-  /// Calls visit(a, b) for the edges that have a point with a depth of at most maxDepth.
+  /// Calls visit(a, b) for the edges with a point of depth at most maxDepth.
   template <typename Visit>
   void forEachEdge(double maxDepth, const Visit& visit) const {
     for (size_t k = 0; k < count_; ++k) {
@@ -67,7 +67,7 @@ class DeepPart {
   size_t count_ = 0;
 };
 
-/// The nearest point of a triangle to a point of its plane.
+/// The point of a triangle nearest to a point in the plane of the triangle.
 Vec3d nearestInPlane(const PlaneTriangle& triangle, const Vec3d& p) {
   bool isInside = true;
   double least = kInfinity;
@@ -86,7 +86,7 @@ Vec3d nearestInPlane(const PlaneTriangle& triangle, const Vec3d& p) {
   return isInside ? p : nearest;
 }
 
-/// Keeps the least ball of all cases. The diameter of a ball is at least the depth of its point of the wall.
+/// Keeps the least ball of all cases. The diameter of a ball is at least the depth of its point on the wall.
 class LeastBall {
  public:
   LeastBall(const PlaneTriangle& wall, const Vec3d& axis, const DeepPart& part, double limit)
@@ -94,8 +94,8 @@ class LeastBall {
 
   [[nodiscard]] bool mayImprove(double bound) const { return !(bound > limit_); }
 
-  /// boundAt(offsetOf(p)) is the diameter of the ball at a point p of the face that touches the plane of the wall: a
-  /// lower bound for the balls that touch the wall.
+  /// For a point p of the face, boundAt(offsetOf(p)) is the diameter of the ball at p that touches the plane of the
+  /// wall: a lower bound for the balls that touch the wall.
   [[nodiscard]] double offsetOf(const Vec3d& p) const { return dot(wall_.normal, part_.corners().front() - p); }
   [[nodiscard]] double boundAt(double offset) const { return planeDiameter(axis_, wall_.normal, offset); }
 
@@ -106,9 +106,8 @@ class LeastBall {
     limit_ = std::min(limit_, withRounding(diameter));
   }
 
-  /// The least ball at a point of the face. The diameter is a convex function of the point of the wall. If the ball for
-  /// the plane of the wall touches the plane outside of the wall, the least ball therefore touches an edge that faces
-  /// this place.
+  /// The least ball at a point of the face. The diameter is a convex function of the point of the wall. Therefore, if
+  /// the ball touches the plane of the wall outside of the wall, the least ball touches an edge that faces this place.
   void offerPoint(const Vec3d& p, double offset) {
     const double side = offset < 0 ? -1 : 1, radius = std::abs(offset) / (1 + side * dot(wall_.normal, axis_));
     const Vec3d touched = p + radius * (axis_ + side * wall_.normal);
@@ -122,8 +121,7 @@ class LeastBall {
     if (isInside) offer(p, touched);
   }
 
-  /// The balls that touch an edge of the face and an edge of the wall, computed in the projection along the edge of the
-  /// face.
+  /// The balls that touch an edge of the face and an edge of the wall, computed in the projection along the first edge.
   void offerEdge(const Vec3d& from, const Vec3d& to) {
     const Vec3d edge = to - from;
     const double square = dot(edge, edge);
