@@ -16,14 +16,14 @@
 
 namespace asdfvk {
 
-/// Margins for the rounding in float32: of distances to boxes at coordinates up to 8, and of distances to planes and of
-/// cosines at coordinates up to 2.
+/// Margins for rounding in float32: of distances to boxes at coordinates up to 8; of distances to planes, and of
+/// cosines, at coordinates up to 2.
 inline constexpr float kWallBoxMargin = 0x1p-19F;
 inline constexpr float kWallPlaneMargin = 0x1p-19F, kWallCosineMargin = 0x1p-20F;
-/// Larger balls count as near to every box.
+/// Larger balls are assumed to reach every box.
 inline constexpr float kMaxBoxedDiameter = 8;
 inline constexpr float kUnlimitedDiameter = 0x1p60F;
-/// The least depth in float32 that is exact enough to compute a limit.
+/// The least depth in float32 that is exact enough for the computation of a limit.
 inline constexpr float kMinLimitDepth = 0x1p-17F;
 
 template <typename Floats>
@@ -47,15 +47,14 @@ ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Ve
   return x * x + y * y + z * z;
 }
 
-/// The balls of some queries, one in each lane. A walk through the hierarchy has an upper limit of each diameter, which
-/// a point of each wall lowers. It collects the walls whose planes are within the limits. At the end it measures the
-/// collected walls that are still within the limits.
+/// The balls of some queries, one in each lane. A walk through the hierarchy lowers an upper limit of each diameter by
+/// a point of each wall, and collects the walls whose planes are within the limits. Finally the collected walls that
+/// are still within the limits are measured.
 template <typename Floats>
 class BallPacket {
  public:
   static constexpr size_t kSize = kLaneCount<Floats>;
 
-  /// queries: 1 to kSize.
   ASDFVK_ALWAYS_INLINE BallPacket(const WallTree& tree, std::span<BallQuery> queries) : tree_(tree), queries_(queries) {
     for (size_t lane = 0; lane < kSize; ++lane) {
       const BallQuery& query = queries[std::min(lane, queries.size() - 1)];
@@ -70,7 +69,7 @@ class BallPacket {
       setLane(boxMax_, lane, box.max);
       double reach = 0;
       for (const Vec3d& corner : query.triangle.corners) reach = std::max(reach, length(corner - query.point));
-      reach_[lane] = static_cast<float>(1 + reach);  // The 1 covers the rounding of the dot products with the corners.
+      reach_[lane] = static_cast<float>(1 + reach);  // Adding 1 covers the rounding of the dot products.
       isUsed_[lane] = lane < queries.size() ? -1 : 0;
       bodies_[lane] = static_cast<int32_t>(query.body);
       leastLimit_[lane] = asFloat(query.least.ball.diameter);
@@ -112,15 +111,15 @@ class BallPacket {
   using Mask = IntsOf<Floats>;
   using Lanes = Vec3Lanes<Floats>;
 
-  /// The balls that touch the triangles at BallQuery::point and pass through the middle of a wall.
+  /// The balls that touch the triangles at BallQuery::point and contain the middle of a wall on their surface.
   struct Middle {
-    Floats diameter;  ///< Upper bound that covers rounding; unlimited where it is unknown.
-    Floats lowest;    ///< Lower bound; 0 where it is unknown.
+    Floats diameter;  ///< Upper bound that covers rounding; unlimited if unknown.
+    Floats lowest;    ///< Lower bound; 0 if unknown.
     Lanes slope;      ///< Gradient of the diameter with respect to the point of the wall.
     Floats doubt;     ///< Rounding error of the slope.
   };
 
-  /// A wall with the least diameters of the balls that touch its plane.
+  /// A wall with the least diameters of the balls that touch the plane of the wall.
   struct Candidate {
     uint32_t face;
     float least, atPoint;
@@ -135,8 +134,8 @@ class BallPacket {
     lanes.y[lane] = static_cast<float>(v.y);
     lanes.z[lane] = static_cast<float>(v.z);
   }
-  /// Computes the bounds of the balls from the greater of the two limits: at each point of the triangle, a larger ball
-  /// contains the smaller ones.
+  /// Computes the bounds of the balls from the greater limit: at each point of the triangle, a larger ball contains the
+  /// smaller balls.
   ASDFVK_ALWAYS_INLINE void placeBalls() {
     const Floats limit = asdfvk::max(leastLimit_, atPointLimit_);
     const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
@@ -152,7 +151,7 @@ class BallPacket {
   ASDFVK_ALWAYS_INLINE Mask reach(const auto& box) const {
     return lessEqual(squaredDistance(box.min, box.max, low_, high_), squaredRadius_);
   }
-  /// Diameter of the ball of the first query through a point; great where the point is behind the face.
+  /// Diameter of the ball of the first query through a point; great if the point is behind the face.
   [[nodiscard]] float diameterAt(const Vec3f& q) const {
     const Vec3f v = q - first_;
     return asdfvk::dot(v, v) / std::max(asdfvk::dot(v, axis_), kMinLimitDepth);
@@ -161,7 +160,7 @@ class BallPacket {
     return broadcast<Floats>(static_cast<float>(tree_.opposing().cosine) + margin);
   }
 
-  /// Lanes whose face may bound one body with the wall, see Solids::mayBoundOneBody().
+  /// Lanes for which Solids::mayBoundOneBody() holds with the wall.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayBound(const Wall& wall) const {
     if (wall.body == kNoBody) return ~Mask{};
     const auto differs = [&](uint32_t body) ASDFVK_ALWAYS_INLINE {
@@ -180,12 +179,12 @@ class BallPacket {
     return lessEqual(cosine, cosineLimit(kWallCosineMargin));
   }
 
-  /// Lanes whose balls may reach the cylinder that contains the node (WallNode::axis).
+  /// Lanes whose balls may reach the cylinder of the node (WallNode::axis).
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
     const Middle middle = middleOf(node.middle, lanes);
     const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope);
     const Floats across = asdfvk::max(square - along * along, Floats{}) + kWallBoxMargin * (1 + square);
-    // The lower bound without the term sqrt(across) * radius; the comparison below squares this term.
+    // The lower bound without the term sqrt(across) * radius; the lambda below squares this term.
     const Floats atPoint =
         middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) - middle.doubt * node.reach;
     const Floats change = across * (node.radius * node.radius * (1 + kWallBoxMargin));
@@ -197,7 +196,7 @@ class BallPacket {
   }
 
   /// Lower bound of the diameters at all points of the triangle. The diameter is a convex function of both points, and
-  /// so no less than its tangent at BallQuery::point and the middle. atPoint: lower bound at BallQuery::point.
+  /// so at least its tangent at BallQuery::point and the middle. atPoint: lower bound at BallQuery::point.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Middle& middle, const Floats& atPoint) const {
     const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], middle.slope), dot(corners_[1], middle.slope)),
                                         dot(corners_[2], middle.slope));
@@ -261,7 +260,7 @@ class BallPacket {
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
-  /// Lowers the limits to the balls through the middle of a wall. Returns whether a limit became lower.
+  /// Lowers the limits to the balls through the middle of a wall. Returns whether a limit changed.
   ASDFVK_ALWAYS_INLINE bool shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
     const Floats diameter = orUnlimited(lanes, middle.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
@@ -328,7 +327,7 @@ class BallPacket {
 
   const WallTree& tree_;
   std::span<BallQuery> queries_;
-  Vec3f first_, axis_;  ///< Point and axis of the first query, whose ball decides which nodes are visited first.
+  Vec3f first_, axis_;  ///< Point and axis of the first query, which decides the order of the nodes.
   Lanes normal_, boxMin_, boxMax_;
   std::array<Lanes, 4> corners_;      ///< Corners of the triangle, and the point.
   Floats leastLimit_, atPointLimit_;  ///< Limits of the diameters.

@@ -10,20 +10,18 @@
 
 namespace asdfvk {
 
-/// Size of the next submission, adapted so that a submission takes about the target time. This is short enough for
-/// progress and cancellation, and long enough to hide the cost of a submission.
+/// Size of the next submission, adapted to the target time. This time is short enough for progress and cancellation,
+/// and long enough to hide the cost of a submission.
 class ChunkSize {
  public:
   static constexpr double kTargetSeconds = 0.07;
   static constexpr uint64_t kMin = 16;
 
-  /// largest: at least 1.
   ChunkSize(uint64_t first, uint64_t largest, double targetSeconds = kTargetSeconds)
       : size_(std::min(first, largest)), largest_(largest), targetSeconds_(targetSeconds) {}
 
   [[nodiscard]] uint64_t current() const { return size_; }
-  /// Adapts the size after a chunk of `count` took `seconds`. The size changes at most fourfold, which bounds the
-  /// effect of one outlier.
+  /// seconds: time of a chunk of `count`. The size changes at most fourfold, which bounds the effect of an outlier.
   void adapt(uint64_t count, double seconds) {
     const double ideal = static_cast<double>(count) * targetSeconds_ / std::max(seconds, 1e-6);
     const double bounded = std::clamp(ideal, static_cast<double>(size_) / 4, static_cast<double>(size_) * 4);
@@ -49,9 +47,9 @@ void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const
   control.checkpoint(1);
 }
 
-/// forEachChunk() for ranges that a device processes while the host continues. start(slot, begin, end) submits a range,
-/// wait(slot) waits for the range, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight,
-/// so the host reads one and prepares another while the device works. After an exception ranges may still be in flight.
+/// Like forEachChunk(), for a device that works while the host continues. start(slot, begin, end) submits a range,
+/// wait(slot) waits for the range, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight:
+/// the host reads one and prepares another while the device works. After an exception, ranges may still be in flight.
 template <size_t kSlotCount, typename Start, typename Wait, typename Read>
 void forEachChunkInFlight(size_t count, ChunkSize size, const RunControl& control, const Start& start, const Wait& wait,
                           const Read& read) {

@@ -15,10 +15,9 @@
 
 namespace asdfvk {
 
-/// The frame of the rays of a face, as Cone::definition selects it. Precondition: the face is not degenerate.
+/// The frame of the rays, by Cone::definition. Precondition: the face is not degenerate.
 [[nodiscard]] ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face);
 
-/// Place and frame of the rays of one cone.
 struct ConeStart {
   Vec3d origin;                    ///< Start of the rays, in normalised coordinates.
   Vec3d normal;                    ///< Unit, outwards; the false hits of Definition::Paper refer to it.
@@ -26,74 +25,68 @@ struct ConeStart {
   uint32_t skippedFace = kNoFace;  ///< Hits on this representative are ignored.
 };
 
-/// The cone of a face: from its barycentre, without hits on the face and its copies. Precondition: the face is not
-/// degenerate.
+/// The cone at the barycentre of a face; ignores the face and its copies. Precondition: the face is not degenerate.
 [[nodiscard]] inline ConeStart coneStartOfFace(const TraceScene& scene, const Cone& cone, uint32_t face) {
   return {scene.originOf(face), scene.geometry.normals[face], seedConeFrame(scene, cone, face),
           scene.representatives[face]};
 }
 
-/// A cone from any origin; its rays may hit every face. normal: unit. ConeRotation::Hashed turns it by a hash of the
-/// origin.
+/// A cone from any origin; its rays may hit every face. normal: unit. ConeRotation::Hashed hashes the origin.
 [[nodiscard]] ConeStart coneStartAt(const Cone& cone, const Vec3d& origin, const Vec3d& normal);
 
 struct TraceStatistics {
   uint64_t rayCount = 0;
-  /// Cones that the reference traced instead, because the device reached its iteration limit or the cone is too small
-  /// for float32.
+  /// Cones that the reference traced: those beyond the iteration limit of the device or too small for float32.
   uint64_t redoneConeCount = 0;
 };
 
-/// Output arrays for N cones of R rays.
 struct ConeResults {
   std::span<double> values;  ///< N.
-  /// The nearest hit of each ray, rejected hits included: N x R, ray r of cone i (in the order of Cone::directions) at
-  /// i R + r. Empty: hits are not written.
+  /// The nearest hit of each ray, rejected hits included: N x R, ray r of cone i at i R + r, in the order of
+  /// Cone::directions. Empty: hits are not written.
   std::span<ConeHit> hits = {};
 };
 
 inline constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
 
-/// Throws CheckFailure when the sizes of the results do not match.
 inline void checkSizes(const ConeResults& results, size_t coneCount, size_t rayCount) {
   ASDFVK_CHECK_OP(results.values.size(), ==, coneCount);
   if (!results.hits.empty()) ASDFVK_CHECK_OP(results.hits.size(), ==, coneCount * rayCount);
 }
 
-/// Traces batches of cones. Every implementation has the same rule: a ray ends at the nearest hit that is not on the
-/// seed face or a copy of it. The ray is valid if there is such a hit and it is not false (see isFalseHit()).
+/// Traces batches of cones. In every implementation, a ray ends at the nearest hit on a face other than the seed face
+/// and its copies. A ray is valid if this hit exists and is not false (isFalseHit()).
 class ConeTracer {
  public:
   virtual ~ConeTracer() = default;
 
-  /// Sets results.values[i] to the shape diameter at seedFaces[i] in the mesh's unit, or to kNoValue if no ray of its
-  /// cone is valid. Values have the same bits with and without hits. Precondition: no seed face is degenerate.
-  /// Throws Error{Cancelled} between chunks, Error{Device}.
+  /// Sets results.values[i] to the shape diameter at seedFaces[i] in the mesh's unit, or to kNoValue without a valid
+  /// ray. Values have the same bits with and without hits. Precondition: no seed face is degenerate. Throws
+  /// Error{Cancelled} between chunks, Error{Device}.
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
-  /// Like trace() for cones from any origins. Precondition: the origins are finite. A cone of coneStartOfFace() has the
-  /// value that trace() gives its face, up to rounding.
+  /// Like trace() for cones from any finite origins. Up to rounding, cones of coneStartOfFace() have the values of
+  /// trace().
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;
 
-  /// Seconds that the constructor spent on encoding the hierarchy for a device, without the upload; 0 without a device.
+  /// Seconds of the constructor for encoding the hierarchy for a device, without the upload; 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }
 };
 
-/// Double precision, watertight, on all cores of the CPU: the other tracers are compared with it. Values do not depend
-/// on the number of threads.
+/// Double precision, watertight, on all cores of the CPU: the reference for the other tracers. Values do not depend on
+/// the number of threads.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone);
 
-/// Traces in float32, in lanes (trace/cpu/ray_walk.h), on all cores of the CPU; lengths are recomputed in double.
-/// Values do not depend on the number of threads, nor on the instruction set. Cones too small for float32 are traced by
-/// the reference. The nodes of the hierarchy are not used after the call; the rest of the scene and the cone must
+/// Traces in float32, in lanes (trace/cpu/ray_walk.h), on all cores of the CPU; recomputes lengths in double. Values
+/// depend neither on the number of threads nor on the instruction set. The reference traces cones too small for
+/// float32. The nodes of the hierarchy are not used after the call; the other data of the scene, and the cone, must
 /// outlive the tracer.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeCpuTracer(const TraceScene& scene, const Cone& cone);
 
-// In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate two kinds of cones
-// to the reference. The first are cones of faces with an area below kMinFloatFace^2, the second are cones with a value
-// below kMinFloatDiameter.
+// In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate cones to the
+// reference if the area of the face is below kMinFloatFace^2, or if the value is below kMinFloatDiameter.
 inline constexpr double kMinFloatFace = 0x1p-16;
 inline constexpr double kMinFloatDiameter = 0x1p-14;
 
@@ -102,8 +95,8 @@ inline constexpr double kMinFloatDiameter = 0x1p-14;
   return scene.geometry.areas[seedFace] * scale * scale < kMinFloatFace * kMinFloatFace;
 }
 
-/// Whether a point is in the normalised box [-1, 1]^3 or near it. The traversals require this of the origins of rays.
-/// The reference traces the other cones, from the points where their rays enter the box.
+/// Whether a point is in the normalised box [-1, 1]^3 or near the box. Traversals require such origins. For other
+/// origins, the reference traces the rays from the points where they enter the box.
 [[nodiscard]] inline bool isNearBox(const Vec3d& origin) {
   constexpr double kNearBox = 1 + 0x1p-6;
   return std::abs(origin.x) <= kNearBox && std::abs(origin.y) <= kNearBox && std::abs(origin.z) <= kNearBox;

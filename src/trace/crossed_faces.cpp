@@ -13,7 +13,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkSize = 16384, kGrain = 256;
-// Number of neighbouring faces for which the hierarchy is traversed once.
+// Neighbouring faces that share one traversal of the hierarchy.
 constexpr size_t kWalkFaceCount = 16;
 
 struct BoxedFace {
@@ -33,7 +33,7 @@ bool shareEdge(const PlaneTriangle& a, const PlaneTriangle& b) {
          }) > 1;
 }
 
-/// Whether an edge of the first triangle passes through the second one.
+/// Whether an edge of the first triangle passes through the second triangle.
 bool crosses(const PlaneTriangle& edges, const PlaneTriangle& triangle, double minDepth) {
   std::array<double, 3> heights;
   for (size_t k = 0; k < 3; ++k) heights[k] = dot(edges.corners[k] - triangle.corners[0], triangle.normal);

@@ -10,7 +10,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkFaceCount = 4096;
-// Number of neighbouring faces whose queries one task answers.
+// Neighbouring faces per task.
 constexpr size_t kBlockFaceCount = 256;
 
 void shrinkBlock(const WallTree& tree, std::span<FaceBalls> faces) {

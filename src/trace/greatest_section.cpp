@@ -15,20 +15,19 @@
 namespace asdfvk {
 namespace {
 
-/// Largest number of cubes that a search divides. At this limit, the bound of the last cube is the bound of the result.
+/// Largest number of cubes that a search divides. A search with this number returns the bound of the last cube.
 constexpr uint32_t kMaxCubeCount = 200'000;
-/// Number of first cubes along the longest side of the box of the solid.
+/// First cubes along the longest side of the box of the solid.
 constexpr int kFirstCubeCount = 4;
-// Corners within this distance of a plane count as corners in the plane: the resolution of coordinates in float32.
+// Corners within this distance of a plane are in the plane: the resolution of coordinates in float32.
 constexpr double kFlat = 0x1p-22;
 
-/// Distances from the faces of one solid.
 class SolidSurface {
  public:
   SolidSurface(const TraceScene& scene, const FaceCopies& copies, std::span<const uint32_t> solidOf, uint32_t solid)
       : scene_(scene), copies_(copies), solidOf_(solidOf), solid_(solid) {}
 
-  /// The face of the solid among the copies of a primitive; kNoFace for none. Solids that touch may share primitives.
+  /// The face of the solid among the copies of a primitive, or kNoFace. Touching solids may share primitives.
   [[nodiscard]] uint32_t copyOf(uint32_t primitiveFace) const {
     for (const uint32_t face : copies_.of(primitiveFace))
       if (solidOf_[face] == solid_) return face;
@@ -42,8 +41,8 @@ class SolidSurface {
     return nearestSurfacePoint(scene_, p, enough, [&](uint32_t face) { return copyOf(face); });
   }
 
-  /// Whether the surface within `radius` of the point is not empty and lies in the plane of `face`. As the solid is
-  /// closed, the surface then covers the disc.
+  /// Whether the surface within `radius` of the point is not empty and lies in the plane of `face`. The surface then
+  /// covers the disc, because the solid is closed.
   [[nodiscard]] bool isFlatAround(const Vec3d& point, double radius, uint32_t face) const {
     const Vec3d& plane = normal(face);
     const double offset = dot(plane, triangle(face).corners[0]);
@@ -61,7 +60,6 @@ class SolidSurface {
     return isFlat && isFound;
   }
 
-  /// The first face of the solid along the ray.
   [[nodiscard]] RayHit opposite(const Vec3d& p, const Vec3d& direction) const {
     RayHit hit =
         nearestHitAmong(scene_.bvh, scene_.mesh, p, direction, [&](uint32_t face) { return copyOf(face) != kNoFace; });
@@ -87,7 +85,7 @@ class Search {
  public:
   explicit Search(const SolidSurface& surface) : surface_(surface) {}
 
-  /// stopOnly: used for cancellation only.
+  /// stopOnly: for cancellation.
   GreatestSection run(const Box3d& box, uint32_t maxCubeCount, const RunControl& stopOnly) {
     const Vec3d size = box.size();
     const double side = std::max({size.x, size.y, size.z}) / kFirstCubeCount;
@@ -132,8 +130,8 @@ class Search {
     centre_ = centre;
   }
 
-  /// Bound by two points that no ball contains: the foot, and the point of the wall opposite of it. It holds for balls
-  /// with their centres at most `reach` away from `centre`.
+  /// A bound for balls with centres within `reach` of `centre`, by two points that no ball contains: the foot, and the
+  /// point of the wall opposite of it.
   double boundByWalls(const Vec3d& centre, const SurfacePoint& foot, double reach) {
     const Vec3d away = (centre - foot.point) / foot.distance;
     const RayHit hit = surface_.opposite(centre, away);
@@ -142,7 +140,7 @@ class Search {
     improve(centre + (half - foot.distance) * away);
     if (half - foot.distance > reach) return std::numeric_limits<double>::infinity();
     const double byPoints = std::sqrt(half * half + reach * reach);
-    // Bound by the planes of both walls, if the walls are flat as far as the balls reach.
+    // A bound by the planes of both walls, if the walls are flat as far as the balls reach.
     const Vec3d &n = surface_.normal(foot.face), &m = surface_.normal(hit.face);
     const double depth = -dot(centre - surface_.triangle(foot.face).corners[0], n);
     const double other = -dot(centre - surface_.triangle(hit.face).corners[0], m);

@@ -7,13 +7,13 @@
 namespace asdfvk {
 namespace {
 
-// Boxes are enlarged by this margin, so that a ray that hits a triangle despite rounding also enters its box.
-// Coordinates relative to the origin are below 3.5, with relative errors of a few units of 2^-53. The margin is
-// absolute, because the relative margin of Ize 2013 does not cover a ray along a side of the box.
+// Margin of the boxes, so that a ray that hits a triangle despite rounding also enters its box. Coordinates relative to
+// the origin are below 3.5, with relative errors of a few units of 2^-53. The margin is absolute, because the relative
+// margin of Ize 2013 does not cover a ray along a side of the box.
 constexpr double kBoxMargin = 1e-14;
 
 // Slabs ordered by the signs of the direction. A component of 0 is replaced by a number that is too small to move the
-// ray; its inverse times any box coordinate stays finite.
+// ray; the products of its inverse with box coordinates stay finite.
 struct SlabTest {
   Vec3d inverse, nearOrigin, farOrigin;
   std::array<bool, 3> isNegative{};
@@ -29,7 +29,7 @@ struct SlabTest {
     }
   }
 
-  // Distance at which the ray enters the box, or kNoHit if it misses the box or enters beyond `limit`.
+  // Distance at which the ray enters the box; kNoHit for a miss, or beyond `limit`.
   [[nodiscard]] double entry(const BvhNode& node, double limit) const {
     double enter = 0, leave = limit;
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -47,7 +47,7 @@ struct StackEntry {
   double entry = 0;
 };
 
-/// counts(face): whether hits on a face count. contactDistance: see Cone.
+/// counts(face): whether hits on a face count. contactDistance: Cone::contactDistance.
 template <typename Counts>
 class Walk {
  public:
@@ -109,7 +109,7 @@ class Walk {
   double limit_ = kNoHit;  // The distance of the best hit, with the addition on outer sides, for comparisons.
 };
 
-/// Visits nodes in any order until it finds a hit between two distances.
+/// Visits nodes in any order up to the first hit between two distances.
 class AnyHitWalk {
  public:
   AnyHitWalk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction)

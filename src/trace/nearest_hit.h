@@ -13,15 +13,15 @@ namespace asdfvk {
 
 inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
-/// Coordinate frame of a ray, in which triangles are tested: origin at 0, direction along z.
+/// The frame of a ray for tests of triangles: origin at 0, direction along z.
 struct RayFrame {
   Vec3d origin;
   ConeFrame frame;  ///< frame.axis is the ray's unit direction.
 
   RayFrame(const Vec3d& rayOrigin, const Vec3d& direction) : origin(rayOrigin), frame(coneFrame(direction)) {}
 
-  /// Coordinates of a vertex in the frame. They depend on the vertex and the ray only, so that triangles that share a
-  /// vertex get the same coordinates.
+  /// Coordinates of a vertex in the frame. The coordinates depend on the vertex and the ray only: they are the same for
+  /// all triangles with this vertex.
   [[nodiscard]] Vec3d toRay(const Vec3d& p) const {
     const Vec3d d = p - origin;
     return {dot(d, frame.tangent), dot(d, frame.bitangent), dot(d, frame.axis)};
@@ -33,9 +33,9 @@ struct TriangleHit {
   bool isOuterSide = false;  ///< Whether the ray hits the side from which the corners are counterclockwise.
 };
 
-/// The hit of a ray, which may be on either side of the triangle. Watertight, after Woop, Benthin and Wald 2013, with a
-/// rotation instead of their shear. Rounding is monotone: it can change a number to zero but not invert its sign. Zero
-/// counts as inside, so that a ray between two triangles hits at least one of them.
+/// The hit of a ray, on either side of the triangle. Watertight, after Woop, Benthin and Wald 2013, with a rotation
+/// instead of their shear. Rounding is monotone: it can change a number to zero, but not invert its sign. Zero counts
+/// as inside, so that a ray between two triangles hits at least one of them.
 [[nodiscard]] inline TriangleHit hitTriangle(const RayFrame& ray, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
   const Vec3d a = ray.toRay(v0), b = ray.toRay(v1), c = ray.toRay(v2);
   const double u = c.x * b.y - c.y * b.x;
@@ -53,18 +53,18 @@ struct RayHit {
   uint32_t face = kNoFace;   ///< kNoFace for a miss.
 };
 
-/// The nearest triangle hit by the ray, except `skippedFace` and triangles within contactDistance (see
-/// Cone::contactDistance). Of equally near triangles it is the one with the lowest face index. Origin and unit
-/// direction are in normalised coordinates; the origin lies in the root's box or near it.
+/// The nearest triangle that the ray hits, except `skippedFace` and triangles within contactDistance
+/// (Cone::contactDistance). Of equally near triangles, the lowest face index. Origin and unit direction are in
+/// normalised coordinates; the origin is in the root's box or near it.
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 uint32_t skippedFace, double contactDistance = 0);
 
-/// The nearest triangle among the faces for which counts(face) is true.
+/// Hits only faces for which counts(face) is true.
 [[nodiscard]] RayHit nearestHitAmong(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin,
                                      const Vec3d& direction, FunctionRef<bool(uint32_t face)> counts);
 
 /// Whether the ray hits a triangle at a distance from `begin` to `end`. Origin and direction as in nearestHit(), but
-/// the origin may be up to 4 from the centre of the normalised box.
+/// the distance of the origin from the centre of the normalised box may be up to 4.
 [[nodiscard]] bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 double begin, double end);
 

@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-/// Distances that differ by at most this count as equal: it covers rounding.
+/// Distances with at most this difference count as equal, because of rounding.
 constexpr double kEqualDistance = 1e-12;
 
 Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {

@@ -9,13 +9,12 @@
 
 namespace asdfvk {
 
-/// A point of the surface that is nearest to some point, in normalised coordinates.
+/// The point of the surface nearest to a query point, in normalised coordinates.
 struct SurfacePoint {
   double distance = std::numeric_limits<double>::infinity();
   Vec3d point;
   uint32_t face = kNoFace;
-  double side = 0;  ///< Cosine of the angle between the normal and the direction from the surface to the query point;
-                    ///< above 0 outside.
+  double side = 0;  ///< Cosine of the angle between the normal and the direction to the query point; above 0 outside.
 };
 
 [[nodiscard]] Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p);
@@ -24,8 +23,9 @@ struct SurfacePoint {
 [[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);
 
 /// The point of the surface nearest to p. faceOf(primitive face): the face that replaces the primitive face, or kNoFace
-/// to ignore it. The search ends at the first point less than `enough` away. If the nearest point lies on an edge or a
-/// vertex, the result has the face with the greatest abs(side); of equal faces, the first in the hierarchy.
+/// to ignore the primitive. The search ends at the first point less than `enough` away. If the nearest point is on an
+/// edge or a vertex, the result has the face with the greatest abs(side). Of faces with equal numbers, the first in the
+/// hierarchy counts.
 [[nodiscard]] SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
                                                FunctionRef<uint32_t(uint32_t)> faceOf);
 

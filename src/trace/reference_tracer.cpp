@@ -12,11 +12,10 @@
 namespace asdfvk {
 namespace {
 
-/// From farther origins, rounding moves the place where a ray enters the box by more than 2^-20. Such rays have no
-/// hits.
+/// Rays from farther origins have no hits, because rounding moves their entry into the box by more than 2^-20.
 constexpr double kFarthestOrigin = 0x1p32;
 
-/// Distance at which a ray enters the box [-1, 1]^3, slightly enlarged; kNoHit if it misses the box.
+/// Distance at which a ray enters the slightly enlarged box [-1, 1]^3; kNoHit for a miss.
 double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
   constexpr double kSide = 1 + 0x1p-7;
   double enter = 0, leave = kNoHit;
@@ -89,8 +88,7 @@ RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, cons
 ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
   const Vec3d& normal = scene.geometry.normals[face];
   if (cone.definition == Definition::Paper) return paperConeFrame(cone, normal, face);
-  // Computed from the corners of the mesh: scaled or moved corners would lose coordinates of the normal that are
-  // exactly 0.
+  // Uses the corners of the mesh, because scaling or moving would lose coordinates of the normal that are exactly 0.
   const auto [i, j, k] = scene.mesh.faces[face];
   const Vec3d& a = scene.mesh.vertices[i];
   const Vec3d inward = -cross(scene.mesh.vertices[j] - a, scene.mesh.vertices[k] - a);

@@ -5,7 +5,7 @@
 
 namespace asdfvk {
 
-/// nearestHit() from any origin. A ray from an origin with a coordinate above 2^32 normalised units has no hit.
+/// nearestHit() from any origin. Rays from an origin with a coordinate above 2^32 normalised units have no hit.
 [[nodiscard]] RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction,
                                             uint32_t skippedFace, double contactDistance);
 
@@ -14,7 +14,7 @@ namespace asdfvk {
 [[nodiscard]] double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction,
                                         uint32_t seedFace);
 
-/// The value of one cone, with the same bits as by makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
+/// The value of one cone, with the same bits as makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
 double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart& start, std::span<ConeHit> hits = {});
 /// The cone of a face. Precondition: the face is not degenerate.
 double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits = {});

@@ -6,7 +6,6 @@
 
 namespace asdfvk {
 
-/// A mesh with its geometry and hierarchy. Result::scene of the public interface.
 struct SceneData {
   std::shared_ptr<const void> owner;  ///< Owns everything that `scene` views, except the arrays of the caller.
   TraceScene scene;

@@ -8,7 +8,6 @@
 
 namespace asdfvk {
 
-/// A view of the hits of all rays of some seeds.
 struct SeedHitsView {
   std::span<const uint32_t> seeds;  ///< #S faces; kNoFace: this seed and its hits are ignored.
   std::span<const ConeHit> hits;    ///< #S x rays, see ConeResults::hits.

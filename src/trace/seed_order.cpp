@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kBitsPerAxis = 21;
 
-/// Moves bit i of a number of kBitsPerAxis bits to bit 3 i.
+/// Moves bit i to bit 3 i. bits: below 2^kBitsPerAxis.
 uint64_t spread(uint64_t bits) {
   bits = (bits | bits << 32) & 0x001f'0000'0000'ffffu;
   bits = (bits | bits << 16) & 0x001f'0000'ff00'00ffu;

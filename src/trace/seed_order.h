@@ -12,13 +12,12 @@ namespace asdfvk {
 /// Orders seeds by their triangles in the hierarchy, because neighbouring cones traverse the same nodes.
 class SeedOrder {
  public:
-  /// Takes the order of the primitives in the hierarchy of the scene.
   explicit SeedOrder(const TraceScene& scene);
 
-  /// A permutation of the indices into seedFaces; equal seeds keep their order.
+  /// A permutation of the indices into seedFaces. Equal seeds keep their order.
   [[nodiscard]] std::vector<uint32_t> of(std::span<const uint32_t> seedFaces) const;
 
-  /// Index of the face's representative in the hierarchy; kNoFace where it is not in the hierarchy.
+  /// Index of the face's representative in the hierarchy; kNoFace if the hierarchy lacks it.
   [[nodiscard]] uint32_t primitiveOf(uint32_t face) const { return primitiveOfFace_[representatives_[face]]; }
 
   /// Prefetches the memory that primitiveOf() reads.
@@ -32,9 +31,9 @@ class SeedOrder {
   std::vector<uint32_t> primitiveOfFace_;  // #F
 };
 
-/// A permutation of the indices into `starts` that puts neighbours in space next to each other (Morton 1966), because
-/// neighbouring cones traverse the same nodes. An origin outside of the normalised box takes the place of the nearest
-/// point in the box.
+/// A permutation of the indices into `starts` that orders them along a space-filling curve (Morton 1966), because
+/// neighbouring cones traverse the same nodes. Origins outside of the normalised box are sorted like the nearest point
+/// in it.
 [[nodiscard]] std::vector<uint32_t> spatialOrder(std::span<const ConeStart> starts);
 
 }  // namespace asdfvk

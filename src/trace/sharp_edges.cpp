@@ -12,7 +12,7 @@
 namespace asdfvk {
 namespace {
 
-/// Bits of each corner of a face. A corner belongs to one point, so that points can be searched in parallel.
+/// Bits per corner of a face. A corner belongs to one point, so that points can be processed in parallel.
 enum CornerBit : uint8_t { kIsThin = 1, kNextEdge = 2, kEdgeBefore = 4 };
 
 struct Edge {
@@ -55,8 +55,8 @@ class SharpSearch {
   }
 
  private:
-  /// Calls visit(corner, other) for each pair of corners at the point for which the face of `corner` is thin because of
-  /// the face of `other`.
+  /// Calls visit(corner, other) for each pair of corners at the point such that the face of `other` makes the face of
+  /// `corner` thin.
   template <typename Visit>
   void forEachPair(uint32_t point, const Visit& visit) const {
     const std::span<const uint32_t> corners = fans_.cornersAt(point);
@@ -67,7 +67,7 @@ class SharpSearch {
     if (step > 1) forEachPairOverEdges(corners, visit);
   }
 
-  /// forEachPair() for the pairs of a large fan whose faces share an edge.
+  /// Like forEachPair(), for the pairs of a large fan whose faces share an edge.
   template <typename Visit>
   void forEachPairOverEdges(std::span<const uint32_t> corners, const Visit& visit) const {
     std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // The far end of an edge, and the corner at its near end.
@@ -110,7 +110,7 @@ class SharpSearch {
     return -dot(geometry_.normals[face], geometry_.normals[wall]);
   }
 
-  /// Returns each sharp edge once, with the least angle of its faces.
+  /// Each sharp edge once, with the least angle of its faces.
   [[nodiscard]] std::vector<Edge> edgesOf(const SharpEdges& sharp) const {
     std::vector<Edge> edges;
     for (uint32_t corner = 0; corner < cornerBits_.size(); ++corner) {

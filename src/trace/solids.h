@@ -10,8 +10,8 @@ namespace asdfvk {
 
 inline constexpr uint32_t kNoBody = 0xffffffff;
 
-/// Components that bound one body: the outer surface and its cavities. A solid has the index of its outer component;
-/// a component that bounds no body is a solid of its own.
+/// A solid is the set of components that bound one body: the outer surface and its cavities. The index of a solid is
+/// the index of its outer component. A component that bounds no body is a separate solid.
 struct Solids {
   std::vector<uint32_t> solidOf;  ///< #F
   /// Per component: whether it is an outer surface, closed and wound consistently outwards.
@@ -19,10 +19,10 @@ struct Solids {
   /// Per component: whether it is closed, but wound inconsistently or to the wrong side.
   std::vector<uint8_t> isMisoriented;
 
-  /// The solid of the face if the solid is closed, else kNoBody.
+  /// The solid of the face if this solid is closed, else kNoBody.
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return isClosed[solidOf[face]] != 0 ? solidOf[face] : kNoBody; }
 
-  /// Whether faces may bound the same body. Parts that touch, or are sunk into each other, are not walls of each other.
+  /// Whether faces may bound the same body. Parts that touch or overlap are not walls of each other.
   [[nodiscard]] bool mayBoundOneBody(uint32_t face, uint32_t other) const {
     const uint32_t body = bodyOf(face), otherBody = bodyOf(other);
     return body == otherBody || body == kNoBody || otherBody == kNoBody;

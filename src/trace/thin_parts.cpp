@@ -11,13 +11,13 @@
 namespace asdfvk {
 namespace {
 
-/// No piece is halved if there would be more pieces, which need 350 bytes each. Whole faces are not counted.
+/// Largest number of pieces, 350 bytes each, to which faces are divided. Whole faces are not counted.
 constexpr size_t kMaxPieceCount = size_t{1} << 20;
 constexpr size_t kBlockSize = 256;
-/// The length of a line in steps: a power of two, so that halves are exact.
+/// Length of a line in steps: a power of two, so that halves are exact.
 constexpr uint32_t kLineLength = uint32_t{1} << 31;
 
-/// A part of a line. A line is an edge of the mesh, or a line along which a piece was halved.
+/// A part of a line: of an edge of the mesh, or of a line along which a piece was halved.
 struct Side {
   uint32_t line = 0, from = 0, to = 0;
   bool isSharp = false;  ///< Whether the line is a sharp edge of the face.
@@ -31,7 +31,6 @@ struct Piece {
 
 Vec3d middleOf(const std::array<Vec3d, 3>& corners) { return (corners[0] + corners[1] + corners[2]) / 3.0; }
 
-/// The index and the length of the longest side.
 std::pair<size_t, double> longestSide(const std::array<Vec3d, 3>& corners) {
   std::pair<size_t, double> longest{0, -1};
   for (size_t k = 0; k < 3; ++k)
@@ -93,7 +92,7 @@ class ThinSearch {
     piece.part.isSharp = isSharp(piece);
   }
 
-  /// A piece at a sharp edge is thin, whatever the diameter of its ball.
+  /// Pieces at a sharp edge are thin, whatever the diameters of their balls.
   [[nodiscard]] bool isThin(const Piece& piece) const {
     return piece.part.isSharp || piece.part.least.ball.diameter < limit_;
   }
@@ -114,8 +113,8 @@ class ThinSearch {
     return longestSide(piece.part.corners).second > maxLength_ && !isThinEverywhere(piece);
   }
 
-  /// The diameter of the ball that one wall limits is a convex function of the point: if it is below the limit at the
-  /// corners, it is below the limit at all points between them.
+  /// The diameter of the ball that one wall limits is a convex function of the point: if the diameter is below the
+  /// limit at the corners, it is below the limit everywhere between them.
   [[nodiscard]] bool isThinEverywhere(const Piece& piece) const {
     const Vec3d& normal = tree_.scene().geometry.normals[piece.part.face];
     for (const uint32_t face : {piece.part.least.wall, piece.atMiddle.wall}) {
@@ -167,7 +166,7 @@ class ThinSearch {
     });
   }
 
-  /// Numbers the regions: pieces whose sides overlap on a line are neighbours.
+  /// Numbers the regions. Pieces are neighbours if their sides overlap on a line.
   void connect() {
     struct Reference {
       uint32_t line, from, to, piece;

@@ -12,21 +12,20 @@
 
 namespace asdfvk {
 
-/// A thin part of a face: the whole face, or a triangle of it. Normalised coordinates.
+/// A thin part of a face in normalised coordinates: the whole face, or a triangle of it.
 struct ThinPart {
   uint32_t face = 0;
   std::array<Vec3d, 3> corners;
-  /// The least ball over the part. It has no wall where the greatest section limits the diameter.
+  /// The least ball over the part. The ball has no wall if the greatest section limits its diameter.
   InscribedBall least;
   bool isThinAtMiddle = false;
-  bool isSharp = false;  ///< Whether it contains a point of a sharp edge or tip of its face.
-  uint32_t region = 0;   ///< Number of the region: parts connected over edges are one region. Regions are numbered by
-                         ///< their first parts.
+  bool isSharp = false;  ///< Whether the part contains a point of a sharp edge or tip.
+  uint32_t region = 0;   ///< Number of the region; parts connected over edges are one region.
 };
 
-/// The parts of thin faces that have a point below the limit. Faces are halved at their longest edges down to pieces no
-/// longer than maxLength, but not where one wall shows that a piece is thin everywhere. faces: thin faces with their
-/// balls; at least one ball of each face is below the limit. Throws Error{Cancelled}.
+/// The parts of thin faces with a point below the limit. Faces are halved at their longest edges until pieces are no
+/// longer than maxLength, or until one wall shows that a piece is thin everywhere. faces: thin faces with their balls;
+/// at least one ball of each face is below the limit. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ThinPart> findThinParts(const WallTree& tree, const PointFans& fans, const SharpEdges& sharp,
                                                   std::span<const FaceBalls> faces, double limit, double maxLength,
                                                   const RunControl& control);

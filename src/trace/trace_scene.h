@@ -10,20 +10,20 @@
 
 namespace asdfvk {
 
-/// The mesh and the hierarchy that rays and balls are tested against. Views only: everything must outlive the tracer.
+/// Mesh and hierarchy for the tests of rays and balls. Views: the viewed data must outlive the tracer.
 struct TraceScene {
   TriangleMesh mesh;
   const FaceGeometry& geometry;
   std::span<const uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   const Bvh& bvh;
 
-  /// The barycentre of a face in normalised coordinates.
+  /// Returns normalised coordinates.
   [[nodiscard]] Vec3d originOf(uint32_t face) const {
     return bvh.normalization.toNormalized(geometry.barycentres[face]);
   }
 };
 
-/// A face in normalised coordinates.
+/// Returns normalised coordinates.
 [[nodiscard]] inline PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face) {
   const Face& corners = scene.mesh.faces[face];
   const auto corner = [&](size_t k) { return scene.bvh.normalization.toNormalized(scene.mesh.vertices[corners[k]]); };

@@ -8,14 +8,13 @@
 
 namespace asdfvk {
 
-/// Seed faces and their results.
 struct TracedSeeds {
-  /// raysPerSeed: 0 where hits are not kept.
+  /// raysPerSeed: 0 if hits are not kept.
   explicit TracedSeeds(size_t faceCount, size_t raysPerSeed = 0)
       : values(faceCount, kNoValue), isSeed(faceCount, 0), hitsPerSeed(raysPerSeed) {}
 
-  std::vector<double> values;   ///< #F; NaN where no ray was cast or no hit was valid.
-  std::vector<uint8_t> isSeed;  ///< #F, 1 where rays were cast.
+  std::vector<double> values;   ///< #F; NaN if no ray was cast or no hit was valid.
+  std::vector<uint8_t> isSeed;  ///< #F, 1 if rays were cast.
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
   std::vector<ConeHit> hits;    ///< #S x hitsPerSeed, see ConeResults::hits.
   size_t hitsPerSeed = 0;

@@ -15,7 +15,7 @@ struct TracerCheck {
   /// Compared faces whose values differ by more than kAgreementTolerance bounding-box diagonals.
   uint32_t differingCount = 0;
 
-  /// Whether the tracer is wrong. A few faces may differ because of rays that graze edges.
+  /// Whether the tracer is wrong. A few faces may differ, because rays graze edges.
   [[nodiscard]] bool isRefuted() const { return differingCount > 4 && 4 * differingCount > comparedCount; }
   /// Whether the faces suffice to refute a tracer.
   [[nodiscard]] bool isConclusive() const { return comparedCount >= 16; }
@@ -23,8 +23,7 @@ struct TracerCheck {
 
 [[nodiscard]] TracerCheck checkTracer(ConeTracer& tracer, const TraceScene& scene, const Cone& cone);
 
-/// Counts the entries that differ by more than kAgreementTolerance of the diagonal. Entries that are missing in both
-/// arrays are not compared. Precondition: the arrays have the same size.
+/// Compares two arrays of equal size. Entries that are missing in both arrays are not compared.
 [[nodiscard]] TracerCheck compareValues(std::span<const double> values, std::span<const double> expected,
                                         double diagonal);
 

@@ -6,8 +6,7 @@
 
 namespace asdfvk {
 
-/// Plane of a triangle: normal * p = offset. 32 bytes. The length of a ray needs no other data of the triangle that it
-/// hits.
+/// Plane of a triangle, 32 bytes: normal * p = offset. The only data of a hit triangle that the length of a ray needs.
 struct TrianglePlane {
   Vec3d normal;  ///< Unit.
   double offset = 0;

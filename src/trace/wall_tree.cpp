@@ -11,9 +11,9 @@
 namespace asdfvk {
 namespace {
 
-/// Nodes with more walls have no cylinder (WallNode::axis), because their walls are rarely in a small one.
+/// Nodes with more walls have no cylinder (WallNode::axis), because so many walls rarely fit into a small cylinder.
 constexpr uint32_t kMaxDiscWallCount = 4096;
-/// Nodes with up to this number of walls are leaves, because testing the walls costs less than descending.
+/// Nodes with up to this number of walls are leaves, because testing the walls is cheaper than descending.
 constexpr uint32_t kMaxLeafWallCount = 4;
 
 }  // namespace

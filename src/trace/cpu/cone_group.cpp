@@ -42,7 +42,7 @@ void ConeGroup::trace() {
     if (!seeds_[lane].hits.empty()) writeHits(lane);
 }
 
-/// Casts one ray of all cones; coneDirection: one of Cone::directions.
+/// coneDirection: one of Cone::directions.
 void ConeGroup::cast(const Vec3d& coneDirection, LaneHits& hits) {
   const Vec3d& d = coneDirection;
   for (size_t axis = 0; axis < 3; ++axis)

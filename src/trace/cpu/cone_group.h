@@ -9,7 +9,6 @@
 
 namespace asdfvk {
 
-/// Data shared by all cones of a trace. Views only.
 struct CpuCones {
   const TraceScene& scene;
   const Cone& cone;
@@ -17,10 +16,9 @@ struct CpuCones {
   const LaneBvh& bvh;
 };
 
-/// A cone to trace, and the output array of its hits.
 struct CpuSeed {
   ConeStart start;
-  uint32_t primitive = kNoFace;  ///< The primitive that the origin lies on; kNoFace: none.
+  uint32_t primitive = kNoFace;  ///< The primitive with the origin; kNoFace: none.
   bool fitsFloat = true;         ///< False: no ray is cast, and isDoubtful() is true.
   std::span<ConeHit> hits;       ///< One per ray, or empty.
 };
@@ -34,19 +32,18 @@ class ConeGroup {
 
   explicit ConeGroup(const CpuCones& cones);
 
-  /// Adds a cone for the next trace(). Precondition: fewer than kWidth cones.
+  /// Precondition: fewer than kWidth cones were added since clear().
   void add(const CpuSeed& seed);
   [[nodiscard]] size_t size() const { return size_; }
   [[nodiscard]] const CpuSeed& seed(size_t lane) const { return seeds_[lane]; }
 
-  /// Computes the values of all cones that were added.
   void trace();
   void clear();
 
-  /// The value in normalised units, or kNoValue. Meaningless if isDoubtful() is true.
+  /// In normalised units, or kNoValue. Meaningless if isDoubtful() is true.
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
-  /// Whether float32 may be too coarse for the cone, so that the reference must trace it: CpuSeed::fitsFloat is false,
-  /// or the value is below kMinFloatDiameter.
+  /// Whether the reference must trace the cone because float32 may be too coarse: CpuSeed::fitsFloat is false, or the
+  /// value is below kMinFloatDiameter.
   [[nodiscard]] bool isDoubtful(size_t lane) const {
     return !seeds_[lane].fitsFloat || values_[lane] < kMinFloatDiameter;
   }

@@ -42,7 +42,6 @@ class CpuTracer final : public ConeTracer {
  private:
   static constexpr size_t kGroupSize = ConeGroup::kWidth;
 
-  /// The cone of a face, without its output array.
   [[nodiscard]] CpuSeed seedAt(uint32_t face) const {
     ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
     const uint32_t primitive = seedOrder_.primitiveOf(face);
@@ -57,7 +56,7 @@ class CpuTracer final : public ConeTracer {
     seedOrder_.prefetch(face);
   }
 
-  /// seedOf(i): cone i without its output array; prefetchSeed(i): prefetches the memory that seedOf(i) reads.
+  /// seedOf(i): cone i without its output array. prefetchSeed(i): prefetches the memory that seedOf(i) reads.
   template <typename SeedOf, typename PrefetchSeed>
   TraceStatistics traceAll(const std::vector<uint32_t>& order, const SeedOf& seedOf, const PrefetchSeed& prefetchSeed,
                            const ConeResults& results, const RunControl& control) {
@@ -71,7 +70,7 @@ class CpuTracer final : public ConeTracer {
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
     const auto traceGroup = [&](size_t index, ConeGroup& group) {
       const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
-      // Prefetches the scattered data of the next group, while this group is traced.
+      // While this group is traced, the scattered data of the next group are prefetched.
       for (size_t i = end; i < std::min(end + kGroupSize, order.size()); ++i) prefetchSeed(order[i]);
       group.clear();
       for (size_t i = begin; i < end; ++i) {
@@ -92,7 +91,7 @@ class CpuTracer final : public ConeTracer {
     return {order.size() * rayCount, redoneConeCount};
   }
 
-  /// Sets the values of the cones of a group. Returns the number of cones that the reference traced.
+  /// Returns the number of cones that the reference traced.
   uint64_t takeValues(const ConeGroup& group, std::span<const uint32_t> cones, std::span<double> values) const {
     uint64_t redoneConeCount = 0;
     for (size_t lane = 0; lane < cones.size(); ++lane) {

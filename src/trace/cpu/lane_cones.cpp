@@ -33,8 +33,7 @@ ASDFVK_ALWAYS_INLINE inline Vec3Double4 loadRows(const LaneFrames::Rows& rows, s
   return {load<Double4>(&rows[0][first]), load<Double4>(&rows[1][first]), load<Double4>(&rows[2][first])};
 }
 
-/// Batcher's odd-even merge sort (1968) of `count` numbers. Exchanges with positions beyond the last number are
-/// omitted, as if these positions had infinite numbers.
+/// Batcher's odd-even merge sort (1968) of `count` numbers, without exchanges beyond the last number.
 std::vector<std::pair<uint16_t, uint16_t>> sortingNetwork(size_t count) {
   std::vector<std::pair<uint16_t, uint16_t>> exchanges;
   for (size_t sorted = 1; sorted < count; sorted *= 2)
@@ -117,7 +116,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::sort() {
     }
 }
 
-/// Replaces sorted_ by the sorted absolute differences of the lengths from the medians, one per lane.
+/// Replaces sorted_ by the sorted absolute differences of the lengths from the medians, one median per lane.
 ASDFVK_ALWAYS_INLINE inline void LaneCones::sortDeviations(std::span<const double> medians) {
   for (size_t ray = 0; ray < lengths_.size(); ++ray)
     for (size_t first = 0; first < kWidth; first += kDoubleCount) {
@@ -139,7 +138,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWi
   };
   sorted_ = lengths_;
   sort();
-  // Sums in the order of the rays, as in coneValue(); adding zero changes no bit.
+  // Sums in the order of the rays, as coneValue() does; adding zero changes no bit.
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
     Double4 count{}, sum{}, squares{};
     for (const auto& lengths : lengths_) {

@@ -11,11 +11,9 @@
 #include "trace/cone_tracer.h"
 #include "trace/triangle_planes.h"
 
-// Computes the values of eight cones, one per lane, from the hits of their rays, in double.
-// Coordinates are normalised.
+// Computes the values of eight cones, one per lane, from the hits of their rays, in double. Coordinates are normalised.
 namespace asdfvk {
 
-/// The hits of one ray of each of eight cones; the ray has the same index in all cones.
 struct LaneHits {
   static constexpr size_t kWidth = 8;
 
@@ -23,8 +21,7 @@ struct LaneHits {
   std::array<float, kWidth> distances;
 };
 
-/// Frames of eight cones, and barycentres and normals of their seed faces. Rows: x of all lanes, y of all lanes, z of
-/// all lanes.
+/// Frames of eight cones, and barycentres and normals of their seed faces. Rows: x, y and z of all lanes.
 struct LaneFrames {
   using Rows = std::array<std::array<double, LaneHits::kWidth>, 3>;
 
@@ -33,8 +30,7 @@ struct LaneFrames {
   void set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal);
 };
 
-/// Computes values from hits; the results have the same bits as with isFalseHit() and coneValue(). An object reuses its
-/// memory.
+/// Computes values from hits, with the bits of isFalseHit() and coneValue(). An object reuses its memory.
 class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
@@ -43,13 +39,12 @@ class LaneCones {
   LaneCones(const Cone& cone, std::span<const TrianglePlane> planes,
             InstructionSet instructionSet = widestInstructionSet());
 
-  /// Computes the lengths of all rays; hits: one entry per ray of the cone. The length is the distance to the
-  /// triangle's plane; on a sliver, whose plane is not near the hit, it is the distance of the hit.
+  /// Computes the lengths of all rays. hits: one entry per ray of the cone. A length is the distance to the plane of
+  /// the triangle. On slivers, whose planes are not near the hits, the distance of the hit is used.
   void measure(const LaneFrames& frames, std::span<const LaneHits> hits);
 
   /// One length per ray and lane; infinite for invalid rays.
   [[nodiscard]] std::span<std::array<double, kWidth>> lengths() { return lengths_; }
-  /// Shape diameters from lengths(), as coneValue() defines them.
   [[nodiscard]] std::array<double, kWidth> values();
 
  private:

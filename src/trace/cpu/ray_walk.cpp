@@ -17,7 +17,7 @@ constexpr float kTinyDirection = 1e-20F;
 template <typename Floats>
 constexpr bool kHasShuffles = sizeof(Floats) >= sizeof(Float8);
 
-/// For each mask an order of the lanes: the lanes of the set bits first, ascending.
+/// For each mask an order of the lanes that begins with the lanes of the set bits, ascending.
 struct CompactionTable {
   alignas(64) std::array<std::array<int32_t, kBvhLaneCount>, 1U << kBvhLaneCount> lanes{};
 
@@ -41,7 +41,7 @@ ASDFVK_ALWAYS_INLINE inline uint32_t maskBits(const Ints8& mask) {
   return bitsOf(mask);
 }
 
-/// a * b + c, rounded once or twice. Use it for boxes only, whose margin covers the difference.
+/// a * b + c, rounded once or twice. Only for boxes: their margin covers the difference.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b, const Float8& c) {
 #if defined(__x86_64__) && !defined(__clang__)
@@ -50,12 +50,11 @@ ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b,
   return a * b + c;
 }
 
-/// The data of each ray that the tests of boxes and triangles read.
 struct RayRows {
   using Floats = RayGroup::Floats;
 
-  // The distance to a near plane is plane * inverse + near. The distance to a far plane is plane * inverse + far. nears
-  // and fars include the margin of the boxes.
+  // The distance to a near plane is plane * inverse + near; to a far plane, plane * inverse + far. nears and fars
+  // include the margin of the boxes.
   alignas(32) std::array<Floats, 3> inverses, nears, fars;
   // Shear along mainAxes, the axis of the longest component of the direction (Woop, Benthin and Wald 2013).
   alignas(32) Floats shearsX, shearsY, mainDirections;
@@ -67,7 +66,7 @@ ASDFVK_ALWAYS_INLINE inline Float8 absolute(const Float8& x) {
   return reinterpret_cast<Float8>(reinterpret_cast<Ints8>(x) & ~kSignBit);
 }
 
-/// One of three numbers, by the axis of the longest component.
+/// The x, y or z of the axis of the longest component.
 ASDFVK_ALWAYS_INLINE inline Float8 choose(const Ints8& isZ, const Ints8& isY, const Float8& z, const Float8& y,
                                           const Float8& x) {
   return isZ ? z : isY ? y : x;
@@ -98,8 +97,8 @@ ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
   rows.limits = rays.ends;
 }
 
-/// Writes the children that the ray enters, the farthest first, and returns their number. Writes up to kBvhLaneCount
-/// entries. Children are in the approximate order of slot ^ signs, see chooseSlots().
+/// Writes the children that the ray enters, the farthest first, and returns their number. Needs room for kBvhLaneCount
+/// entries. The order is approximate, by slot ^ signs (chooseSlots()).
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline uint32_t enterChildren(const LaneNode& node, const RayRows& rows, size_t ray,
                                                    float* distances, uint32_t* references) {
@@ -140,7 +139,7 @@ ASDFVK_ALWAYS_INLINE inline uint32_t enterChildren(const LaneNode& node, const R
   return count;
 }
 
-/// A triangle is narrow if the square of its width across the ray, over twice its area across the ray, is above this.
+/// A triangle is narrow if width^2 / (2 area) is above this number; width and area are those seen along the ray.
 constexpr float kNarrowTriangle = 32;
 
 struct RayHitDistance {
@@ -158,7 +157,7 @@ RayHitDistance distanceToPlane(const TrianglePlane& plane, const RayGroup& rays,
   return {static_cast<float>(distance), static_cast<float>(slope < 0 ? distance + rays.outerSideAddition : distance)};
 }
 
-/// Tests the triangles of a block, and returns whether the hit of the ray changed.
+/// Returns whether the hit of the ray changed.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<const TrianglePlane> planes, RayRows& rows,
                                            size_t ray, RayGroup& rays) {
@@ -175,7 +174,7 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
                   (load<Float8>(block.corners[k][y].data()) - originY) - shearY * along, along};
   };
   const Corner a = corner(0), b = corner(1), c = corner(2);
-  // Edge functions: rounding can change them to zero, which counts as inside, but not invert their signs.
+  // Edge functions. Rounding can change an edge function to zero, which counts as inside, but not invert its sign.
   const Float8 edgeA = c.x * b.y - c.y * b.x, edgeB = a.x * c.y - a.y * c.x, edgeC = b.x * a.y - b.y * a.x;
   const Float8 det = edgeA + edgeB + edgeC;
   const Ints8 sign = reinterpret_cast<Ints8>(det) & kSignBit;

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Eight rays, side by side, and their hits. Coordinates are normalised; origins are in the normalised box or near it.
+/// Eight rays and their hits. Coordinates are normalised; origins are in the normalised box or near it.
 struct RayGroup {
   static constexpr size_t kWidth = 8;
   using Floats = std::array<float, kWidth>;
@@ -27,25 +27,25 @@ struct RayGroup {
   alignas(32) Indices primitives{};  ///< kNoFace without a hit.
 };
 
-/// Traces groups of rays. Eight boxes or eight triangles are tested against one ray (Wald et al. 2008), and the rays of
-/// a group take turns, so that each waits for its memory while others compute. Watertight: no ray passes between
-/// triangles with a common edge. The hit of a ray depends on no other ray and on no instruction set: of equally near
-/// triangles it is the one with the lowest primitive. Use one object per thread.
+/// Traces groups of rays. Eight boxes or eight triangles are tested against one ray (Wald et al. 2008). The rays of a
+/// group take turns, so that each ray waits for its memory while others compute. Watertight: no ray passes between
+/// triangles with a common edge. The hit of a ray depends neither on other rays nor on the instruction set: of equally
+/// near triangles, the lowest primitive is hit. Use one object per thread.
 class RayWalk {
  public:
-  /// planes: one per primitive, or empty. The corners of a triangle that looks long and narrow from the origin give an
-  /// inexact distance; with planes, its distance is computed from its plane. Hierarchy and planes must outlive this
-  /// object. Precondition: this machine has the instruction set.
+  /// planes: one per primitive, or empty. For triangles that look long and narrow from the origin, the distance from
+  /// the corners is inexact; with planes, the distance is computed from the plane. Hierarchy and planes must outlive
+  /// this object. Precondition: this machine has the instruction set.
   explicit RayWalk(const LaneBvh& bvh, std::span<const TrianglePlane> planes = {},
                    InstructionSet instructionSet = widestInstructionSet())
       : bvh_(bvh), planes_(planes), instructionSet_(instructionSet) {}
 
-  /// Sets distances and primitives of the active rays to the nearest hits.
+  /// Finds the nearest hit of each active ray.
   void findNearest(RayGroup& rays);
-  /// Sets distances and primitives of the active rays to any one hit each.
+  /// Finds any one hit of each active ray.
   void findAny(RayGroup& rays);
 
-  /// The nodes and blocks that a ray still has to test, and the distances at which the ray enters them.
+  /// The nodes and blocks that are still to be tested, and the distances at which the ray enters them.
   struct Stack {
     std::array<float, kLaneStackSize> distances;
     std::array<uint32_t, kLaneStackSize> references;

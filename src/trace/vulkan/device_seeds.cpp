@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-// Seeds are collected instead of sorted if they are at least 1 / kMinDenseShare of the faces.
+// If at least 1 / kMinDenseShare of the faces are seeds, seeds are collected instead of sorted.
 constexpr uint32_t kMinDenseShare = 8;
 
 uint32_t codeOf(const TraceScene& scene, uint32_t face, uint32_t triangle) {
@@ -27,7 +27,7 @@ DeviceSeeds::DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle
     : codes_(scene.representatives.size(), kNoFace), triangleCount_(static_cast<uint32_t>(triangles.size())) {
   const std::span<const uint32_t> representatives = scene.representatives;
   forEachInParallel(triangles.size(), [&](uint32_t i) { codes_[triangles[i].faceIndex] = i; });
-  // Copies first, because they read the entry of their representative, which is still the triangle.
+  // Copies first, because they read the entry of the representative while this entry is still the triangle.
   forEachInParallel(codes_.size(), [&](uint32_t face) {
     if (representatives[face] != face) codes_[face] = codeOf(scene, face, codes_[representatives[face]]);
   });
@@ -46,8 +46,8 @@ UnsetVector<DeviceCone> DeviceSeeds::inDeviceOrder(std::span<const uint32_t> fac
   return cones;
 }
 
-/// inDeviceOrder() for many seeds, with one random access each instead of the four of a sort: seeds are put at their
-/// triangles and collected from there. Returns false if seeds share a triangle or the device cannot trace a seed.
+/// inDeviceOrder() for many seeds: puts seeds at their triangles and collects them. This needs one random access per
+/// seed instead of the four of a sort. Returns false if seeds share a triangle or the device cannot trace a seed.
 bool DeviceSeeds::collect(std::span<const uint32_t> faces, UnsetVector<DeviceCone>& cones) const {
   if (faces.size() >= kFlippedFrameBit) return false;
   constexpr uint32_t kEmpty = kNoFace;

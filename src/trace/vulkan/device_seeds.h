@@ -10,17 +10,17 @@
 
 namespace asdfvk {
 
-/// A cone on the device: the code of its seed, and its index in the arrays of the caller.
+/// A cone on the device.
 struct DeviceCone {
-  uint32_t seed;  ///< ConeSeed::triangle, or kNoFace where the device cannot trace the cone.
+  uint32_t seed;  ///< ConeSeed::triangle; kNoFace if the device cannot trace the cone.
   uint32_t index;
 };
 
-/// DeviceCone::seed of every face, 4 bytes per face. Reading it costs one random memory access per seed; computing it
-/// would cost one in each of the triangles, representatives, areas and normals of the mesh.
+/// DeviceCone::seed of every face, 4 bytes per face. Reading an entry takes one random access. Computing an entry takes
+/// four accesses: to triangles, representatives, areas and normals of the mesh.
 class DeviceSeeds {
  public:
-  /// triangles: the triangles of the hierarchy on the device.
+  /// triangles: those of the hierarchy on the device.
   DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle> triangles);
 
   /// The cones of these faces in the order of their triangles, because neighbouring cones traverse the same nodes.

@@ -15,7 +15,6 @@ std::vector<Binding> joined(std::vector<Binding> first, const std::vector<Bindin
   return first;
 }
 
-/// Bytes of an array with an entry for each ray of each cone.
 uint64_t byteCountPerRay(const VulkanConeKernel& kernel, uint64_t capacity, size_t entryByteCount) {
   return capacity * kernel.rayCount() * entryByteCount;
 }

@@ -13,20 +13,19 @@
 namespace asdfvk {
 
 /// Memory and commands for one submission of cones: the host writes seeds() or starts(), submits, waits, and reads
-/// results() and hits(). Its buffers come from Device::pool(); the destructor waits for the device and returns them to
-/// the pool.
+/// results() and hits(). The destructor waits for the device and returns the buffers to Device::pool().
 class ConeChunk {
  public:
-  /// capacity: number of cones, at most largestConeChunk(). All arguments must outlive this object.
+  /// capacity: cones, at most largestConeChunk(). All arguments must outlive this object.
   ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity);
   ~ConeChunk() { commands_.finish(); }
   ConeChunk(const ConeChunk&) = delete;
   ConeChunk& operator=(const ConeChunk&) = delete;
 
   [[nodiscard]] uint64_t capacity() const { return capacity_; }
-  /// The cones to trace with Input::Seeds. Precondition: the kernel has origins().
+  /// The cones of a submission with Input::Seeds. Precondition: the kernel has origins().
   [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
-  /// The cones to trace with Input::Starts.
+  /// The cones of a submission with Input::Starts.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
 
   enum class Input { Seeds, Starts };
@@ -36,7 +35,7 @@ class ConeChunk {
 
   /// See shared/cone_layout.h.
   [[nodiscard]] std::span<const uint32_t> results() { return results_.onHost<uint32_t>(); }
-  /// Hits of cone i are at i times the number of rays.
+  /// The hits of cone i begin at i times the number of rays.
   [[nodiscard]] std::span<const ConeHit> hits() { return hits_->onHost<ConeHit>(); }
 
  private:

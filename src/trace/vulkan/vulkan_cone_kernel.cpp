@@ -44,7 +44,7 @@ ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
                                       /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE}};
 }
 
-/// Returns the device. Throws if it lacks subgroup operations that the kernel needs.
+/// Returns the device. Throws if the device lacks subgroup operations of the kernel.
 const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
   const DeviceFacts& facts = device.facts();
   if (facts.hasSubgroupVote && (facts.hasSubgroupArithmetic || kernel != TraceKernel::Packet)) return device;
@@ -76,7 +76,6 @@ Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte
   return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
 }
 
-/// Bytes of the hits of one cone.
 uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
 
 }  // namespace

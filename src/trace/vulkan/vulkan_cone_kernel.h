@@ -23,7 +23,6 @@ struct ConeKernelRequest {
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
-/// The pipeline of a kernel that traces rays.
 [[nodiscard]] ComputePipelineDescription describeRays(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
                                                       const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
 
@@ -31,7 +30,7 @@ struct ConeKernelRequest {
 class VulkanConeKernel {
  public:
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request);
-  /// With given shapes instead of those chosen for the device; for tests.
+  /// For tests: with given shapes instead of those chosen for the device.
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape);
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape,
                    const VulkanWalkShape& walk);
@@ -40,10 +39,10 @@ class VulkanConeKernel {
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
   /// Traces rays. Bindings: nodes and triangles (as texels, then as storage), rays, origins, lengths, hits.
   [[nodiscard]] const ComputePipeline& rays() const { return rays_; }
-  /// Makes the starts of cones from their seeds; null for Definition::Cgal, whose frames depend on corners in double
-  /// precision. Bindings: nodes and triangles like rays(), seeds, starts.
+  /// Makes the starts of cones from their seeds. Null for Definition::Cgal, whose frames depend on corners in double.
+  /// Bindings: nodes and triangles like rays(), seeds, starts.
   [[nodiscard]] const ComputePipeline* origins() const { return origins_ ? &*origins_ : nullptr; }
-  /// Computes results from lengths, one per ray and cone. Bindings: rays, lengths, results.
+  /// Computes results from lengths. Bindings: rays, lengths, results.
   [[nodiscard]] const ComputePipeline& reduction() const { return reduction_; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
   [[nodiscard]] Definition definition() const { return request_.definition; }
@@ -60,16 +59,16 @@ class VulkanConeKernel {
   std::optional<ComputePipeline> origins_;
 };
 
-/// Largest number of cones of one dispatch: each buffer stays within the limits of the device and at most 32 MiB.
+/// Largest number of cones of one dispatch. Buffers are within the limits of the device and at most 32 MiB each.
 [[nodiscard]] uint64_t largestConeChunk(const VulkanConeKernel& kernel);
 
 /// A scene and a cone on the device of a kernel.
 class ConeBuffers {
  public:
-  /// Throws Error{DeviceLimit} when the scene exceeds the limits of the device.
+  /// Throws Error{DeviceLimit} if the scene exceeds the limits of the device.
   ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
 
-  /// The first bindings of every kernel that traverses the hierarchy: nodes and triangles as texels, then as storage.
+  /// The first bindings of every traversal kernel: nodes and triangles as texels, then as storage.
   [[nodiscard]] std::vector<Binding> hierarchyBindings() const;
   [[nodiscard]] const TexelView& rayTexels() const { return rayTexels_; }
   /// A buffer for bindings that a kernel does not access.

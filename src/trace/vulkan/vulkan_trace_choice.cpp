@@ -85,7 +85,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
     shape.lanesPerCone = std::min(atMost(256), roundUp(rayCount, isCpu ? 8 : std::clamp(device.subgroupSize, 8u, 32u)));
     if (!isCpu) shape.conesPerWorkgroup = std::max(1u, atMost(128) / shape.lanesPerCone);
   }
-  // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together.
+  // The limit is for the sum over the lanes of a subgroup. Lanes of a packet run every loop together.
   constexpr uint32_t kPacketMargin = 64;  // An iteration of a packet adds less than this to the count.
   if (device.endsLongLoops)
     shape.iterationLimit = kernel == TraceKernel::Packet ? kMaxLoopIterationCount - kPacketMargin

@@ -27,14 +27,14 @@ enum class BvhFetch {
   Texel,    ///< Storage texel buffers: much faster on llvmpipe. Many devices allow at most 65,536 texels (of 16 bytes).
 };
 
-/// Variant of the kernels; all variants compute the same values.
+/// All variants compute the same values.
 struct VulkanTraceChoice {
   TraceKernel kernel = TraceKernel::Ray;
   BvhFetch fetch = BvhFetch::Texel;
   auto operator<=>(const VulkanTraceChoice&) const = default;
 };
 
-/// Requested variant; unset members take the default of the device.
+/// Unset members take the default of the device.
 struct VulkanTraceRequest {
   std::optional<TraceKernel> kernel;
   std::optional<BvhFetch> fetch;
@@ -44,14 +44,12 @@ struct VulkanTraceRequest {
 
 /// The fastest variant for the class of the device (docs/speed.md).
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
-/// The default variant with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
 /// The variant for one hierarchy. If the request has no fetch, and the hierarchy may exceed the limit of the default
-/// fetch but fits the other fetch, it has the other fetch.
+/// fetch but not of the other fetch, the variant has the other fetch.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request,
                                                const Bvh& bvh);
 
-/// Names of the variants, as in options and reports.
 template <typename T>
 using VariantNames = std::span<const std::pair<const char*, T>>;
 [[nodiscard]] VariantNames<TraceKernel> kernelNames();
@@ -63,15 +61,14 @@ using VariantNames = std::span<const std::pair<const char*, T>>;
 
 /// Workgroups of the kernels that trace rays, one ray per lane.
 struct VulkanWorkgroupShape {
-  uint32_t lanesPerCone = 32;  ///< Number of rays of a cone in neighbouring lanes.
+  uint32_t lanesPerCone = 32;  ///< Rays of a cone in neighbouring lanes.
   uint32_t conesPerWorkgroup = 1;
-  uint32_t iterationLimit = 60'000;  ///< Per ray; the reference traces the cones of rays that exceed it.
+  uint32_t iterationLimit = 60'000;  ///< Per ray; the reference traces cones with rays beyond the limit.
 };
 
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel);
 
-/// Traversal of the hierarchy by single lanes (shaders/wide_walk.glsl). Values do not depend on the shape, except where
-/// a ray hits equally near triangles.
+/// Traversal by single lanes (shaders/wide_walk.glsl). The shape only matters if a ray hits equally near triangles.
 struct VulkanWalkShape {
   uint32_t stackSize = kMaxBvhDepth;  ///< Entries, at least kMaxBvhDepth.
   /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one
@@ -80,8 +77,7 @@ struct VulkanWalkShape {
 };
 
 /// CPU devices postpone triangles; GPUs do not, which saves registers. On AMD GPUs the stack of a lane is larger than
-/// 256 bytes: Mesa's compiler puts such arrays into memory, and smaller arrays into registers. Packets, whose lanes
-/// share a stack, are not affected.
+/// 256 bytes: Mesa's compiler puts such arrays into memory, and smaller arrays into registers. Packets share a stack.
 [[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk

@@ -9,8 +9,8 @@ namespace asdfvk {
 
 /// Uploads the scene and traces on the kernel's device, in float32. The reference traces cones that exceed the
 /// iteration limit of the kernel or are too small for float32. The kernel, the scene and the cone must outlive the
-/// tracer; the cone must have the ray count of the kernel. Hits may be requested if the kernel writes them. Throws
-/// Error{DeviceLimit} when the scene exceeds the limits of the device.
+/// tracer. The kernel and the cone must have the same ray count. Hits may be requested if the kernel writes them.
+/// Throws Error{DeviceLimit} if the scene exceeds the limits of the device.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeVulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene,
                                                            const Cone& cone);
 
