@@ -49,8 +49,8 @@ VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<co
   return result;
 }
 
-/// Copies on several threads: one thread does not saturate the memory, and the first write to each page of fresh memory
-/// costs more than the copy.
+/// Copies on several threads. One thread does not saturate the memory, and the first write to a page of new memory
+/// takes longer than the copy.
 void copyInParallel(std::span<const std::byte> from, std::byte* to) {
   constexpr size_t kBlockByteCount = size_t{1} << 20;
   forEachTask((from.size() + kBlockByteCount - 1) / kBlockByteCount, [&](size_t block) {
@@ -59,7 +59,7 @@ void copyInParallel(std::span<const std::byte> from, std::byte* to) {
   });
 }
 
-/// Calls copyPiece(commands, staging, begin, byteCount) for each piece; staging: mapped memory for one piece.
+/// Calls copyPiece(commands, staging, begin, byteCount) for each piece. staging: mapped memory for one piece.
 template <typename CopyPiece>
 void forEachPiece(const Device& device, uint64_t byteCount, const CopyPiece& copyPiece) {
   constexpr uint64_t kMinPieceByteCount = 64u << 10;

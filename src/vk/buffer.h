@@ -10,9 +10,9 @@
 namespace asdfvk {
 
 enum class MemoryKind {
-  DeviceLocal,  ///< Fastest for kernels; also mapped where device and host share memory.
+  DeviceLocal,  ///< Fastest for kernels; also mapped if device and host share memory.
   DeviceOnly,   ///< Never mapped, as on a device with separate memory; for tests.
-  HostVisible,  ///< Mapped and coherent; cached where the device has such memory.
+  HostVisible,  ///< Mapped and coherent; cached if the device has such memory.
 };
 
 /// A buffer with memory of the best type that has enough left. Throws Error{OutOfDeviceMemory, DeviceLimit}.
@@ -26,7 +26,7 @@ class Buffer {
 
   [[nodiscard]] VkBuffer handle() const { return buffer_; }
   [[nodiscard]] uint64_t byteCount() const { return byteCount_; }
-  /// Null where the host cannot access the memory.
+  /// Null if the host cannot access the memory.
   [[nodiscard]] std::byte* mapped() const { return mapped_; }
   /// Whether reads of mapped() are cached. Uncached reads are about 100 times slower.
   [[nodiscard]] bool isCached() const { return isCached_; }
@@ -44,11 +44,10 @@ class Buffer {
   bool isCached_ = false;
 };
 
-/// Throws Error{DeviceLimit} where a storage buffer of that size exceeds DeviceFacts::maxStorageBufferRange.
+/// Throws Error{DeviceLimit} for more bytes than DeviceFacts::maxStorageBufferRange.
 void requireStorageRange(const Device& device, uint64_t byteCount);
 
-/// A view of a whole buffer as rgba32ui texels (16 bytes each). The buffer must have been made with
-/// VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT and must outlive the view.
+/// A whole buffer, with VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT, as rgba32ui texels. The buffer must outlive the view.
 class TexelView {
  public:
   TexelView() = default;
@@ -64,14 +63,14 @@ class TexelView {
   VkBufferView view_ = VK_NULL_HANDLE;
 };
 
-/// Copies between host memory and buffers that are not mapped pass through mapped memory in pieces of this size.
+/// Piece size of copies between host memory and buffers that are not mapped.
 inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
 
-/// A device-local buffer filled with `bytes`. At least 16 bytes are allocated, because an empty buffer cannot be bound.
+/// A device-local buffer with the given bytes, but at least 16 bytes, because an empty buffer cannot be bound.
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);
 
-/// Copies the first bytes of a buffer (made with VK_BUFFER_USAGE_TRANSFER_SRC_BIT) to the host.
+/// Copies the first bytes of a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT to the host.
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
 
 }  // namespace asdfvk

@@ -7,11 +7,11 @@
 
 namespace asdfvk {
 
-/// Unused buffers of a device, kept for later computations, because a GPU driver takes up to milliseconds to allocate
-/// memory. PooledBuffer takes buffers from the pool and gives them back.
+/// Unused buffers of a device, kept because a GPU driver takes up to milliseconds to allocate memory. PooledBuffer
+/// takes buffers from the pool and returns them.
 class BufferPool {
  public:
-  /// Limit on the memory of all buffers in the pool. Buffers beyond it are freed.
+  /// Memory of all buffers in the pool. Further buffers are freed.
   static constexpr uint64_t kMaxIdleByteCount = 256u << 20;
 
   /// The device must outlive the pool.
@@ -36,12 +36,12 @@ class BufferPool {
   std::vector<Entry> idle_;
 };
 
-/// A buffer of Device::pool(). It has the contents of earlier users. The destructor gives it back to the pool.
-/// Precondition: no submitted work uses it then.
+/// A buffer of Device::pool(), with the contents of earlier users. The destructor returns the buffer to the pool.
+/// Precondition of the destructor: no submitted work uses the buffer.
 class PooledBuffer {
  public:
   PooledBuffer() = default;
-  /// A buffer of byteCount bytes or more. Throws the errors of Buffer::Buffer().
+  /// byteCount: the buffer may be larger. Throws the errors of Buffer::Buffer().
   PooledBuffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, MemoryKind kind)
       : pool_(&device.pool()), entry_(device.pool().take(byteCount, usage, kind)) {}
   ~PooledBuffer() {

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// One command buffer, recorded and submitted repeatedly: begin(), record, submit(), wait(). Several lists may be in
+/// A command buffer, recorded and submitted repeatedly: begin(), record, submit(), wait(). Several lists may be in
 /// flight; their work may overlap on the device.
 class CommandList {
  public:
@@ -22,25 +22,24 @@ class CommandList {
 
   void begin();
   [[nodiscard]] VkCommandBuffer handle() const { return commands_; }
-  /// `pushConstants` must have the byte count that the description of the pipeline states.
+  /// pushConstants: as many bytes as the pipeline describes.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);
-  /// dispatch() with the workgroup counts of the VkDispatchIndirectCommand in `size`, read when the dispatch starts.
-  /// size: created with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
+  /// Like dispatch(), with the workgroup counts of the VkDispatchIndirectCommand in `size`, which is read when the
+  /// dispatch starts. size: created with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
   void dispatchIndirect(const ComputePipeline& pipeline, const BindingSet& bindings,
                         std::span<const std::byte> pushConstants, const Buffer& size);
-  /// Fills a whole buffer that was created with VK_BUFFER_USAGE_TRANSFER_DST_BIT.
+  /// The buffer must have VK_BUFFER_USAGE_TRANSFER_DST_BIT.
   void fillWithZeros(const Buffer& buffer);
   void copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset, uint64_t byteCount);
-  /// Memory barrier: all earlier commands finish, and their writes are visible to later kernels, copies, indirect
-  /// dispatches and host reads.
+  /// All earlier commands finish; later kernels, copies, indirect dispatches and host reads see their writes.
   void barrier();
-  /// Throws Error{Device} when the device is lost.
+  /// Throws Error{Device} if the device is lost.
   void submit();
-  /// Waits for the submitted commands, if any. Throws Error{Device} when the device is lost. There is no time limit:
-  /// drivers report a GPU that hangs as lost, and the resources of running work cannot be freed.
+  /// Waits for the submitted commands, if any. Throws Error{Device} if the device is lost. There is no time limit: a
+  /// driver reports a GPU that hangs as lost, and resources of running work cannot be freed.
   void wait();
-  /// Like wait(), but without exceptions. Afterwards the device does not use the resources of the commands.
+  /// Like wait(), but without exceptions. Afterwards, the device does not use the resources of the commands.
   void finish() noexcept;
   void submitAndWait() {
     submit();
@@ -56,7 +55,6 @@ class CommandList {
   bool isPending_ = false;
 };
 
-/// The bytes of a push-constant struct.
 template <typename T>
 [[nodiscard]] std::span<const std::byte> bytesOf(const T& value) {
   return std::as_bytes(std::span<const T, 1>(&value, 1));

@@ -11,7 +11,6 @@
 
 namespace asdfvk {
 
-/// Description of a compute pipeline.
 struct ComputePipelineDescription {
   std::string name;  ///< Name of the shader, for messages.
   std::span<const uint32_t> spirv;
@@ -41,7 +40,7 @@ class ComputePipeline {
   VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
-/// The resource of one binding: a whole buffer or a texel view.
+/// The resource of a binding: a whole buffer or a texel view.
 struct Binding {
   Binding(const Buffer& storage) : buffer(storage.handle()), byteCount(storage.byteCount()) {}
   Binding(const TexelView& texels) : view(texels.handle()) {}
@@ -50,7 +49,7 @@ struct Binding {
   VkBufferView view = VK_NULL_HANDLE;
 };
 
-/// The buffers that the dispatches of a pipeline read and write. The buffers must outlive the set.
+/// The buffers of the dispatches of a pipeline. The buffers must outlive the set.
 class BindingSet {
  public:
   /// Throws Error{DeviceLimit} for a buffer larger than DeviceFacts::maxStorageBufferRange.

@@ -50,7 +50,7 @@ std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   return families;
 }
 
-/// A device that has VK_KHR_portability_subset must be opened with this extension.
+/// A device with VK_KHR_portability_subset must be opened with this extension.
 std::vector<const char*> requiredExtensions(VkPhysicalDevice device) {
   constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
   uint32_t count = 0;
@@ -160,7 +160,7 @@ Device::~Device() {
 }
 
 std::optional<uint32_t> Device::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
-  // Memory with these properties needs an enabled feature or is for other resources.
+  // Memory with these properties needs a feature that is not enabled, or is for other resources.
   constexpr VkMemoryPropertyFlags kSpecial =
       VK_MEMORY_PROPERTY_PROTECTED_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
       VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD | VK_MEMORY_PROPERTY_RDMA_CAPABLE_BIT_NV;

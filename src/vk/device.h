@@ -15,13 +15,13 @@ namespace asdfvk {
 
 class BufferPool;
 
-/// The first queue family with compute and without graphics; otherwise the first with compute. A family without
-/// graphics does not delay the desktop, and its watchdog timeout is longer on some systems.
+/// The first queue family with compute and without graphics, or else the first with compute. A family without graphics
+/// does not delay the desktop, and on some systems has a longer watchdog timeout.
 [[nodiscard]] std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families);
 
 [[nodiscard]] DeviceFacts describeDevice(VkPhysicalDevice device);
 
-/// A logical device with one compute queue. Not thread-safe: only one thread may use it at a time.
+/// A logical device with one compute queue. Not thread-safe.
 class Device {
  public:
   /// Precondition: `facts` describes `physical` and has a compute queue family. Throws Error{Device}.
@@ -35,7 +35,7 @@ class Device {
   [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
   [[nodiscard]] BufferPool& pool() const { return *pool_; }
-  /// The first memory type among `allowedTypes` with all flags of `wanted`; unset if there is none.
+  /// The first type among `allowedTypes` with all flags of `wanted`.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
     return memory_.memoryTypes[type].propertyFlags;
@@ -52,11 +52,11 @@ class Device {
 
 struct OpenedDevice {
   std::unique_ptr<Device> device;
-  /// One line per device with its name and the decision. The opened device comes first, with its driver.
+  /// Has a line per device: its name and the decision. The opened device is first, with its driver.
   std::vector<std::string> reasons;
 };
 
-/// Opens the device that chooseDevice() returns. Throws Error{Device} with the reasons of all refusals in one line.
+/// Opens the device that chooseDevice() selects. Throws Error{Device} with the reasons of all refusals in one line.
 [[nodiscard]] OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request);
 
 }  // namespace asdfvk

@@ -29,7 +29,7 @@ int rank(DeviceKind kind) {
   return 5;
 }
 
-/// Whether `digits` is a whole number within `text`: "RTX 4090" holds 4090 but not 90.
+/// Whether `digits` is a whole number within `text`: "RTX 4090" has the number 4090, but not 90.
 bool holdsNumber(const std::string& text, const std::string& digits) {
   const auto isDigit = [&](size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); };
   for (size_t at = text.find(digits); at != std::string::npos; at = text.find(digits, at + 1))
@@ -45,7 +45,7 @@ bool isSelected(const DeviceFacts& device, uint32_t index, size_t deviceCount, c
   return wanted && *wanted < deviceCount ? wanted == index : holdsNumber(device.name, selector);
 }
 
-/// The reason to refuse the device; empty if there is none.
+/// Empty if the device is accepted.
 std::string refusal(const DeviceFacts& device, uint32_t index, size_t deviceCount, const DeviceRequest& request) {
   if (!isSelected(device, index, deviceCount, request.selector))
     return fmt::format("is not the requested device '{}'", request.selector);

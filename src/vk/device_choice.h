@@ -12,8 +12,7 @@ namespace asdfvk {
 enum class DeviceKind { Discrete, Integrated, Virtual, Cpu, Other };
 enum class DeviceVendor { Nvidia, Amd, Intel, Other };
 
-/// Facts that the choice of a device depends on, and limits that programs adapt to. Plain data, so that the choice can
-/// be tested without a device.
+/// Facts for the choice of a device, and limits. Plain data, so that tests of the choice need no device.
 struct DeviceFacts {
   std::string name;
   std::string driver;
@@ -36,20 +35,20 @@ struct DeviceFacts {
 };
 
 /// Whether kernels read large read-only arrays as texels instead of from storage buffers. True on CPU devices, where
-/// texels are faster, unless storage buffers can be larger. Random loads of 16 bytes from texel buffers are up to 3
-/// times slower than from storage buffers on NVIDIA GPUs since Volta, and equally fast on AMD GPUs (Aaltonen,
+/// texels are faster, unless storage buffers can be larger. On NVIDIA GPUs since Volta, random loads of 16 bytes from
+/// texel buffers are up to 3 times slower than from storage buffers; on AMD GPUs both are equally fast (Aaltonen,
 /// https://github.com/sebbbi/perftest). Many devices allow 65,536 texels only.
 [[nodiscard]] bool prefersTexels(const DeviceFacts& device);
 
-/// llvmpipe before Mesa 25 silently ends all loops of an invocation after this many iterations, counted for the lanes
-/// of a subgroup together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS).
+/// llvmpipe before Mesa 25 ends all loops of an invocation, without an error, after this many iterations. The count is
+/// the sum over the lanes of a subgroup (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS).
 inline constexpr uint32_t kMaxLoopIterationCount = 65'535;
-/// driverInfo: the driver information of llvmpipe, for example "Mesa 22.3.6 (LLVM 15.0.6)".
+/// driverInfo: the text of llvmpipe, for example "Mesa 22.3.6 (LLVM 15.0.6)".
 [[nodiscard]] bool llvmpipeEndsLongLoops(std::string_view driverInfo);
 
 struct DeviceRequest {
-  /// An index. A number that is not an index matches a whole number within a device name ("4090"). Other text matches a
-  /// part of a name, ignoring case. Empty: any device.
+  /// An index, or a part of a name, ignoring case. A number that is not an index matches a whole number within a name
+  /// ("4090"). Empty: any device.
   std::string selector;
   bool requireGpu = false;  ///< Refuse CPU devices.
 };
@@ -61,8 +60,8 @@ struct DeviceChoice {
 
 [[nodiscard]] std::string_view toString(DeviceKind kind);
 
-/// Chooses a device: GPUs before CPU devices, discrete GPUs first, otherwise in the given order. A CPU device is
-/// refused only where a GPU is required. A pure function.
+/// GPUs before CPU devices, discrete GPUs first, otherwise the given order. CPU devices are refused only if a GPU is
+/// required. A pure function.
 [[nodiscard]] DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request);
 
 }  // namespace asdfvk

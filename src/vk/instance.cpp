@@ -51,8 +51,8 @@ struct LayerSettingsInfo {
   const LayerSetting* settings;
 };
 
-/// Enables the checks of shader accesses, which are most accesses here. Layers since July 2024 do not check them by
-/// default.
+/// Enables the checks of shader accesses, which layers since July 2024 do not check by default. Most accesses here are
+/// shader accesses.
 LayerSettingsInfo shaderAccessValidation() {
   constexpr auto kLayerSettingsCreateInfo = static_cast<VkStructureType>(1000496000);
   constexpr int32_t kBool32 = 0;
@@ -61,7 +61,7 @@ LayerSettingsInfo shaderAccessValidation() {
   return {kLayerSettingsCreateInfo, nullptr, 1, &setting};
 }
 
-/// Whether the loader and the drivers have the extension. If `layer` is given: whether this layer has it.
+/// Whether the loader and the drivers, or `layer` if it is given, have the extension.
 bool hasExtension(const char* name, const char* layer = nullptr) {
   uint32_t count = 0;
   if (vkEnumerateInstanceExtensionProperties(layer, &count, nullptr) != VK_SUCCESS) return false;

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Messages of the validation layers. The log outlives the instance, whose destruction may still add messages.
+/// Messages of the validation layers. The log outlives the instance, because destroying the instance may add messages.
 class ValidationLog {
  public:
   void add(std::string message);
@@ -21,11 +21,11 @@ class ValidationLog {
 };
 
 struct InstanceOptions {
-  /// Core and synchronization validation. Error{Device} where the layer is not installed.
+  /// Core and synchronization validation. Throws Error{Device} if the layer is not installed.
   bool validation = false;
 };
 
-/// A Vulkan 1.2 instance. It also lists devices of incomplete implementations (VK_KHR_portability_subset). Throws
+/// A Vulkan 1.2 instance. Also lists devices of incomplete implementations (VK_KHR_portability_subset). Throws
 /// Error{Device} with the reason if there is no loader or no driver.
 class Instance {
  public:
@@ -42,13 +42,12 @@ class Instance {
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  /// The function pointer of this instance. Volk's global pointer becomes null when an instance without the extension
-  /// is created.
+  /// Volk's global pointer becomes null when an instance without the extension is created.
   PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
   std::shared_ptr<ValidationLog> log_;
 };
 
-/// True when the environment variable ASDF_VK_VALIDATION is set and not "0".
+/// True if the environment variable ASDF_VK_VALIDATION is set and not "0".
 [[nodiscard]] bool validationRequestedByEnvironment();
 
 }  // namespace asdfvk

@@ -6,8 +6,7 @@
 
 namespace asdfvk {
 
-/// Throws Error of kind Device with the failed call and the reason unless the result is VK_SUCCESS. call: for example
-/// "creating a buffer".
+/// Unless the result is VK_SUCCESS, throws Error of kind Device. call: the failed call, such as "creating a buffer".
 void requireSuccess(VkResult result, std::string_view call);
 
 }  // namespace asdfvk

@@ -7,13 +7,12 @@
 
 namespace asdfvk {
 
-/// A pooled buffer in the memory of the device. The host accesses this memory directly where it is mapped, otherwise
-/// through a mapped copy.
+/// A pooled buffer on the device. The host accesses a mapped buffer directly, another buffer through a mapped copy.
 class SharedBuffer {
  public:
   enum class Host { Writes, Reads };
 
-  /// usage: flags of the use by kernels. host: whether the host writes or reads the buffer.
+  /// usage: for kernels. host: whether the host writes or reads the buffer.
   SharedBuffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, Host host)
       : device_(device),
         buffer_(device, byteCount,
@@ -24,16 +23,15 @@ class SharedBuffer {
 
   [[nodiscard]] const Buffer& onDevice() const { return *buffer_; }
 
-  /// The memory that the host accesses. The first call of onHost() or recordCopy() creates the mapped copy if it is
-  /// needed.
+  /// Memory for the host. The first call of onHost() or recordCopy() creates the mapped copy if it is needed.
   template <typename T>
   [[nodiscard]] std::span<T> onHost() {
     return hostBuffer().mappedAs<T>();
   }
 
-  /// Records the copy of the first byteCount bytes, from or to the host as given to the constructor. Records nothing
-  /// where the host accesses the buffer directly. The caller records a barrier before the copy, for the writes of
-  /// kernels, and another after it.
+  /// Records the copy of the first byteCount bytes, in the direction that `host` of the constructor states. Records
+  /// nothing if the host accesses the buffer directly. The caller records a barrier before the copy, for the writes of
+  /// kernels, and another one after the copy.
   void recordCopy(CommandList& commands, uint64_t byteCount) {
     if (isDirect_) return;
     const Buffer& host = hostBuffer();
