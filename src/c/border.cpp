@@ -14,7 +14,7 @@
 namespace asdfvk::c {
 namespace {
 
-/// Sets a floating-point environment. Its destructor restores the previous environment, status flags included.
+/// Sets a floating-point environment; the destructor restores the previous one, status flags included.
 class FloatingPointScope {
  public:
   explicit FloatingPointScope(const std::fenv_t* environment) {
@@ -80,8 +80,7 @@ asdf_vk_status keepCurrentError() noexcept {
   }
 }
 
-/// Throws Error{ForkedProcess} in a process that was forked after the first call. There, a call would wait forever for
-/// threads of the parent process.
+/// Throws Error{ForkedProcess} after a fork: a call would wait forever for threads of the parent process.
 void requireSameProcess() {
   static const pid_t first = getpid();
   if (getpid() != first)
@@ -95,8 +94,8 @@ asdf_vk_status guarded(FunctionRef<void()> body) noexcept {
   const FloatingPointScope scope(FE_DFL_ENV);
   try {
     requireSameProcess();
-    // A TBB arena sets the environment of its creation on each thread that works in it. The arena of the calling thread
-    // may have been created in another environment, so that callWithThreads() creates a new arena.
+    // Each thread of a TBB arena has the floating-point environment in which the arena was created. callWithThreads()
+    // creates a new arena, because the calling thread's arena may have been created in another environment.
     callWithThreads(static_cast<uint32_t>(defaultThreadCount()), body);
     return ASDF_VK_OK;
   } catch (...) {

@@ -17,15 +17,15 @@
 /// The border between C and C++, which every function of asdf_vk_c.h crosses.
 namespace asdfvk::c {
 
-/// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops. Then
+/// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops, and
 /// restores the caller's environment. An exception becomes the returned status and the last error of the thread.
 asdf_vk_status guarded(FunctionRef<void()> body) noexcept;
 
-/// Throws Error{InvalidArgument} for null. name: names the argument in the message, for example "the output".
+/// Throws Error{InvalidArgument} for null. name: the argument in the message, for example "the output".
 void requireArgument(const void* pointer, const char* name);
 
-/// The number of an enumerator that a caller passed. A caller in C may pass any number. To read a number that no
-/// enumerator has as an enumeration is undefined behaviour in C++.
+/// The number of an enumerator from a caller in C, who may pass any number. Reading a number without an enumerator as
+/// an enumeration is undefined behaviour in C++.
 template <typename Enum>
 [[nodiscard]] int numberOf(const Enum& enumerator) {
   int number = 0;
@@ -34,9 +34,8 @@ template <typename Enum>
   return number;
 }
 
-/// The progress function of a caller as a RunControl. Stores the floating-point environment at its construction and
-/// calls the progress function in it. Precondition: constructed before guarded() changes the environment. Must outlive
-/// the control.
+/// The progress function of a caller as a RunControl. The function is called in the floating-point environment of the
+/// construction. Precondition: constructed before guarded() changes the environment. Must outlive the control.
 class ProgressCall {
  public:
   ProgressCall(asdf_vk_progress callback, void* user) : callback_(callback), user_(user) { std::fegetenv(&callers_); }
@@ -50,15 +49,15 @@ class ProgressCall {
   std::fenv_t callers_{};
   double fraction_ = 0;
   const char* stage_ = "";
-  /// control() allocates the state, because the constructor must not throw.
+  /// Allocated by control(), because the constructor must not throw.
   std::stop_source source_{std::nostopstate};
 };
 
-/// Returns a number that no handle of any type had before.
+/// A number that no handle of any type had before.
 [[nodiscard]] uintptr_t nextHandle();
 [[noreturn]] void failHandle(const void* handle, const char* type);
 
-/// The objects of a type, by handle. A handle is a unique number and not an address, so that destroyed handles and
+/// The objects of a type, by handle. A handle is a unique number instead of an address, so that destroyed handles and
 /// handles of another type are recognised.
 template <typename Object>
 class Handles {
@@ -95,7 +94,7 @@ class Handles {
   std::map<const Object*, std::shared_ptr<Object>> objects_;
 };
 
-/// The table of a type. Never destroyed: at the end of the process, devices may be unusable.
+/// Never destroyed, because devices may be unusable at the end of the process.
 template <typename Object>
 [[nodiscard]] Handles<Object>& handles() {
   static auto* const table = new Handles<Object>(Object::kType);

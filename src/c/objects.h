@@ -15,7 +15,7 @@
 
 struct asdf_vk_options {
   static constexpr const char* kType = "set of options";
-  std::map<std::string, std::string, std::less<>> texts;  ///< Option values as texts, by name.
+  std::map<std::string, std::string, std::less<>> texts;  ///< Values of options, by name.
 };
 
 struct asdf_vk_session {
@@ -26,7 +26,7 @@ struct asdf_vk_session {
   std::recursive_mutex mutex;  ///< Recursive, so that a progress function can destroy other scenes of the session.
   bool isBusy = false;         ///< True while a SessionUse exists.
   std::mutex releasedMutex;
-  /// Scenes that were destroyed during a computation of another thread. Destroyed after that computation.
+  /// Scenes that were destroyed during a computation of another thread; released after the computation.
   std::list<asdfvk::Scene> released;
 };
 
@@ -35,14 +35,14 @@ struct asdf_vk_scene {
   std::shared_ptr<asdf_vk_session> session;
   std::shared_ptr<const asdfvk::Mesh> mesh;
   asdfvk::Orientation orientation = asdfvk::Orientation::Keep;
-  /// Empty before the first computation. A list, because moving it to asdf_vk_session::released allocates nothing.
+  /// Empty before the first computation. A list can be moved to asdf_vk_session::released without an allocation.
   std::list<asdfvk::Scene> prepared;
 
   asdf_vk_scene(std::shared_ptr<asdf_vk_session> s, asdfvk::Mesh m)
       : session(std::move(s)), mesh(std::make_shared<const asdfvk::Mesh>(std::move(m))) {}
   asdf_vk_scene(const asdf_vk_scene&) = delete;
   asdf_vk_scene& operator=(const asdf_vk_scene&) = delete;
-  /// Does not wait for a computation, because a garbage collector may destroy the scene.
+  /// Does not wait for a computation, because a garbage collector may call the destructor.
   ~asdf_vk_scene() {
     const std::unique_lock lock(session->mutex, std::try_to_lock);
     if (lock.owns_lock()) {
@@ -67,8 +67,8 @@ struct asdf_vk_result {
 
 namespace asdfvk::c {
 
-/// Returns the settings of a session or of a computation. options: null: the defaults. Throws Error{OptionConflict} for
-/// an option that belongs to the other function, and the errors of complete() and requireValid().
+/// The settings of a session or of a computation. options: null: the defaults. Throws Error{OptionConflict} for an
+/// option of the other object, and the errors of complete() and requireValid().
 [[nodiscard]] SessionSettings sessionSettings(const asdf_vk_options* options);
 [[nodiscard]] ComputationSettings computationSettings(const asdf_vk_options* options);
 

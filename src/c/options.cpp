@@ -8,7 +8,7 @@ namespace {
 
 constexpr OptionSpelling kSpelling = OptionSpelling::Name;
 
-/// The option with the name; null if there is none. Excludes options with an empty keyword, which only the program has.
+/// Null for an unknown name, and for options of the program only (with an empty keyword).
 const OptionRow* rowOf(OptionRows rows, std::string_view name) {
   const OptionRow* const row = findOption(rows, name);
   return row == nullptr || (row->keyword != nullptr && *row->keyword == 0) ? nullptr : row;
@@ -24,8 +24,7 @@ void setText(const OptionRow& row, void* target, const std::string& text) {
   setOption(row, target, isOn, text, kSpelling);
 }
 
-/// Sets the options in the order of the rows. other: rows of options that are refused. use: the object that the refused
-/// options belong to.
+/// Sets the options in the order of the rows. other: rows of refused options. use: the object of the refused options.
 GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle, OptionRows other, const char* use) {
   GivenOptions given{.names = {}, .spelling = kSpelling};
   if (handle == nullptr) return given;

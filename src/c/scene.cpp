@@ -1,4 +1,3 @@
-// Functions of sessions, scenes and computations.
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
 #include "c/objects.h"
@@ -9,7 +8,7 @@
 namespace asdfvk::c {
 namespace {
 
-/// Exclusive use of a session. While it exists, the thread limit of the session applies.
+/// Exclusive use of a session, with the thread limit of the session.
 class SessionUse {
  public:
   explicit SessionUse(asdf_vk_session& session)
@@ -33,8 +32,8 @@ class SessionUse {
   ThreadLimit limit_;
 };
 
-/// Prepares the scene if necessary and returns it. isNew: set to true if it was prepared. Precondition: this thread has
-/// a SessionUse of the scene's session.
+/// Prepares the scene if necessary and returns it. isNew: set to true if the scene was prepared. Precondition: this
+/// thread has a SessionUse of the scene's session.
 Scene& preparedScene(asdf_vk_scene& scene, Orientation orientation, const RunControl& control, bool* isNew = nullptr) {
   if (scene.prepared.empty() || scene.orientation != orientation) {
     if (isNew != nullptr) *isNew = true;
@@ -61,7 +60,6 @@ MeshView viewOf(const void* vertices, int vertexType, uint64_t vertexCount, std:
   throw Error(ErrorCode::ArrayType, "the type of the vertices is neither FLOAT64 nor FLOAT32");
 }
 
-/// Returns a copy of the arrays as a mesh.
 Mesh meshOf(const MeshView& view, const char* unit) {
   Mesh mesh;
   const TriangleMesh triangles = trianglesOf(view, mesh);
