@@ -26,7 +26,7 @@ double ringWeight(uint32_t ring, uint32_t ringCount) {
   return std::exp(-0.5 * ratio * ratio);
 }
 
-// Differences are divided by the largest one, so that their squares neither overflow nor underflow in any unit.
+// Differences are divided by the largest difference, so that the squares neither overflow nor underflow in any unit.
 double smoothedValue(const RingWindow& window, std::span<const double> values) {
   const double value = values[window.faces().front()];
   if (std::isnan(value)) return value;
@@ -94,7 +94,7 @@ void RingWindow::gather(const DualGraph& graph, uint32_t face, uint32_t ringCoun
   ringEnds_[0] = 1;
   uint32_t count = 1, arcsLeft = kMaxWindowArcCount;
   for (uint32_t ring = 1; ring <= ringCount; ++ring) {
-    // A neighbour of a face in ring r - 1 lies in ring r - 2, r - 1 or r.
+    // A neighbour of a face in ring r - 1 is in ring r - 2, r - 1 or r.
     const uint32_t searchBegin = ring < 2 ? 0 : ringBegin(ring - 2);
     const uint32_t parentEnd = count;
     for (uint32_t parent = ringBegin(ring - 1); parent < parentEnd; ++parent)
