@@ -10,20 +10,19 @@
 
 namespace asdfvk {
 
-/// Two faces that prefer equal labels.
 struct LabelEdge {
   uint32_t f, g;  ///< Different faces.
-  double cost;    ///< Not negative; part of the energy if the labels of f and g differ.
+  double cost;    ///< Not negative; counted if the labels of f and g differ.
 };
 
 /// The energy of a labelling is the sum of the data costs of the faces and of the costs of cut edges (Potts model).
 struct LabelProblem {
   uint32_t labelCount = 0;
-  std::span<const double> dataCosts;  ///< #F x labelCount, by face; infinite where a label is forbidden, never NaN.
+  std::span<const double> dataCosts;  ///< #F x labelCount, by face; infinite for a forbidden label, never NaN.
   std::span<const LabelEdge> edges;   ///< Several edges between two faces add up.
 
-  /// Replaces dataCosts where few labels per face are allowed: face f may have the labels of choices[firstChoices[f]]
-  /// to choices[firstChoices[f + 1] - 1].
+  /// Replaces dataCosts if few labels per face are allowed. Face f may have the labels of choices[firstChoices[f]] to
+  /// choices[firstChoices[f + 1] - 1].
   struct Choice {
     uint32_t label;
     double cost;
@@ -42,37 +41,36 @@ struct LabelProblem {
   }
 };
 
-/// labels: #F, below problem.labelCount. The energy is infinite where a label is forbidden.
+/// labels: #F, below problem.labelCount. Infinite if a face has a forbidden label.
 [[nodiscard]] double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels);
 
 /// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
-/// Expanding a label gives it to the set of faces that lowers the energy most; among several such sets, to the one with
-/// the fewest faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih:
-/// What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face that may not take the label has no node.
+/// Expanding a label gives the label to the set of faces that lowers the energy most; of equally good sets, to the
+/// smallest. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What
+/// Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face for which the label is forbidden has no node.
 /// Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {
-    /// Only labels below this number are expanded.
     uint32_t expandedLabelCount = std::numeric_limits<uint32_t>::max();
     uint32_t maxRoundCount = std::numeric_limits<uint32_t>::max();
   };
 
   /// Expands the labels in order, in rounds, until a round changes nothing. An expansion that lowers the energy by at
-  /// most 1e-10 of the energy is discarded, so that rounding errors cannot cause an endless loop. labels: #F, below
-  /// problem.labelCount and allowed; they are improved in place. Returns the energy of the improved labels. Throws
+  /// most 1e-10 of the energy is discarded, so that rounding cannot cause an endless loop. labels: #F, below
+  /// problem.labelCount and allowed; improved in place. Returns the energy of the improved labels. Throws
   /// Error{Cancelled} between expansions.
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits,
                   const RunControl& control = {});
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:
-  /// Writes the labels after the best expansion to expanded_. Returns false if no face changes.
+  /// Writes the labels after the best expansion to expanded_. Returns whether a face changes.
   bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label);
 
   MaxFlow flow_;
   std::vector<uint32_t> nodeOf_;  ///< #F
-  /// Per node: decrease of the energy if only this face changes, without the edges between two nodes.
+  /// Per node: decrease of the energy if only this face changes. Excludes edges between two nodes.
   std::vector<double> gains_;
   std::vector<uint32_t> expanded_;
 };

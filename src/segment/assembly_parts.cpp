@@ -11,7 +11,6 @@
 namespace asdfvk {
 namespace {
 
-/// The parts of the component that has these faces.
 Parts partsOfComponent(const PartsInput& input, std::span<const uint32_t> faces, const PartsOptions& options,
                        const LineOfSight& sight, const RunControl& control) {
   std::vector<Face> triangles;
@@ -41,7 +40,7 @@ void numberByValue(std::span<const double> values, Parts& parts) {
   std::vector<double> sums(parts.partCount, 0), areas(parts.partCount, 0);
   for (size_t face = 0; face < values.size(); ++face) {
     if (std::isnan(values[face])) continue;
-    const double area = std::max(parts.areas[face], 1e-12);  // So that parts without area have a mean, too.
+    const double area = std::max(parts.areas[face], 1e-12);  // Parts of zero area have a mean, too.
     sums[parts.partOf[face]] += area * values[face];
     areas[parts.partOf[face]] += area;
   }

@@ -5,7 +5,7 @@
 namespace asdfvk {
 
 /// Parts of an assembly, which is a file that states the number of its parts. Each component of at least kMinPartArea
-/// is divided as if it were alone; each smaller component is one part. Parts are numbered by ascending mean value.
+/// is divided separately; each smaller component is one part. Parts are numbered by ascending mean value.
 /// Parts::agreement is the mean over the divided components, weighted by area. Throws the errors of segmentIntoParts().
 /// Precondition: options.partCount is unset.
 [[nodiscard]] Parts segmentAssembly(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,

@@ -23,15 +23,14 @@ double edgeCost(double length, double angle) {
   return length / kCutReach / (1 + concave * concave) * (1 + std::min(1.0, convex));
 }
 
-/// A label that a face may take.
 struct Choice {
   uint32_t face, label;
   float distance;  ///< Distance from the label.
 };
 
-/// The choices of all faces, ascending by label. The label that a face has is left out.
+/// The choices of all faces, ascending by label, without the label that the face has.
 std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount) {
-  std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // Faces next to a label, by label.
+  std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // For each label, the faces next to it.
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
     for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc)
       if (const auto& [other, length] = surface.arcs[arc];
@@ -50,8 +49,7 @@ std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32
   return choices;
 }
 
-/// For each label its face that is farthest from other labels; of several faces beyond the reach, the one with the
-/// largest area.
+/// For each label, its face that is farthest from other labels; among faces beyond the reach, the one of largest area.
 struct Anchors {
   std::vector<uint32_t> faces;   ///< Per label.
   std::vector<float> distances;  ///< #F, to the nearest other label; kUnreached beyond the reach.
@@ -73,8 +71,9 @@ Anchors anchorsOf(const PartSurface& surface, std::span<const uint32_t> labels, 
   return anchors;
 }
 
-/// Removes the choices of faces that keep their label: the anchors and, of labels within the reach of others, the inner
-/// half. Otherwise the cut would shrink small parts to a point, whose boundary is short.
+/// Removes the choices of faces that keep their label. These are the anchors and, if a label is within the reach of
+/// another label, the inner half of its faces. Otherwise the cut would shrink small parts to points, which have short
+/// boundaries.
 void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, const Anchors& anchors) {
   std::erase_if(choices, [&](const Choice& choice) {
     const uint32_t anchor = anchors.faces[labels[choice.face]];
@@ -84,8 +83,7 @@ void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, c
   });
 }
 
-/// Improves the labels by a graph cut over the faces that may change, and over their neighbours, whose labels are
-/// fixed.
+/// Improves the labels by a graph cut over the faces that may change, and their neighbours, whose labels are fixed.
 void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount,
                   std::span<const Choice> choices, const RunControl& control) {
   std::vector<uint32_t> itemOf(labels.size(), kNoLabel), faces;
@@ -124,7 +122,6 @@ void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uin
   for (uint32_t item = 0; item < changeableCount; ++item) labels[faces[item]] = labelOf[item];
 }
 
-/// Connected faces of one label.
 struct Pieces {
   std::vector<uint32_t> pieceOf;  ///< #F, kNoLabel where there is no label.
   std::vector<uint32_t> labels;   ///< Per piece.
@@ -153,7 +150,7 @@ Pieces findPieces(const PartSurface& surface, std::span<const uint32_t> labels) 
   return pieces;
 }
 
-/// Gives each piece without the anchor of its label the neighbouring label with the longest common boundary.
+/// Gives each piece without an anchor the neighbouring label with the longest common boundary.
 void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, std::span<const uint32_t> anchors) {
   for (;;) {
     const Pieces pieces = findPieces(surface, labels);

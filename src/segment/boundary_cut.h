@@ -11,7 +11,7 @@ namespace asdfvk {
 inline constexpr uint32_t kNoLabel = 0xffffffff;
 inline constexpr double kCutReach = 0.0577350269189626;  ///< sqrt(1 / 300)
 
-/// Moves the boundaries between labels to concave edges and makes them short. The method is a graph cut over the faces
+/// Moves the boundaries between labels to concave edges and shortens the boundaries. Uses a graph cut over the faces
 /// within kCutReach of another label; docs/segmentation.md has the energy. Distances are along PartSurface::arcs.
 /// Afterwards each label is connected: loose pieces take the neighbouring label with the longest common boundary. Every
 /// label keeps a face. Precondition: each label is connected. labels: #F, below labelCount; faces with kNoLabel are

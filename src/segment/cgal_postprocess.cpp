@@ -19,7 +19,7 @@ constexpr size_t kLanes = kLaneCount<Double4>;
 /// Largest magnitude of an exponent for which expOfNegative() is used.
 constexpr double kMaxLaneExponent = 511;
 
-/// The filtered values of kLanes faces at a time, a lane each. All sums have the order of the window.
+/// The filtered values of kLanes faces at a time, one per lane. All sums have the order of the window.
 class WindowFilter {
  public:
   WindowFilter(const FaceNeighbours& neighbours, std::span<const double> values, std::span<const double> ringWeights)
@@ -43,7 +43,7 @@ class WindowFilter {
   }
 
  private:
-  /// Sets others_ to the values of the windows, and to the value of the face itself beyond the end of a shorter window.
+  /// Sets others_ to the values of the windows. Beyond the end of a window, the value of the face is used.
   void search(uint32_t first, uint32_t blockSize, size_t stride) {
     longest_ = 0;
     for (size_t lane = 0; lane < kLanes; ++lane) {
@@ -87,7 +87,6 @@ class WindowFilter {
     return power;
   }
 
-  /// exp: the exponential function for the lanes.
   template <typename Exp>
   [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 weightedMeans(const Double4& value, const Double4& deviation,
                                                                   const Exp& exp) const {
@@ -125,8 +124,8 @@ class WindowFilter {
   uint32_t longest_ = 0;
 };
 
-/// A power of two that brings the greatest magnitude into [0.5, 1), so that no square overflows or underflows; 1 where
-/// all values are 0 or missing.
+/// A power of two that brings the greatest magnitude into [0.5, 1), so that squares neither overflow nor underflow. 1
+/// if all values are 0 or missing.
 double unitOf(std::span<const double> values) {
   double greatest = 0;
   for (const double value : values)

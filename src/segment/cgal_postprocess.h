@@ -8,33 +8,33 @@
 #include "core/simd.h"
 #include "segment/face_neighbours.h"
 
-/// The post-processing of CGAL's sdf_values_postprocessing(), written from its manual and from its outputs (version
-/// 5.5.1; no code of CGAL). Missing values are filled, then all values are smoothed by a bilateral filter and mapped to
-/// [0, 1].
+/// The post-processing of CGAL's sdf_values_postprocessing(): missing values are filled, then all values are smoothed
+/// by a bilateral filter and mapped to [0, 1]. Written from manual and outputs of version 5.5.1; no code of CGAL.
 namespace asdfvk {
 
 struct CgalValues {
-  std::vector<double> normalized;  ///< #F, in [0, 1]. If all smoothed values are equal, the smoothed values.
+  std::vector<double> normalized;  ///< #F, in [0, 1]; not mapped if all smoothed values are equal.
   double min = 0, max = 0;         ///< Range of the smoothed values, in the unit of the input.
 };
 
-/// values: #F, finite, or NaN for no value. On manifold meshes the result is within 1e-12 of CGAL's. Multiplication of
-/// the values by a power of two changes no bit of `normalized`. The result has the same bits on any number of threads.
-/// Throws Error{NoValues} where no face has a value, and Error{Cancelled}.
+/// values: #F, finite, or NaN for no value. On manifold meshes the result is within 1e-12 of CGAL's. Multiplying the
+/// values by a power of two changes no bit of `normalized`. The result has the same bits on any number of threads.
+/// Throws Error{NoValues} if no face has a value, and Error{Cancelled}.
 [[nodiscard]] CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                              const RunControl& control = {});
 
-/// The first step: for the faces in order, a missing value becomes the mean over the neighbours that have a value by
-/// then. Values that are still missing at the end become the least value. Throws the errors of postprocessLikeCgal().
+/// The first step. For the faces in order, a missing value becomes the mean of the neighbours' values, values from
+/// earlier faces included. Values that are still missing at the end become the least value. Throws the errors of
+/// postprocessLikeCgal().
 [[nodiscard]] std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::span<const double> values);
 
-/// The second step. The value of a face becomes the mean over the faces within R rings of neighbours around the face,
-/// the face included, with the weights
+/// The second step. The value of a face f becomes the mean over the faces g within R rings of neighbours around f, f
+/// included, with the weights
 ///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
 /// where R = 1 + floor(sqrt(#F / 2000)), and sigma_f is 1.5 times the root mean square of v_g - v_f. Precondition: the
-/// values and their squares are finite. `control` is polled every 256 faces. Throws Error{Cancelled}. Sums have the
-/// order of a breadth-first search. The result therefore has the same bits on any number of threads, and with any
-/// instruction set where exp() has the bits of core/lane_exp.h.
+/// values and their squares are finite. Polls `control` every 256 faces. Throws Error{Cancelled}. Sums have the order
+/// of a breadth-first search: the bits do not depend on the number of threads, nor on the instruction set if exp() has
+/// the bits of core/lane_exp.h.
 [[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                                  const RunControl& control = {},
                                                  InstructionSet instructionSet = widestInstructionSet());

@@ -28,16 +28,16 @@ Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t 
   return normal == Vec3d{} ? normal : normal / length(normal);
 }
 
-/// s angle / pi of cgalEdgeCosts() for the edge from corner i of f to the next corner. In CGAL, the angle at a face
-/// without area is 0 or pi, by the signs of zeros, and the edge is convex. The result agrees with CGAL's if only g has
-/// no area, but not always if f has none.
+/// s angle / pi of cgalEdgeCosts() for the edge from corner i of f to the next corner. In CGAL, the angle at a face of
+/// zero area is 0 or pi, by the signs of zeros, and the edge is convex. The result agrees with CGAL's if only g has
+/// zero area, but not always if f has zero area.
 double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t f, uint32_t i, uint32_t g) {
   const Vec3d ofF = normalOf(geometry, mesh, f), ofG = normalOf(geometry, mesh, g);
   if (ofF == Vec3d{} || ofG == Vec3d{}) {
     const Vec3d signs = ofF == Vec3d{} ? -ofG : ofF;
     return signs.x > 0 && signs.y > 0 && signs.z > 0 ? 0 : kConvexFactor;
   }
-  // The arc tangent is accurate for small angles, unlike the arc cosine.
+  // The arc tangent is accurate for small angles; the arc cosine is not.
   const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
   const uint32_t from = mesh.faces[f][i], to = mesh.faces[f][(i + 1) % 3];
   const Face& other = mesh.faces[g];
@@ -76,7 +76,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   std::vector<double>& costs = clustering.probabilities;
   CgalSegmentation result;
   result.clusters.resize(values.size());
-  // Faces close to each other have near numbers in this order, which reduces the time of the cut to two thirds or less.
+  // Neighbouring faces have near numbers in this order, which reduces the time of the cut to two thirds or less.
   const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerCutBlock);
   std::vector<double> orderedCosts(costs.size());
   std::vector<uint32_t> labels(values.size());

@@ -74,7 +74,7 @@ void FaceWindows::search(uint32_t i, std::span<uint32_t> window, std::span<uint3
     for (const uint32_t end = count; parent < end; ++parent) {
       const uint32_t* const row = rows + 3 * size_t{faces[parent]};
       const uint32_t a = row[0], b = row[1], c = row[2];
-      // Branch-free: whether a neighbour is new is unpredictable.
+      // Branch-free, because it is unpredictable whether a neighbour is new.
       faces[count] = a;
       count += visitedBy[a] != search ? 1 : 0;
       visitedBy[a] = search;

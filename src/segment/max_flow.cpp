@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Number of nodes of a smallest range, and number of ranges that a range of the next level joins.
+/// Number of nodes of a smallest range, and number of ranges that a larger range joins.
 constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
 
 }  // namespace
@@ -31,7 +31,7 @@ void MaxFlow::addEdge(uint32_t a, uint32_t b, double capacity, double reverseCap
   nodes_[b].firstArc = arc + 1;
 }
 
-/// The search within a range of nodes, without the edges that leave it.
+/// The search within a range of nodes, without the edges to other nodes.
 class MaxFlow::Search {
  public:
   Search(MaxFlow& graph, uint32_t begin, uint32_t end)
@@ -41,12 +41,11 @@ class MaxFlow::Search {
         begin_(begin),
         count_(end - begin) {}
 
-  /// Routes flow along the trees of a forest, from the leaves to the roots, before the search: most flow has a short
-  /// way.
+  /// Before the search, routes flow along the trees of a forest, from leaves to roots. Most flow has a short path.
   void routeAlongForest();
   /// Makes every node with a terminal capacity the root of a tree.
   void plant();
-  /// Joins ranges of this size, which have been solved.
+  /// Joins ranges of this size, which are already solved.
   void join(size_t partSize);
   /// Searches until the trees cannot grow.
   void run();
@@ -56,16 +55,16 @@ class MaxFlow::Search {
  private:
   [[nodiscard]] bool contains(uint32_t node) const { return node - begin_ < count_; }
   void activate(uint32_t node);
-  /// Grows the tree at an active node. Returns an arc from the source's tree to the sink's tree, or kNone.
+  /// Grows the tree at an active node. Returns an arc between the trees of source and sink, or kNone.
   uint32_t grow(uint32_t node);
   void augment(uint32_t bridge);
   void adoptOrphans();
   void adopt(uint32_t orphan);
   void makeOrphan(uint32_t node);
-  /// Number of arcs from the node to its terminal; kNone if an orphan is on this path.
+  /// Arcs from the node to its terminal; kNone if an orphan is on this path.
   uint32_t distanceToTerminal(uint32_t node);
-  /// The residual capacity through `arc`, which leads from a node of `tree` to its child: to the child in the source's
-  /// tree, from the child in the sink's tree.
+  /// The residual capacity between a node of `tree` and its child, through `arc` from node to child. Direction: to the
+  /// child in the source's tree, from the child in the sink's tree.
   [[nodiscard]] double residualToChild(Tree tree, uint32_t arc) const {
     return arcs_[tree == Tree::Source ? arc : arc ^ 1].residual;
   }
@@ -144,8 +143,8 @@ void MaxFlow::Search::run() {
   }
 }
 
-// Moves the terminal capacity of each node to its parent in the tree, up to the capacity of the edge. Apart from
-// terminal capacities that cancel out, this does not change the value of any cut.
+// Moves the terminal capacity of each node to its parent in the tree, up to the capacity of the edge. This changes the
+// value of a cut only by terminal capacities that cancel out.
 void MaxFlow::Search::routeAlongForest() {
   constexpr size_t kMaxTreeSize = 512;  // Sizes from 64 to 8,000 are equally fast within the noise.
   size_t begin = 0, end = 0;
@@ -203,7 +202,7 @@ uint32_t MaxFlow::Search::grow(uint32_t node) {
     } else if (o.tree != n.tree) {
       return n.tree == Tree::Source ? arc : arc ^ 1;
     } else if (o.checkedAt <= n.checkedAt && o.distance > n.distance) {
-      // This way to the terminal is shorter, which keeps augmenting paths short.
+      // A shorter path to the terminal keeps augmenting paths short.
       o.parent = arc ^ 1;
       o.checkedAt = n.checkedAt;
       o.distance = n.distance + 1;

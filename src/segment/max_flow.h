@@ -7,33 +7,32 @@
 
 namespace asdfvk {
 
-/// Maximum flow and minimum cut between two terminals, source and sink, by the method of Y. Boykov and V. Kolmogorov:
-/// An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search
-/// trees grow from the terminals. Where they touch, flow is augmented. A subtree that is cut off gets another parent in
-/// its tree, preferably the one nearest to the terminal; if there is none, its nodes become free. Before the search,
+/// Maximum flow and minimum cut between two terminals, source and sink: Y. Boykov, V. Kolmogorov: An Experimental
+/// Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search trees grow from
+/// the terminals. Flow is augmented where the trees touch. A subtree that loses its parent gets another parent in its
+/// tree, preferably the one nearest to the terminal; without a new parent, its nodes become free. Before the search,
 /// flow is routed along the trees of a forest, which halves the time of graphs of meshes.
 ///
-/// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then pairs of ranges
-/// are solved, which continue from the trees of their parts, and so on (J. Liu, J. Sun: Parallel Graph-cuts by Adaptive
-/// Bottom-up Merging, CVPR 2010). A first range fits a cache. Nodes near each other should have near numbers.
+/// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then unions of
+/// ranges are solved repeatedly, beginning with the trees of the joined ranges (J. Liu, J. Sun: Parallel Graph-cuts by
+/// Adaptive Bottom-up Merging, CVPR 2010). A first range fits into a cache. Neighbouring nodes should have near
+/// numbers.
 ///
-/// Usage: reset(), then capacities, then solve(), then the sides. The arrays are reused: an object that has solved a
-/// problem allocates nothing for another problem of at most this size, except lists of orphans. The result does not
-/// depend on the number of threads. Memory: 36 bytes per node and 32 bytes per edge.
+/// Usage: reset(), then capacities, then solve(), then the sides. Further problems of at most the same size allocate
+/// only lists of orphans. The result does not depend on the number of threads. Memory: 36 bytes per node and 32 bytes
+/// per edge.
 class MaxFlow {
  public:
-  /// Starts a problem of nodes without capacities and edges.
   void reset(uint32_t nodeCount);
 
-  /// Adds `capacity`, which is finite, from the source to the node; if it is negative, adds -capacity from the node to
-  /// the sink. Capacities of one node to both terminals cancel out: the flow through this node alone is not part of the
-  /// value of solve().
+  /// Adds a finite capacity from the source to the node; if negative, -capacity from the node to the sink. Capacities
+  /// of one node to both terminals cancel out: solve() does not count the flow through this node alone.
   void addTerminal(uint32_t node, double capacity);
 
-  /// Adds an edge with a capacity in both directions, finite and not negative. Precondition: a != b.
+  /// Adds an edge with a finite capacity of at least 0 in each direction. Precondition: a != b.
   void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity);
 
-  /// Returns the value of the maximum flow; 0 for an empty graph. Precondition: it is called once after each reset().
+  /// Returns the value of the maximum flow; 0 for an empty graph. Precondition: called once after each reset().
   double solve();
 
   /// Whether the node is on the source's side of the minimum cut: reachable from the source in the residual graph. Of
@@ -60,7 +59,7 @@ class MaxFlow {
     double terminal = 0;
   };
 
-  /// Arc 2 e is edge e from a to b, arc 2 e + 1 its reverse.
+  /// Arc 2 e is edge e from a to b; arc 2 e + 1 is the reverse.
   struct Arc {
     uint32_t to;
     uint32_t next;  ///< Next arc of the same node.

@@ -13,14 +13,14 @@ constexpr double kMinCost = 1e-3;
 constexpr double kKernelWidth = 0.7, kMinKernelWidth = 0.02, kKernelReach = 4;
 constexpr uint32_t kNoBorder = 0xffffffff;
 
-/// Angle between the mean normals of two patches in radians; negative where the border is concave.
+/// Angle between the mean normals of two patches in radians; negative if the border is concave.
 double bendOf(const PatchData::Patch& p, const PatchData::Patch& q) {
   if (p.normal == Vec3d{} || q.normal == Vec3d{}) return 0;
   const double angle = std::atan2(length(cross(p.normal, q.normal)), dot(p.normal, q.normal));
   return dot(q.centre - p.centre, q.normal - p.normal) < 0 ? -angle : angle;
 }
 
-/// Weight of a pair of patches by its distance, relative to the values of both.
+/// Weight of a pair of patches. It decreases with the ratio of their distance to their values.
 double kernelOf(const PatchData::Patch& p, const PatchData::Patch& q) {
   const double width = kKernelWidth * std::exp((p.logValue + q.logValue) / 2) + kMinKernelWidth;
   const Vec3d between = p.centre - q.centre;
@@ -104,7 +104,6 @@ void PartMerging::mergeNext() {
   merge(border);
 }
 
-/// Region b becomes part of region a.
 void PartMerging::merge(uint32_t border) {
   const uint32_t a = borders_[border].a, b = borders_[border].b;
   costs_.push_back(borders_[border].cost);

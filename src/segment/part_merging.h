@@ -11,23 +11,22 @@ namespace asdfvk {
 
 /// Weights of the cost of merging two regions (docs/segmentation.md has the formula).
 struct MergeWeights {
-  double localSight, sight;  ///< Weights of the shares of blocked lines of sight: of near patches, and of all patches.
-  double step, borderStep;   ///< Weights of the difference of the log values: of the means of the regions, and of the
-                             ///< patches at the border.
-  double concave, bend, convex;  ///< Weights of angles at the border: between faces at concave edges, and between
-                                 ///< patches that form a concave or a convex bend.
+  double localSight,
+      sight;  ///< Weights of the shares of blocked lines of sight, between near patches and between all patches.
+  double step, borderStep;  ///< Weights of differences of log values: between the means of the regions, and between
+                            ///< patches at the border.
+  double concave, bend, convex;  ///< Weights of angles at the border: at concave edges, and between patches that form a
+                                 ///< concave or convex bend.
   double neck;  ///< Weight of a neck: log values at the border that are below the means of both regions.
   double stepLimit, angleLimit;  ///< Upper limits of the differences, and of the angles in radians.
   double areaExponent, borderExponent;
-  double threshold;  ///< Merging stops where the next cost is above this.
+  double threshold;  ///< Merging stops if the next cost is above this.
 };
 
-/// Weights with lines of sight.
 inline constexpr MergeWeights kSightWeights{0.3, 0.15, 0.5, 0.15, 3, 0.9, 0.18, 0.4, 2, 0.55, 0.375, -1.85, 0.0335};
-/// Weights without lines of sight.
 inline constexpr MergeWeights kShapeWeights{0, 0, 0.5, 0.2, 4.25, 0.67, 0.15, 0.18, 2.3, 1, 0.38, -1.2, 0.0363};
 
-/// Visibility of pairs of patches: a symmetric matrix of numbers from 0 to 1, at first 1.
+/// Visibility of pairs of patches: a symmetric matrix of numbers from 0 to 1, initially 1.
 class SightMatrix {
  public:
   explicit SightMatrix(uint32_t count) : count_(count), entries_(size_t{count} * count, 1.0f) {}
@@ -43,27 +42,24 @@ class SightMatrix {
   std::vector<float> entries_;
 };
 
-/// Regions of patches, which are merged pair by pair, the cheapest pair first. Copies are independent. Deterministic.
+/// Regions of patches, which are merged pair by pair, in the order of costs. Copies are independent. Deterministic.
 class PartMerging {
  public:
-  /// sight: visibility of each pair of patches of `data`.
+  /// sight: for each pair of patches of `data`.
   PartMerging(const PatchData& data, const SightMatrix& sight, const MergeWeights& weights);
 
   [[nodiscard]] uint32_t regionCount() const { return regionCount_; }
-  /// The cost of the next merge; unset where no two regions are adjacent.
+  /// Unset if no two regions are adjacent.
   [[nodiscard]] std::optional<double> nextCost() const;
-  /// Precondition: there is a next merge.
   void mergeNext();
 
-  /// Merges until the next cost is above the threshold.
   void mergeUpTo(double threshold);
   /// Merges until there are at most `count` regions, or none are adjacent.
   void mergeToCount(uint32_t count);
-  /// While regions with neighbours have less than this area: merges the smallest of them with its neighbour of the
-  /// least cost.
+  /// While a region with neighbours has less area, merges the smallest such region with the neighbour of least cost.
   void mergeSmallerThan(double area);
 
-  /// The costs of the merges so far, in their order.
+  /// The costs are in the order of the merges.
   [[nodiscard]] std::span<const double> costs() const { return costs_; }
   /// The region of each patch, numbered from 0 by the first patch.
   [[nodiscard]] std::vector<uint32_t> regionOfPatches() const;
@@ -74,11 +70,10 @@ class PartMerging {
     bool isAlive = true;
     std::vector<uint32_t> borders;
   };
-  /// Sums over the borders between the patches of two regions.
   struct Border {
     uint32_t a, b;
-    /// Except for `length`: sums of length times quantity. crease: concave minus convex angles of edges. mean: mean log
-    /// value of the two patches.
+    /// All members except `length` are sums of length times quantity. crease: concave minus convex angles of edges.
+    /// mean: mean log value of the two patches.
     double length, crease, bend, step, mean;
     double cost = 0;
     bool isAlive = true;
@@ -92,9 +87,9 @@ class PartMerging {
   };
 
   [[nodiscard]] double costOf(const Border& border) const;
-  /// `border` if it is alive and has less cost than `cheapest`, which may be kNoBorder; otherwise `cheapest`.
+  /// Returns `border` if it is alive and cheaper than `cheapest`, which may be kNoBorder; else `cheapest`.
   [[nodiscard]] uint32_t cheaperOf(uint32_t cheapest, uint32_t border) const;
-  /// The border of the least cost; of several, the first.
+  /// The first border of the least cost.
   [[nodiscard]] uint32_t cheapestBorder() const;
   void merge(uint32_t border);
   [[nodiscard]] PairSums& pairSums(uint32_t i, uint32_t j) { return pairs_[size_t{i} * regions_.size() + j]; }

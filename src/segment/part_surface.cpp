@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastShareOfMaximum = 1e-4;
 constexpr double kConcaveFactor = 3;
 
-/// The corners in normalised coordinates, in which no area overflows or underflows.
+/// Returns normalised coordinates, in which no area overflows or underflows.
 std::array<Vec3d, 3> cornersOf(const TriangleMesh& mesh, const Normalization& unit, uint32_t face) {
   const auto [a, b, c] = mesh.faces[face];
   return {unit.toNormalized(mesh.vertices[a]), unit.toNormalized(mesh.vertices[b]),
@@ -28,7 +28,7 @@ double areaOf(const std::array<Vec3d, 3>& corners) {
   return 0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0]));
 }
 
-/// The logarithms of the values. A missing value is taken from the nearest face that has a value.
+/// The logarithms of the values. A missing value is replaced by the value of the nearest face with a value.
 std::vector<float> fillLogValues(const DualGraph& graph, std::span<const double> values, double logUnit) {
   double largest = -1;
   for (const double value : values)
@@ -61,8 +61,8 @@ std::vector<float> fillLogValues(const DualGraph& graph, std::span<const double>
   return logs;
 }
 
-/// A common edge of two faces that may have several; number: from 0. Returns the corner of f from which the edge runs
-/// to the next corner.
+/// Returns the corner of f where the common edge of f and g begins. number: of the common edge, from 0, if there are
+/// several.
 uint32_t commonEdge(const Face& f, const Face& g, uint32_t number) {
   const auto isOfG = [&](uint32_t vertex) { return vertex == g[0] || vertex == g[1] || vertex == g[2]; };
   uint32_t last = 0;

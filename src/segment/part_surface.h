@@ -10,16 +10,15 @@
 
 namespace asdfvk {
 
-/// The data of a mesh and its values that the segmentation into parts reads. Lengths are in units of the square root of
-/// the area of the mesh, areas in units of the area of the mesh. The data do not depend on the unit of the mesh;
-/// scaling the mesh by a power of two changes no bit.
+/// A mesh and its values, for the segmentation into parts. The unit of length is the square root of the area of the
+/// mesh. The data do not depend on the unit of the mesh; scaling the mesh by a power of two changes no bit.
 struct PartSurface {
   struct Arc {
     uint32_t face;  ///< Neighbour.
     float length;
   };
   std::span<const uint32_t> offsets;  ///< #F+1, of the dual graph; views the caller's graph.
-  /// #arcs, aligned with DualGraph::neighbours, with the length of the path between the barycentres across the edge.
+  /// #arcs, aligned with DualGraph::neighbours: the length of the path between the barycentres across the edge.
   std::vector<Arc> arcs;
   /// #arcs: the length of `arcs` plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
   std::vector<Arc> creasedArcs;
@@ -36,10 +35,10 @@ struct PartSurface {
 /// The length that a concave crease of 1/3 radian adds to an arc, in units of length.
 inline constexpr double kCreaseLength = 0.00704;
 
-/// graph: of the mesh; it must outlive the result. values: #F, not negative, NaN for no value. A missing value becomes
-/// the value of the face with the fewest edges between the two; in a component without values it becomes the mean
-/// logarithm of all values. Values below 1e-4 of the largest value are raised to this bound. Throws Error{NoValues}
-/// where no face has a value.
+/// graph: of the mesh; must outlive the result. values: #F, not negative, NaN for no value. A missing value is taken
+/// from the nearest face with a value, by the number of edges. In a component without values, it becomes the mean
+/// logarithm of all values. Values below 1e-4 of the largest value are raised to this bound. Throws Error{NoValues} if
+/// no face has a value.
 [[nodiscard]] PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                           const DualGraph& graph, std::span<const double> values);
 

@@ -21,19 +21,16 @@ namespace {
 constexpr std::array<uint32_t, 5> kPatchCounts{200, 250, 300, 350, 400};
 /// Coarse meshes have fewer patches, because one patch per face would give too many parts.
 constexpr uint32_t kMinFacesPerPatch = 3;
-/// Depth below the surface of the ends of lines of sight, in shape diameters.
+/// Depth of the ends of lines of sight below the surface, in shape diameters.
 constexpr double kSightDepth = 0.3;
-/// Least ratio of volume to area times mean value for a wall. The ratio is about 0.4 for a wall, 0.28 for a tube, 0.19
-/// for a ball.
+/// Least ratio volume / (area * mean value) of a wall. It is about 0.4 for a wall, and 0.28 for a tube.
 constexpr double kMinWallShape = 0.36;
-/// Largest mean visibility of a thin shell. Plates are walls too, but most pairs of their patches have a clear line of
-/// sight.
+/// Largest mean visibility of a thin shell. In plates, most pairs of patches have a clear line of sight.
 constexpr double kMaxWallSight = 0.5;
-/// Components below kMinPartArea take a neighbouring part if they have at most this share of the area together.
+/// Largest total share of the area with which components below kMinPartArea take a neighbouring part.
 constexpr double kMaxAbsorbedArea = 0.05;
 
-/// Whether most of the area belongs to closed components and has values, and whether these components are thin walls by
-/// their volume.
+/// Whether closed components with values have most of the area, and these components are thin walls by their volume.
 bool isWall(const PartsInput& input, const PartSurface& surface) {
   double volume = 0, valuedArea = 0, product = 0;
   for (uint32_t face = 0; face < surface.faceCount(); ++face) {
@@ -75,14 +72,14 @@ ComponentShapes shapesOf(const PartSurface& surface, const Components& component
   return shapes;
 }
 
-/// Roles of components. Components in neither list take the nearest part.
+/// Components in neither list take the nearest part.
 struct ComponentRoles {
   std::vector<uint32_t> firstSeeds;  ///< A face of each component that is divided into parts.
-  std::vector<uint32_t> whole;       ///< Components that are a part each.
+  std::vector<uint32_t> whole;       ///< Components that are not divided.
 };
 
-/// If the small components have much of the area, as in a file of many equal objects, they are parts themselves, except
-/// components that are small compared with the largest one.
+/// If the small components have much of the area, as in a file of many equal objects, each of them is a part.
+/// Exceptions are components that are small compared with the largest one.
 ComponentRoles rolesOf(const ComponentShapes& shapes) {
   double smallArea = 0, largest = 0;
   for (const double area : shapes.areas) {
@@ -99,7 +96,7 @@ ComponentRoles rolesOf(const ComponentShapes& shapes) {
   return roles;
 }
 
-/// The numbers of patches, at least one per requested part.
+/// Gives each requested part at least one patch.
 std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& options) {
   std::array<uint32_t, 5> counts = kPatchCounts;
   const double scale = std::min(1.0, faceCount / double{kMinFacesPerPatch * kPatchCounts.back()});
@@ -107,15 +104,13 @@ std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& o
   return counts;
 }
 
-/// One of the divisions that are compared.
 struct Division {
   Patches patches;
   PatchData data;
   std::optional<PartMerging> merging;  ///< Before the first merge.
-  std::vector<uint32_t> labels;        ///< #F, 0 where there is no patch.
+  std::vector<uint32_t> labels;        ///< #F, 0 without a patch.
 };
 
-/// Sums over pairs of patches.
 struct SightSums {
   double seen = 0, all = 0;
 };
@@ -150,7 +145,6 @@ SightMatrix findSight(const PartsInput& input, const PartSurface& surface, const
   return matrix;
 }
 
-/// Merges to the level of the hierarchy that the options request.
 void mergeParts(PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
   if (options.partCount)
     merging.mergeToCount(*options.partCount);
@@ -166,7 +160,7 @@ std::vector<uint32_t> labelsOf(const Patches& patches, const PartMerging& mergin
   return labels;
 }
 
-/// A threshold between the costs of the merges so far and the cost of the next merge.
+/// A threshold between the costs of the merges so far and the next cost.
 double thresholdOf(const PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
   if (!options.partCount) return weights.threshold / options.detail;
   double last = 0;
@@ -198,8 +192,8 @@ std::pair<size_t, double> mostTypical(std::span<const Division> divisions, std::
   return {best, sums[best] / static_cast<double>(count - 1)};
 }
 
-/// Labels the faces without a label: the components in `whole` by the labels from `labelCount` on, the others by the
-/// patch or whole component nearest to the centre of their component.
+/// Labels the faces without a label. Components in `whole` get the labels from `labelCount` on. Other components get
+/// the label of the patch or whole component nearest to their centre.
 void labelSmallComponents(const PartsInput& input, const PartSurface& surface, const Division& division,
                           std::span<const uint32_t> whole, uint32_t labelCount, std::vector<uint32_t>& labels) {
   const size_t count = input.components.components.size();
@@ -235,11 +229,11 @@ void labelSmallComponents(const PartsInput& input, const PartSurface& surface, c
     if (labels[face] == kNoLabel) labels[face] = labelOf[input.components.componentOf[face]];
 }
 
-/// Numbers the labels by the mean of their values, weighted by area.
+/// Numbers the labels by ascending mean value, weighted by area.
 void sortByValue(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount) {
   std::vector<double> sums(labelCount, 0), areas(labelCount, 0), means(labelCount, 0);
   for (uint32_t face = 0; face < labels.size(); ++face) {
-    // So that labels without area have a mean, too.
+    // Labels of zero area have a mean, too.
     const double area = std::max(double{surface.areas[face]}, 1e-12);
     sums[labels[face]] += area * std::exp(double{surface.logValues[face]});
     areas[labels[face]] += area;
@@ -260,7 +254,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   const ComponentShapes shapes = shapesOf(surface, input.components);
   const ComponentRoles roles = rolesOf(shapes);
   const auto wholeCount = static_cast<uint32_t>(roles.whole.size());
-  PartsOptions dividing = options;  // For the components that are divided.
+  PartsOptions dividing = options;  // Options for the components that are divided.
   if (options.partCount) dividing.partCount = *options.partCount - std::min(*options.partCount, wholeCount);
   Parts parts;
   parts.areas.assign(surface.areas.begin(), surface.areas.end());

@@ -15,15 +15,14 @@
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
-/// Segmentation into parts whose number is not given. Steps: patches, lines of sight between them, merging of the pair
-/// that costs least, the most typical of several such divisions, and a graph cut. docs/segmentation.md has the
-/// definition and its sources.
+/// Segmentation into parts without a given number. Steps: patches, lines of sight between patches, repeated merging of
+/// the pair of least cost, selection of the most typical of several such divisions, and a graph cut.
+/// docs/segmentation.md has the definition and its sources.
 namespace asdfvk {
 
-/// Returns 1 for each segment (in the unit of the mesh) that no face intersects between its ends, else 0.
+/// Returns 1 for each segment (in the unit of the mesh) that no face intersects between the end points, else 0.
 using LineOfSight = std::function<std::vector<uint8_t>(std::span<const LineSegment>)>;
 
-/// A mesh and its values.
 struct PartsInput {
   const TriangleMesh& mesh;
   const FaceGeometry& geometry;
@@ -36,24 +35,24 @@ struct Parts {
   std::vector<uint32_t> partOf;  ///< #F, numbered by ascending mean value.
   uint32_t partCount = 0;
   std::vector<double> areas;  ///< #F, shares of the area of the mesh.
-  /// Numbers of parts at the threshold times kPartStabilityFactor, and at the threshold divided by it.
+  /// Numbers of parts with the threshold multiplied and divided by kPartStabilityFactor.
   uint32_t fewest = 0, most = 0;
   /// Mean Rand index, weighted by area, of the chosen division with the other divisions, before small parts are merged
-  /// and boundaries cut. Unset where no component has kMinPartArea, because no divisions are compared.
+  /// and boundaries are cut. Unset if no component has kMinPartArea, because no divisions are compared.
   std::optional<double> agreement;
-  bool isThinShell = false;  ///< A closed thin wall around a cavity; lines of sight were not used.
+  bool isThinShell = false;  ///< A closed thin wall around a cavity, divided without lines of sight.
   double meanSight = 1;      ///< Mean over pairs of patches of a component, weighted by the product of their areas.
 };
 
-/// Share of the area below which a component is not divided, and a part is merged.
+/// Share of the area below which components are not divided, and parts are merged.
 inline constexpr double kMinPartArea = 0.01;
 
-/// Divides a mesh into parts. Small components, below kMinPartArea, take the part that is nearest in space if they have
-/// at most 5 % of the area together. If they have more, each small component is a part, except those below kMinPartArea
-/// times the largest component, which take the nearest part. If all components are small, each is a part. Other parts
-/// never extend over several components. With options.partCount there are this many parts: more where there are more
-/// components, fewer where there are fewer faces; none of them is merged for its size. The result does not depend on
-/// the number of threads. Throws Error{NoValues} where no face has a value, the errors of `sight`, and Error{Cancelled}
+/// Divides a mesh into parts. Components below kMinPartArea are small. If small components have at most 5 % of the area
+/// together, they take the part that is nearest in space. Otherwise each of them is a part, except those below
+/// kMinPartArea times the largest component, which take the nearest part. If all components are small, each is a part.
+/// Other parts never extend over several components. With options.partCount there are this many parts, more if there
+/// are more components, and fewer if there are fewer faces; small parts are then not merged. The result does not depend
+/// on the number of threads. Throws Error{NoValues} if no face has a value, the errors of `sight`, and Error{Cancelled}
 /// between steps.
 [[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
                                      const RunControl& control = {});

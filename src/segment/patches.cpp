@@ -14,15 +14,15 @@ namespace {
 constexpr uint32_t kLloydRoundCount = 2;
 constexpr uint32_t kNoFaceFound = 0xffffffff;
 
-/// Finds the face with the largest distance. Precondition: distances only decrease between calls. The last known
-/// maximum of a block of faces is therefore an upper bound, and only blocks with the largest bound are searched.
+/// Finds the face with the largest distance. Precondition: distances only decrease between calls. Then the last known
+/// maximum of a block of faces is an upper bound, and only blocks with the largest bound are searched.
 class FarthestFace {
  public:
   explicit FarthestFace(std::span<const float> distances)
       : distances_(distances),
         bounds_((distances.size() + kBlock - 1) / kBlock, std::numeric_limits<float>::infinity()) {}
 
-  /// kNoFaceFound where no reached face has a distance above 0.
+  /// kNoFaceFound if no reached face has a distance above 0.
   uint32_t find() {
     for (;;) {
       const auto bound = std::max_element(bounds_.begin(), bounds_.end());
@@ -52,7 +52,6 @@ struct SeededPatches {
   std::vector<uint32_t> seeds;
 };
 
-/// The patches around the farthest points, for each count.
 std::vector<SeededPatches> sampleFarthest(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
                                           std::span<const uint32_t> counts) {
   SurfaceFront front(surface.offsets, surface.creasedArcs);
@@ -80,7 +79,7 @@ std::vector<SeededPatches> sampleFarthest(const PartSurface& surface, std::span<
   return results;
 }
 
-/// Moves each seed to the face of its patch farthest from the other patches, and divides the surface again.
+/// Moves each seed to the face of its patch that is farthest from other patches, and divides the surface again.
 void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& seeded) {
   std::vector<uint32_t>& patchOf = seeded.patches.patchOf;
   front.clear();
@@ -141,7 +140,7 @@ PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> nor
   }
   for (uint32_t i = 0; i < patches.count; ++i) {
     PatchData::Patch& patch = data.patches[i];
-    const bool hasArea = patch.area > 0;  // Otherwise unweighted means are taken.
+    const bool hasArea = patch.area > 0;  // Without area, means are unweighted.
     patch.logValue = hasArea ? patch.logValue / patch.area : plainLogs[i] / std::max(1.0, faceCounts[i]);
     patch.centre = hasArea ? patch.centre / patch.area : plainCentres[i] / std::max(1.0, faceCounts[i]);
     if (const double norm = length(patch.normal); norm > 0) patch.normal = patch.normal / norm;

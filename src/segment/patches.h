@@ -11,7 +11,7 @@ namespace asdfvk {
 
 inline constexpr uint32_t kNoPatch = 0xffffffff;
 
-/// Connected pieces of the surface of about equal size, whose borders prefer concave edges and changes of the values.
+/// Connected pieces of the surface of about equal size. Borders prefer concave edges and changes of the values.
 struct Patches {
   std::vector<uint32_t> patchOf;  ///< #F, below `count`; kNoPatch for faces that no seed reaches.
   uint32_t count = 0;
@@ -19,13 +19,13 @@ struct Patches {
 
 /// Patches around the farthest points of the surface, improved by two rounds of Lloyd's method: the new seed of a patch
 /// is its face farthest from its border. Distances are along PartSurface::creasedArcs. firstSeeds: one face of each
-/// component that is divided, at least one in all. counts: ascending; the result has the patches for each count. There
-/// are fewer patches where there are fewer faces, and at least one per first seed. Deterministic, parallel over the
-/// counts; the farthest points of a count begin with the farthest points of each smaller count.
+/// component that is divided, at least one in all. counts: ascending; the result has the patches for each count. Meshes
+/// with fewer faces than a count have fewer patches. There is at least one patch per first seed. Deterministic,
+/// parallel over the counts. The farthest points of a count begin with the farthest points of each smaller count.
 [[nodiscard]] std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
                                                std::span<const uint32_t> counts);
 
-/// The data of patches that the merging reads. Lengths and areas as in PartSurface.
+/// Data of patches for the merging. Lengths and areas as in PartSurface.
 struct PatchData {
   struct Patch {
     double area = 0;
@@ -34,7 +34,7 @@ struct PatchData {
     Vec3d normal;             ///< A unit vector, or 0.
     uint32_t centreFace = 0;  ///< The face of the patch nearest to its centre.
   };
-  /// Two adjacent patches a < b, and sums over the edges between them.
+  /// Two adjacent patches a < b. Sums are over the edges between a and b.
   struct Border {
     uint32_t a = 0, b = 0;
     double length = 0;

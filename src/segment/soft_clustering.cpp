@@ -26,7 +26,6 @@ class Rand48 {
  public:
   Rand48() { static_cast<void>(next()); }  // CGAL does not use the first number.
 
-  /// A number of 31 bits.
   uint32_t next() {
     constexpr uint64_t kMask = (uint64_t{1} << 48) - 1;
     state_ = (state_ * 0x5DEECE66D + 11) & kMask;
@@ -62,7 +61,7 @@ void requireDifferentValues(std::span<const double> values, uint32_t clusterCoun
   if (different.size() < clusterCount) refuse(clusterCount);
 }
 
-/// Each further seed is drawn with a probability proportional to the squared distance to the nearest earlier seed.
+/// Draws each further seed with a probability proportional to the squared distance to the nearest earlier seed.
 std::vector<double> chooseSeeds(std::span<const double> values, uint32_t clusterCount) {
   Rand48 random;
   std::vector<double> seeds{values[random.index(values.size())]};
@@ -119,7 +118,7 @@ struct Gaussian {
   double mean, deviation, weight;
   double factor = weight / deviation, exponent = -0.5 / (deviation * deviation);
 
-  /// The density without the factor 1 / sqrt(2 pi). A Gaussian with a deviation of 0 is 1 at the mean and 0 elsewhere.
+  /// The density without the factor 1 / sqrt(2 pi). A Gaussian with deviation 0 has the density 1 at the mean, else 0.
   [[nodiscard]] double density(double value) const {
     const double distance = value - mean;
     if (std::isinf(exponent)) return distance == 0 ? weight : 0;
@@ -129,7 +128,6 @@ struct Gaussian {
 
 class Mixture {
  public:
-  /// Starts at the means of the clusters, with equal weights.
   Mixture(std::span<const double> values, const HardClustering& clusters)
       : values_(values), probabilities_(values.size() * clusters.centres.size()) {
     std::vector<double> squares(clusters.centres.size()), counts(clusters.centres.size());
@@ -146,7 +144,7 @@ class Mixture {
   /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
   double expect() {
     return sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
-      double product = 1;  // Product of likelihoods, because a logarithm per value takes long.
+      double product = 1;  // A product of likelihoods, because a logarithm per value takes long.
       for (size_t i = begin; i < end; ++i) {
         double* row = &probabilities_[i * gaussians_.size()];
         double total = 0;
@@ -163,7 +161,7 @@ class Mixture {
     })[0];
   }
 
-  /// Sets the Gaussians to the most likely ones for the probabilities.
+  /// Sets the most likely Gaussians for the probabilities.
   void maximize() {
     const size_t clusterCount = gaussians_.size();
     for (size_t c = 0; c < clusterCount; ++c) {
@@ -208,7 +206,7 @@ class Mixture {
   }
 
  private:
-  /// Index of the nearest mean, for a value at which all densities underflow.
+  /// The nearest mean, for a value at which all densities underflow.
   [[nodiscard]] size_t nearest(double value) const {
     const auto isNearer = [&](const Gaussian& a, const Gaussian& b) {
       return std::abs(value - a.mean) < std::abs(value - b.mean);
@@ -216,7 +214,7 @@ class Mixture {
     return static_cast<size_t>(std::min_element(gaussians_.begin(), gaussians_.end(), isNearer) - gaussians_.begin());
   }
 
-  /// Sums of N numbers over blocks of fixed size, then over the blocks in order.
+  /// Sums N numbers over blocks of fixed size, then over the blocks in order.
   template <size_t N, typename Body>
   [[nodiscard]] std::array<double, N> sumOverBlocks(const Body& body) const {
     constexpr size_t kBlock = 4096;

@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Soft clustering of numbers by a Gaussian mixture that is initialised by k-means++. Method, random numbers and limits
-/// are those of CGAL's segmentation_from_sdf_values(), derived from its outputs (version 5.5.1; no code of CGAL).
+/// are those of CGAL's segmentation_from_sdf_values(), derived from the outputs of version 5.5.1; no code of CGAL.
 namespace asdfvk {
 
 /// Clusters ascend by mean.
@@ -18,7 +18,7 @@ struct SoftClustering {
 
 /// Expectation and maximization (A. Dempster, N. Laird, D. Rubin: Maximum Likelihood from Incomplete Data via the EM
 /// Algorithm, 1977), at most 10 steps, from the clusters of clusterByMeans(). values: finite. The result has the same
-/// bits on any number of threads. clusterCount: 1 to kMaxClusterCount. Throws Error{TooFewValues} where there are fewer
+/// bits on any number of threads. clusterCount: 1 to kMaxClusterCount. Throws Error{TooFewValues} if there are fewer
 /// different values than clusters.
 [[nodiscard]] SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount);
 

@@ -11,9 +11,9 @@
 
 namespace asdfvk {
 
-/// The distance of each face to the nearest source along arcs, and the label of that source. Dijkstra's algorithm with
-/// buckets instead of a heap. Faces within a bucket are processed in the order in which they were added. A face whose
-/// distance decreases later is processed again. Deterministic. An object reuses its memory.
+/// The distance of each face to the nearest source along arcs, and the label of this source. Dijkstra's algorithm with
+/// buckets instead of a heap: faces of a bucket are processed in the order of addition. A face whose distance decreases
+/// later is processed again. Deterministic. An object reuses its memory.
 class SurfaceFront {
  public:
   using Arc = PartSurface::Arc;
@@ -32,8 +32,8 @@ class SurfaceFront {
     perWidth_ = static_cast<float>(1 / width);
   }
 
-  /// Makes a face a source at this distance, unless its distance to another source is at most as large. Other distances
-  /// are computed by advance(). A distance of NaN or infinity is ignored.
+  /// Makes a face a source at this distance, unless another source is at most as far away. advance() computes the other
+  /// distances. A distance of NaN or infinity is ignored.
   void add(uint32_t face, float distance, uint32_t label) {
     if (!(distance < distances_[face])) return;
     if (distances_[face] == kUnreached) touched_.push_back(face);
@@ -50,7 +50,7 @@ class SurfaceFront {
       for (size_t i = 0; i < bucket.size(); ++i) {
         const Entry entry = bucket[i];
         if (entry.distance > distances_[entry.face]) continue;
-        if (bucketOf(entry.distance) > current_) {  // The entry was beyond the last bucket.
+        if (bucketOf(entry.distance) > current_) {  // It was beyond the last bucket.
           put(entry);
           continue;
         }
@@ -76,9 +76,9 @@ class SurfaceFront {
     touched_.clear();
   }
 
-  /// #F, kUnreached where no source reaches.
+  /// #F, kUnreached if no source reaches the face.
   [[nodiscard]] std::span<const float> distances() const { return distances_; }
-  [[nodiscard]] std::span<const uint32_t> labels() const { return labels_; }    ///< #F, meaningless where unreached.
+  [[nodiscard]] std::span<const uint32_t> labels() const { return labels_; }    ///< #F, meaningless if unreached.
   [[nodiscard]] std::span<const uint32_t> reached() const { return touched_; }  ///< Each face once.
 
  private:
