@@ -23,7 +23,6 @@ namespace {
 constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either of its faces.
 constexpr int kRunCount = 3;
 
-/// The mesh, the cone and the duration of the self-test.
 struct TestTorus : GeneratedMesh {
   explicit TestTorus(double duration) : GeneratedMesh(bumpyTorus(200, 100)), secondsPerRun(duration) {}
 
@@ -31,7 +30,7 @@ struct TestTorus : GeneratedMesh {
   Cone cone = makeCone({});
 };
 
-/// Runs `test`. Stores the reason if it cannot run.
+/// Runs `test`. If the test cannot run, stores the reason.
 template <typename Report>
 void runTest(Report& report, const std::function<void()>& test) {
   try {
@@ -45,8 +44,8 @@ void runTest(Report& report, const std::function<void()>& test) {
   }
 }
 
-/// Rays per second. The number of faces is doubled until a run takes secondsPerRun, because the rate of a short run
-/// measures the overhead. The faces are spread over the mesh.
+/// Rays per second. The rate of a short run measures the overhead; therefore the number of faces is doubled until a run
+/// takes secondsPerRun. The faces are spread over the mesh.
 double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
   constexpr size_t kFirstFaceCount = 2048;
   const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;

@@ -14,32 +14,31 @@
 
 namespace asdfvk {
 
-/// Self-test and rate of one way to trace.
+/// Self-test and rate of a backend or variant.
 struct TracerReport {
   std::string backend;                  ///< A name of Session::backend().
   std::optional<TraceVariant> variant;  ///< Set for "vulkan".
-  bool isDefault = false;               ///< Whether this is the default variant of the device.
-  std::string refusal;                  ///< Set where a limit or a missing feature of the device excludes the variant.
-  std::string failure;                  ///< Set where the test ended with an error.
+  bool isDefault = false;               ///< The variant is the default of the device.
+  std::string refusal;                  ///< Set if a limit or a missing feature of the device excludes the variant.
+  std::string failure;                  ///< Set if the test ended with an error.
   uint32_t comparedCount = 0, differingCount = 0;  ///< See TracerCheck; 64 faces are compared.
   bool passed = false;                             ///< The test ran and at most one face differs.
-  double raysPerSecond = 0;                        ///< The best of a few runs; 0 where the test did not run.
+  double raysPerSecond = 0;                        ///< The best of a few runs; 0 if the test did not run.
 };
 
-/// Comparison of a solver of the device with the solver on the CPU.
+/// Comparison of a solver on the device with the solver on the CPU.
 struct SolverCheckReport {
   std::string name;
   std::string refusal, failure;  ///< See TracerReport.
   uint32_t unknownCount = 0;
   uint32_t iterations = 0;
   bool finishedOnCpu = false;  ///< See SolverReport.
-  double difference = 0;  ///< Greatest difference from the solution on the CPU, divided by the range of that solution.
+  double difference = 0;  ///< Greatest difference from the solution on the CPU, divided by the range of this solution.
   double seconds = 0;     ///< The best of a few runs.
   bool passed = false;    ///< The solver converged and the difference is at most kSolverTolerance.
 };
 inline constexpr double kSolverTolerance = 1e-3;
 
-/// Facts about a device, whether its kernels compute the values of the reference, and how fast they are.
 struct DeviceReport {
   std::vector<std::string> deviceLines;  ///< See Session::deviceLines().
   std::optional<Error> failure;  ///< The reason why there is no Vulkan device, or the report of the validation layers.
@@ -51,16 +50,16 @@ struct DeviceReport {
   std::vector<TracerReport> tracers;
   std::vector<SolverCheckReport> solvers;
 
-  /// The variant of the device with the greatest rate among those that passed; null where there is none.
+  /// The fastest variant of the device that passed; null if none did.
   [[nodiscard]] const TracerReport* fastest() const;
-  /// Whether nothing failed, and the default variant of the device, or the requested backend, passed.
+  /// True if nothing failed, and the requested backend or the default variant of the device passed.
   [[nodiscard]] bool passed() const;
 };
 
 /// Measures the backend of the options; for "auto" the Vulkan device and, for comparison, the CPU. A Vulkan device is
-/// measured with every kernel variant and every solver; SessionOptions::variant is ignored. secondsPerRun: a shorter
-/// run is repeated with more faces, up to all of the mesh. Throws Error of kind Device where the options exclude every
-/// device and backend, Error{Cancelled}.
+/// measured with every kernel variant and every solver, whatever SessionOptions::variant is. secondsPerRun: a shorter
+/// run is repeated with more faces, up to all of the mesh. Throws Error of kind Device if the options exclude every
+/// device and backend, and Error{Cancelled}.
 [[nodiscard]] DeviceReport reportDevice(const SessionOptions& options, const RunControl& control,
                                         double secondsPerRun = 0.15);
 
