@@ -6,7 +6,6 @@
 # page.html. src/page/page.cpp fills the other places and compresses the script; loader.js decompresses it.
 cmake_minimum_required(VERSION 3.25)
 
-# Removes lines of comments, leading blanks and empty lines.
 function(asdfvk_shortened text result)
   set(text "\n${text}\n")
   string(REGEX REPLACE "\n[ \t]*/\\*([^*]|\\*+[^*/])*\\*+/[ \t]*\n" "\n" text "${text}")
@@ -17,7 +16,7 @@ function(asdfvk_shortened text result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# The source expression of a text in a content-security policy: its SHA-256 in base64.
+# The SHA-256 of a text in base64, for a content-security policy.
 function(asdfvk_policy_hash text result)
   string(SHA256 hex "${text}")
   set(digits "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")

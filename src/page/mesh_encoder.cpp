@@ -16,11 +16,10 @@ namespace {
 
 constexpr uint32_t kNone = 0xffffffff;
 
-/// Grid steps along the longest side of the box.
 constexpr double kGridSize = 65535;
 
-/// Number of lowest bits of a float32 that a page drops. Values keep 15 significant bits, which is a relative error of
-/// at most 2^-15. The four digits that a page shows are then correct except for rounding.
+/// Number of lowest bits of a float32 that a page drops. The relative error is at most 2^-15, so that the four digits
+/// that a page shows are correct except for rounding.
 constexpr int kDroppedBits = 9;
 
 /// Coordinates as whole numbers of steps from the lower corner of a box.
@@ -35,14 +34,14 @@ struct Grid {
 
   [[nodiscard]] uint32_t stepsOf(double coordinate, size_t axis) const {
     if (!(step > 0) || !std::isfinite(coordinate)) return 0;
-    // Halved, because the difference of two finite numbers may overflow.
+    // Halved, because the difference of two finite coordinates may overflow.
     const double steps = std::round((coordinate * 0.5 - box.min[axis] * 0.5) / (step * 0.5));
     return static_cast<uint32_t>(std::clamp(steps, 0.0, kGridSize));
   }
 };
 
-/// All faces in the order of a depth-first walk over shared edges. Neighbouring faces are then close to each other,
-/// whatever the order of the file, so that the differences in the arrays are small.
+/// All faces in the order of a depth-first walk over shared edges. Neighbouring faces are then close to each other in
+/// the arrays, so that the differences in the arrays are small.
 std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
   const DualGraph graph = buildDualGraph(mesh);
   std::vector<uint32_t> faces, stack;
@@ -67,7 +66,8 @@ std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
 struct Layout {
   std::vector<uint32_t> faces;
   std::vector<uint32_t> vertices;  ///< Vertices of faces, in the order of their first use.
-  /// For each corner: place of its vertex minus the number of vertices used before; 0 for a new vertex, else negative.
+  /// For each corner: index of its vertex in `vertices` minus the count of preceding vertices; 0 for a new vertex, else
+  /// negative.
   std::vector<int32_t> corners;
 
   explicit Layout(const TriangleMesh& mesh) : faces(walkedFaces(mesh)) {
@@ -157,7 +157,7 @@ Json encodeMesh(const TriangleMesh& mesh, std::span<const std::reference_wrapper
                            [&](size_t i) { return grid.stepsOf(mesh.vertices[layout.vertices[i]][axis], axis); });
     });
   std::vector<FieldNumbers> numbers;
-  numbers.reserve(fields.size());  // The sources refer to the elements.
+  numbers.reserve(fields.size());  // No reallocation: the sources refer to the elements.
   for (const Field& field : fields) {
     const FieldNumbers& added = numbers.emplace_back(numbersOf(field));
     sources.push_back([&] {

@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-/// Compression level. Level 6 takes 40 % more time for 1 % fewer bytes, for a mesh of 1,000,000 faces.
+/// Compression level. For a mesh of 1,000,000 faces, level 6 takes 40 % more time for 1 % fewer bytes.
 constexpr int kLevel = 5;
 
 /// Maps 0, -1, 1, -2, ... to 0, 1, 2, 3, ..., so that small numbers of both signs have zeros in their upper bytes.

@@ -20,7 +20,7 @@ class PageArrays {
   using Source = std::function<std::vector<int32_t>()>;
 
   /// Calls the sources and compresses their arrays, in parallel. Returns the number of each array. Long arrays should
-  /// come first, because they take most time.
+  /// come first, because their compression takes the longest time.
   [[nodiscard]] std::vector<uint32_t> add(std::span<const Source> sources);
 
   /// Writes one HTML element per array, with the bytes in base64.

@@ -9,7 +9,7 @@
 namespace asdfvk {
 
 /// Encodes the thin surface as a mesh with the field "region". Equal corners become one vertex. box: the box of the
-/// whole mesh, so that thin faces and faces of the mesh are rounded to the same grid. Returns the description, as
+/// whole mesh, so that thin faces and faces of the mesh are rounded to the same grid. Returns a description like
 /// encodeMesh(). Precondition: the surface has a triangle.
 [[nodiscard]] nlohmann::ordered_json encodeThinSurface(const ThinSurface& surface, const Box3d& box,
                                                        PageArrays& arrays);

@@ -1,5 +1,5 @@
-// Camera with parallel projection that turns around an upright axis. Azimuth and elevation 0 show the broad side of the
-// mesh, as pictures of `--picture` do.
+// Camera with parallel projection that turns around an upright axis. At azimuth 0 and elevation 0 the broad side of the
+// mesh is in front, as in pictures of `--picture`.
 import { add, clamp, cross, dot, scaled, subtract } from './vectors.js';
 
 export const kViews = {
@@ -12,7 +12,7 @@ const axisVector = (axis, sign) => [0, 1, 2].map((i) => i === axis ? sign : 0);
 /** The directions up, front (azimuth 0) and side (azimuth 90). boxSize: sides of the box of the mesh. */
 export function uprightFrame(up, boxSize) {
   const axis = 'xyz'.indexOf(up.at(-1)), upward = axisVector(axis, up.length > 1 ? -1 : 1);
-  // The front is the shorter horizontal axis. Of equal ones it is z with y up, and -y with z up.
+  // The front is the shorter horizontal axis. If both are equal, it is -y if z is up, else z.
   const usual = axis === 2 ? 1 : 2, other = axis === 0 ? 1 : 0;
   const isBroadside = boxSize[other] >= boxSize[usual];
   const front = axisVector(isBroadside ? usual : other, isBroadside && axis === 2 ? -1 : 1);
@@ -42,11 +42,10 @@ export function boxCorners(size) {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => size.map((length, axis) => (i >> axis & 1 ? 0.5 : -0.5) * length));
 }
 
-/**
- * Camera of a pane that shows a mesh within a frame {centre, radius, size}. x, y and z of the state are the offset of
- * the target from the centre along side, up and front, in radii of the frame, so that meshes with different upright
- * axes move alike. With zoom 1 the sphere of the frame fits the shorter side of the pane.
- */
+// Camera of a pane. The pane shows a mesh within a frame {centre, radius, size}. The target is the point at the centre
+// of the pane. The state has the offset of the target from the centre of the frame: x along side, y along up, z along
+// front, in radii of the frame. Meshes with different upright axes therefore move alike. With zoom 1 a sphere with the
+// radius of the frame fits the shorter side of the pane.
 export class PaneCamera {
   constructor(state, axes, frame, width, height) {
     Object.assign(this, axes);
@@ -59,7 +58,7 @@ export class PaneCamera {
     this.depth = 1 / (frame.radius * (2 + Math.hypot(state.x, state.y, state.z)));
   }
 
-  /** The x, y and z of the state that make the point the target. */
+  /** The x, y and z of the state for which `point` is the target. */
   stateAt(point) {
     const offset = scaled(subtract(point, this.frame.centre), 1 / this.frame.radius);
     const [x, y, z] = this.upright.map((axis) => dot(offset, axis));
@@ -86,7 +85,7 @@ export class PaneCamera {
       this.height / 2 - dot(offset, this.up) / this.pixelSize];
   }
 
-  /** The point at a pixel, in the plane through the target that faces the viewer. */
+  /** The point at a pixel, in the plane through the target that is perpendicular to the line of sight. */
   pointAt(x, y) {
     const across = scaled(this.right, (x - this.width / 2) * this.pixelSize);
     return add(this.target, add(across, scaled(this.up, (this.height / 2 - y) * this.pixelSize)));

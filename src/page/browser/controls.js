@@ -56,7 +56,7 @@ export class Controls {
     const changes = { [key]: value };
     if (key === 'layer' || key === 'show') Object.assign(changes, { low: null, high: null });
     if (key === 'layer') changes.thinAt = null;
-    // The view of thin places with a given limit shows neither a layer nor a difference.
+    // The selection of a layer or of a difference ends the view of the thin places of the results.
     if (this.given !== null && (key === 'layer' || String(changes.show).includes('-'))) changes.thin = false;
     if (key === 'thinAt' && value !== null) changes.thin = true;
     if (key === 'up' || key === 'show') Object.assign(changes, viewer.fitted({ ...viewer.state, ...changes }));

@@ -1,6 +1,5 @@
 // Decodes the arrays of a mesh, which src/page writes (docs/page-format.md).
 
-/** Decodes base64. */
 export function bytesOfBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
   const binary = atob(text);
@@ -34,7 +33,7 @@ function summed(numbers) {
   return numbers;
 }
 
-/** Vertex indices of the corners. corners: 0 for a new vertex, else the index minus the number of vertices so far. */
+/** Vertex indices of the corners. corners: 0 for a new vertex, else the index minus the count of preceding vertices. */
 function indicesOf(corners, vertexCount) {
   const indices = new Uint32Array(corners.length);
   let count = 0;
@@ -66,10 +65,8 @@ function valuesOf(kind, numbers) {
   return values;
 }
 
-/**
- * Decodes a mesh of the page. description: the entry of the mesh in "meshes". arrayBytes(number): returns the
- * compressed bytes of an array. Positions are relative to `origin`. Throws an Error if the data are damaged.
- */
+// Decodes a mesh of the page. description: the entry of the mesh in "meshes". arrayBytes(number): returns the
+// compressed bytes of an array. The result has positions relative to `origin`. Throws an Error if the data are damaged.
 export async function decodeMesh(description, arrayBytes, origin = [0, 0, 0]) {
   const { arrays, fields, faceCount, vertexCount } = description;
   const load = async (number, count, name) => numbersOf(await inflate(arrayBytes(number)), count, name);

@@ -1,4 +1,3 @@
-// Formats numbers and ticks.
 
 const kMaxTickCount = 6;
 
@@ -13,10 +12,8 @@ function withDigits(value, digits) {
   return String(Number(value.toPrecision(digits)));
 }
 
-/**
- * A number with four significant digits, without trailing zeros after a decimal point. If its text would equal the text
- * of `limit`, it has more digits, up to nine.
- */
+// A number with four significant digits, without trailing zeros after a decimal point. More digits, up to nine, are
+// used if the text would otherwise equal the text of `limit`.
 export function formatValue(value, limit = value) {
   for (let digits = 4; digits <= 9; ++digits)
     if (withDigits(value, digits) !== withDigits(limit, digits)) return withDigits(value, digits);
@@ -27,10 +24,8 @@ export const formatCount = (count) => count.toLocaleString('en-US');
 
 export const formatShare = (share) => `${Number((100 * share).toPrecision(share < 0.1 ? 2 : 3))} %`;
 
-/**
- * Ticks of a range: at most six ascending multiples of 1, 2, 2.5 or 5 times a power of ten. The labels have the fewest
- * digits that distinguish the ticks. If the range is too small, the ticks are its ends.
- */
+// Ticks of a range: at most six ascending multiples of 1, 2, 2.5 or 5 times a power of ten. The labels have the fewest
+// digits that distinguish the ticks. If the range is too small, the ticks are its ends.
 export function ticksWithin(low, high) {
   const largest = Math.max(Math.abs(low), Math.abs(high)), span = high - low;
   const ends = () => [...new Set([low, high])].map((value) => ({ value, label: formatValue(value) }));

@@ -111,7 +111,8 @@ export class Layers {
     return shares.map(([label, area]) => ({ label, share: total > 0 ? area / total : 0 }));
   }
 
-  /** The interval that the legend shows: the range of the colours, with a margin as far as there are values. */
+  /** The interval of the legend: the range of the colours, with margins that end at the least and the greatest value.
+  */
   axisOf({ low, high, range }) {
     if (!range) return { low: 0, high: 1 };
     const margin = high > low ? kMargin * (high - low) : Math.abs(low) * 0.1 || 0.5;

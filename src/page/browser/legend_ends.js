@@ -1,4 +1,4 @@
-// The legend of the page, and the handles at the two ends of its colours, which mouse, touch and keys move.
+// The legend of the page. Mouse, touch and keys move the handles at the two ends of its colours.
 import { formatValue } from './format.js';
 import { barOf, drawLegend, kNarrowLegend, kWideLegend, legendSentence } from './legend.js';
 import { thinShare } from './thin_places.js';

@@ -42,7 +42,7 @@ function followFragment(viewer) {
   });
 }
 
-/** Returns the result of read(), which decodes data of the page. Reports its errors as damaged data. */
+/** Returns the result of read(). If read() fails, throws an error that reports damaged data. */
 async function reading(read) {
   try {
     return await read();
@@ -59,7 +59,7 @@ async function modelsOf(page) {
     const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, arrayBytes, origin) : null;
     models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, arrayBytes, origin), thinSurface));
   }
-  // The arrays are large and no longer needed.
+  // The decoded arrays are large and no longer needed.
   for (const array of document.querySelectorAll('[id^=array-]')) array.remove();
   return models;
 }
@@ -71,7 +71,7 @@ async function start() {
   showReport(page, null);
   const canvas = document.getElementById('view'), renderer = Renderer.create(canvas);
   if (!renderer) {
-    finish('nogl', 'This browser offers no WebGL 2: here are the picture and the report without the view.');
+    finish('nogl', 'This browser has no WebGL 2. The page shows the picture and the report without the 3D view.');
     return;
   }
   const models = await reading(() => modelsOf(page));

@@ -1,5 +1,5 @@
-// A decoded mesh: triangles and fields. Arrays per face are in the order of the page; faceIds has the faces of the
-// file.
+// A decoded mesh: triangles and fields. Arrays per face are in the order of the page. faceIds has the number of each
+// face in the file.
 import { Triangles } from './triangles.js';
 
 export class MeshModel extends Triangles {
@@ -7,7 +7,7 @@ export class MeshModel extends Triangles {
   constructor(description, origin, decoded, thinSurface) {
     super(decoded.positions, decoded.indices);
     Object.assign(this, { description, origin, faceIds: decoded.faceIds, fields: decoded.fields });
-    // The box is relative to the origin, as the positions are.
+    // The box is relative to the origin, like the positions.
     this.boxMin = description.boxMin.map((value, axis) => value - origin[axis]);
     this.boxMax = description.boxMax.map((value, axis) => value - origin[axis]);
     if (!description.thin) return;

@@ -26,10 +26,8 @@ export function ringOf(pane) {
   return canvasPixel(pane, a.map((value, axis) => (value + b[axis] + c[axis]) / 3));
 }
 
-/**
- * Markers {x, y, text, isLeft} at the thinnest places of the regions in a pane. `text` is empty if it would cover
- * another.
- */
+// Markers {x, y, text, isLeft} at the thinnest places of the regions in a pane. `text` is empty if it would cover
+// another text.
 export function markersOf(pane, viewer) {
   if (!viewer.thin?.isGiven) return [];
   const model = viewer.models[pane.index], markers = [];
@@ -57,7 +55,7 @@ export class Overlays {
   }
 
   update(panes) {
-    // The elements are replaced only if something differs, because each change repaints them.
+    // Elements are replaced only if something differs, because each change repaints them.
     const all = panes.map((pane) => ({
       pane, scale: scaleOf(pane.camera), ring: ringOf(pane), markers: markersOf(pane, this.viewer),
     }));

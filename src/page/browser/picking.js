@@ -1,4 +1,4 @@
-// Intersects lines with all triangles. Unlike reading back from the graphics card, this is exact at any zoom.
+// Intersects lines with all triangles, which is exact at any zoom. Pixels read back from the graphics card are not.
 import { add, dot, scaled } from './vectors.js';
 
 /** Calls visit(face, distance, facing) for each triangle that the line hits. facing: positive if the front is hit. */
@@ -22,11 +22,9 @@ function forEachHit(model, point, direction, visit) {
   }
 }
 
-/**
- * The visible face {face, point} nearest to the viewer on the line through `point` towards the viewer; null if there is
- * none. colours: faces with alpha 0 are invisible; may be null. plane: [x, y, z, w], visible where positive; may be
- * null. facing: true excludes back faces.
- */
+// The visible face {face, point} nearest to the viewer on the line through `point` towards the viewer; null if there is
+// none. colours: faces with alpha 0 are invisible; may be null. plane: [x, y, z, w], points on its negative side are
+// invisible; may be null. facing: true excludes back faces.
 export function pickFace(model, colours, point, toViewer, plane, facing) {
   let best = -Infinity, found = -1;
   const at = (distance) => add(point, scaled(toViewer, distance));

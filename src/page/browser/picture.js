@@ -13,7 +13,7 @@ export class Picture {
     const picture = document.createElement('canvas');
     Object.assign(picture, { width: (width + kWideLegend.width) * ratio, height: height * ratio });
     const context = picture.getContext('2d'), { ink } = viewer.theme();
-    // The pixels of the canvas exist only until the end of this task, so that the view is drawn again.
+    // The view is drawn again, because the pixels of the canvas exist only until the end of a task.
     viewer.draw(true);
     context.fillStyle = getComputedStyle(canvas).backgroundColor;
     context.fillRect(0, 0, picture.width, picture.height);

@@ -18,7 +18,7 @@ export class Renderer {
     this.restore();
   }
 
-  /** Sets up the context, at first and after a loss. Meshes must be added again afterwards. */
+  /** Sets up the context at first use, and after a loss of the context. After a loss, meshes must be added again. */
   restore() {
     const { gl } = this;
     this.programs = new Map();
@@ -55,7 +55,7 @@ export class Renderer {
     };
     mesh.positions = filled(gl.ARRAY_BUFFER, drawn.positions);
     this.attribute(kPosition, mesh.positions, 3, gl.FLOAT, false);
-    // Vertices after the first faceCount have neither colour nor normal, because they are not provoking.
+    // Only the first faceCount vertices have a colour and a normal, because other vertices are not provoking vertices.
     mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
     this.attribute(kColour, mesh.colours, 4, gl.UNSIGNED_BYTE, true);
     const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
@@ -87,7 +87,7 @@ export class Renderer {
     mesh.isSmooth = true;
   }
 
-  // A copy with few triangles, for slow devices while the view moves.
+  // A copy with few triangles, for slow devices during motion of the view.
   coarse(mesh) {
     if (mesh.model.faceCount < 2 * kCoarseFaceCount) return mesh;
     mesh.coarse ??= this.addMesh(mesh.model.reduced(kCoarseFaceCount));
@@ -98,7 +98,7 @@ export class Renderer {
     return coarse;
   }
 
-  // The edges of all faces; with hidesRest only of highlighted faces.
+  // The edges of all faces, or with hidesRest only of highlighted faces.
   edgesOf(mesh, hidesRest) {
     const { gl } = this, hasHidden = hidesRest && mesh.hasRest;
     if (mesh.edgesOfColouring === (hasHidden ? mesh.colouring : true)) return mesh.edges;
@@ -153,11 +153,9 @@ export class Renderer {
     if (program.uniforms.plane) gl.uniform4fv(program.uniforms.plane, pane.plane ?? [0, 0, 0, 1]);
   }
 
-  /**
-   * frame: {width, height, background, isSampled, isCoarse, shading, back, edges, rest, lineColour, panes}. A pane is
-   * {mesh, surface, camera, plane, viewport, outline}. viewport: in pixels from the lower left corner of the canvas.
-   * surface: if not null, is highlighted instead of faces of the mesh.
-   */
+  // frame: {width, height, background, isSampled, isCoarse, shading, back, edges, rest, lineColour, panes}. A pane is
+  // {mesh, surface, camera, plane, viewport, outline}. viewport: in pixels from the lower left corner of the canvas. If
+  // `surface` is not null, it is highlighted instead of faces of the mesh.
   draw(frame) {
     const { gl } = this;
     const target = frame.isSampled ? this.sampledTarget(frame.width, frame.height) : null;
@@ -188,10 +186,8 @@ export class Renderer {
     gl.blitFramebuffer(...area, ...area, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
-  /**
-   * Draws the highlighted faces, and the rest with the opacity that frame.rest selects. Only the nearest face of the rest
-   * covers highlighted faces, so that the order of the faces does not matter.
-   */
+  // Draws the highlighted faces, and the rest with the opacity that frame.rest selects. Only the nearest face of the
+  // rest covers highlighted faces, so that the result does not depend on the order of the faces.
   drawHighlighted(pane, frame) {
     const { gl } = this, highlighted = pane.surface ?? (pane.mesh.isAllRest ? null : pane.mesh);
     const opacity = highlighted ? kRestOpacities[frame.rest] : 1;
@@ -207,18 +203,16 @@ export class Renderer {
       gl.disable(gl.BLEND);
     }
     if (!highlighted) return;
-    // Moves the highlighted faces in front of the mesh. Both are rounded to the grid of the page, so that parts of a
-    // face do not lie exactly in the face.
+    // Moves the highlighted faces in front of the mesh. Otherwise the mesh would cover some of them, because all
+    // coordinates are rounded to the grid of the page.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(-1, -1024);
     this.drawFaces(highlighted, pane, frame);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  /**
-   * opacity: draws the whole mesh in the colour of the rest with this opacity; null: draws highlighted faces in their
-   * colours.
-   */
+  // opacity: draws the whole mesh in the colour of the rest with this opacity; null: draws highlighted faces in their
+  // colours.
   drawFaces(mesh, pane, frame, opacity = null) {
     const { gl } = this, isSmooth = frame.shading === 'smooth';
     const defines = isSmooth ? ['SMOOTH'] : [];

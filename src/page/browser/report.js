@@ -26,7 +26,7 @@ function table(caption, heads, rows) {
   return [element, more];
 }
 
-/** A button that calls `action`; without an action the text. */
+/** A button that calls `action`; the text alone if there is no action. */
 function link(text, id, action) {
   if (!action) return text;
   const button = made('button', { type: 'button', id }, text);

@@ -8,10 +8,8 @@ const kField = 'least_thickness', kMarkerCount = 8;
 /** The limit that the results of the page were compared with; null without a limit. */
 export const givenLimit = (models) => models.find((model) => model.thin)?.thin.limit ?? null;
 
-/**
- * The limit {limit, isGiven, name} below which a state shows thin places, or null. isGiven: shows the exact thin
- * surface of each result; otherwise the faces whose value of the field `name` is below the limit.
- */
+// The limit {limit, isGiven, name} below which a state shows thin places, or null. If isGiven is true, the view shows
+// the exact thin surface of each result; otherwise the faces whose value of the field `name` is below the limit.
 export function thinShown(state, look, layers) {
   if (!state.thin) return null;
   const given = givenLimit(layers.models), name = given !== null && layers.has(kField) ? kField : look.name;
@@ -47,12 +45,10 @@ export function regionRadius(surface, regions, region, point) {
   return radius;
 }
 
-/**
- * Direction to the viewer from which the fewest faces hide one end of a wall. ends: the two points of the region.
- * outward: unit vector from the second end to the first. Candidates are oblique, so that the wall is visible beside its
- * surface. Candidates close to `preferred` have an advantage of less than one face. least: hits closer to the end do
- * not count.
- */
+// Direction to the viewer from which the fewest faces hide one end of a wall. ends: the two points of the region.
+// outward: unit vector from the second end to the first. All candidates are oblique, so that the wall is visible beside
+// its surface. A candidate close to `preferred` has an advantage of less than one face. least: hits closer to the end
+// do not count.
 export function directionOfLeastCover(model, ends, outward, preferred, least) {
   const side = unit(cross(outward, Math.abs(outward[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]), [0, 0, 1]);
   const other = cross(outward, side);

@@ -1,4 +1,3 @@
-// Triangles and data derived from them: areas, normals, edges, vertices to draw, a coarser copy.
 
 const kNoFace = 0xffffffff;
 
@@ -40,11 +39,9 @@ export class Triangles {
     this.totalArea = total;
   }
 
-  /**
-   * Vertices and triangles for drawing with flat attributes. Vertex k is the provoking corner of face k, so that it
-   * holds the attributes of face k. isFirst: the provoking corner is the first one, else the last. sources: for each
-   * vertex, the vertex of the mesh that it copies.
-   */
+  // Vertices and triangles for drawing with flat attributes. Vertex k is the provoking corner of face k, and has the
+  // attributes of face k. isFirst: the provoking corner is the first one, else the last. sources: for each vertex, the
+  // vertex of the mesh that it copies.
   drawnVertices(isFirst) {
     const { positions, indices, faceCount } = this;
     const copyOf = new Uint32Array(positions.length / 3).fill(kNoFace);
@@ -126,11 +123,9 @@ export class Triangles {
     return this.cachedEdges = { ends: ends.slice(0, 2 * count), faces: faces.slice(0, 2 * count) };
   }
 
-  /**
-   * A copy with about `count` triangles, by vertex clustering (Rossignac and Borrel 1993): the vertices in a cell of a
-   * grid become one vertex, and triangles with two corners in one cell vanish. sourceFaces: the face that each triangle
-   * of the copy is from.
-   */
+  // A copy with about `count` triangles, by vertex clustering (Rossignac and Borrel 1993): the vertices in a cell of a
+  // grid become one vertex, and triangles with two corners in one cell vanish. sourceFaces: the original face of each
+  // triangle of the copy.
   reduced(count) {
     const { positions, indices } = this, vertexCount = positions.length / 3;
     const farthest = positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);

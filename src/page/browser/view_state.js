@@ -25,7 +25,7 @@ export const kInitialState = Object.fromEntries(Object.entries(kParts).map(([key
 
 const asText = (value) => value === true ? '1' : typeof value === 'number' ? String(Number(value.toPrecision(6))) : value;
 
-/** The fragment of a state, without the values that equal those of `initial`. */
+/** The fragment of a state. Values that equal those of `initial` are left out. */
 export function fragmentOf(state, initial) {
   const changed = Object.keys(kParts).filter((key) => state[key] !== initial[key] && state[key] !== null);
   return changed.map((key) => `${key}=${encodeURIComponent(state[key] === false ? '0' : asText(state[key])).replace('%3A', ':')}`).join('&');
@@ -39,7 +39,7 @@ export function stateOfFragment(fragment) {
   return state;
 }
 
-/** The state, and its listeners, which are called with the set of changed keys. */
+/** The state. Its listeners are called with the set of changed keys. */
 export class Store {
   constructor(state) {
     this.state = state;

@@ -57,7 +57,7 @@ export class Viewer {
     });
   }
 
-  /** Restores the initial state. With a given limit it shows the thin places. */
+  /** Restores the initial state. If a result has a limit, this state shows its thin places. */
   reset() {
     const first = this.layers.fields.find((field) => field.kind === 'number') ?? this.layers.fields[0];
     const thin = givenLimit(this.models) !== null;
@@ -86,7 +86,8 @@ export class Viewer {
     return { x, y, z, zoom: clamp(0.9 * Math.min(...zooms), 0.5, 20) };
   }
 
-  // Extent [low, high] of the meshes along right or up, in radii of their frames. Samples the vertices of large meshes.
+  // Extent [low, high] of the meshes along right or up, in radii of their frames. For large meshes, from a sample of
+  // the vertices.
   shadow(indices, name, state) {
     let low = Infinity, high = -Infinity;
     indices.forEach((index) => {
@@ -193,9 +194,9 @@ export class Viewer {
     this.fly(time);
     const isMoving = Boolean(this.hasMoved);
     this.hasMoved = false;
-    // On a slow device the next frame is late, whatever the interval between two inputs.
+    // On a slow device the next frame is late, however long the interval between two inputs is.
     if (isMoving) requestAnimationFrame((next) => this.adapt(next - time));
-    // The first frame is drawn without antialiasing, to appear early.
+    // The first frame is drawn without antialiasing, so that it appears early.
     const { dataset } = document.documentElement, isFirst = !dataset.frames;
     this.draw(!isMoving, isFirst);
     if (isFirst) this.requestFrame();
@@ -206,7 +207,7 @@ export class Viewer {
     if (!isMoving && !this.isPending) dataset.still = 'true';
   }
 
-  // Reduces the detail of moving frames after several slow frames.
+  // Reduces the detail of frames during motion after several slow frames.
   adapt(milliseconds) {
     this.frameMilliseconds = milliseconds;
     if (this.frameMilliseconds > kSlowMilliseconds) ++this.slowCount;
@@ -258,7 +259,7 @@ export class Viewer {
     return this.layers.areComparable(index, selected.index) ? this.layers.sameFace(selected.index, selected.face, index) : -1;
   }
 
-  /** Pane, face and point {pane, face, point} at a pixel of the canvas; null if there is no face. */
+  /** {pane, face, point} at a pixel of the canvas; null if there is no face. */
   hit(x, y) {
     const pane = this.panes().find((p) => x >= p.left && y >= p.top && x < p.left + p.width && y < p.top + p.height);
     if (!pane) return null;

@@ -15,7 +15,7 @@ export class Visits {
     this.viewer.flyTo({ ...new PaneCamera(this.viewer.state, axes, frame, 1, 1).stateAt(point), zoom, ...angles });
   }
 
-  /** The zoom that shows a neighbourhood of this area. */
+  /** The zoom that shows a part of this area and its surroundings. */
   zoomFor(index, area) {
     return clamp(0.35 * this.viewer.frames[index].radius / Math.sqrt(area + 1e-30), this.viewer.initial.zoom, 12);
   }
@@ -30,7 +30,7 @@ export class Visits {
     return true;
   }
 
-  /** Flies to the least thickness of a thin region. Walls before it become translucent. */
+  /** Flies to the thinnest place of a thin region. Walls in front of that place become translucent. */
   region(index, number) {
     const model = this.viewer.models[index], { radius } = this.viewer.frames[index], { regions, surface, regionOfTriangle } = model.thin;
     const { face: id, area, place, opposite } = regions[number], ends = [place, opposite].map((end) => subtract(end, model.origin));
