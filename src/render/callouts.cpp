@@ -45,7 +45,7 @@ void drawRing(Image& image, const Pixel& centre, double radius, double width, co
          [&](const Pixel& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
-/// The pixel of the place, or of the opposite point where only that point is visible.
+/// The pixel of the place, or of the opposite point if only that point is visible.
 Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
     constexpr double kBeyond = 4;  // More than the diagonal of the normalised box, which is at most 2 sqrt(3).

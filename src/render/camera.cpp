@@ -24,8 +24,7 @@ double turn(const FloorPoint& a, const FloorPoint& b, const FloorPoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The convex hull, counter-clockwise (Andrew's monotone chain). Fewer than three points where all points lie on a
-/// line.
+/// The convex hull, counter-clockwise (Andrew's monotone chain). Fewer than three points if all points lie on a line.
 std::vector<FloorPoint> convexHull(std::vector<FloorPoint> points) {
   std::sort(points.begin(), points.end());
   std::vector<FloorPoint> hull;
@@ -104,7 +103,7 @@ double standingShare(std::span<const Vec3d> points, Up up) {
 }
 
 Up guessUp(std::span<const Vec3d> points) {
-  // The likely directions come first, because a table is even more stable upside down.
+  // Likely directions come first, because some shapes are even more stable upside down, for example a table.
   constexpr std::array<Up, 5> kOthers{Up::Z, Up::MinusY, Up::MinusZ, Up::X, Up::MinusX};
   constexpr double kBad = 0.05, kGood = 0.2;
   if (standingShare(points, Up::Y) > kBad) return Up::Y;

@@ -19,25 +19,22 @@ inline constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
                                                          {"-y", Up::MinusY},
                                                          {"-z", Up::MinusZ}}};
 
-/// Direction of view. Azimuth and elevation 0 show the broad side of the mesh: the view is along the shorter of the two
-/// horizontal axes of its box.
+/// Direction of view. At azimuth 0 and elevation 0 the view is along the shorter horizontal axis of the bounding box.
 struct View {
-  std::optional<Up> up;          ///< Unset: the result of guessUp(), because mesh formats do not store it.
-  double azimuthDegrees = 30;    ///< Position of the viewer to the right, around the up direction.
-  double elevationDegrees = 18;  ///< Position of the viewer above the horizon, -90 to 90.
+  std::optional<Up> up;          ///< Unset: the result of guessUp(), because mesh formats do not store this direction.
+  double azimuthDegrees = 30;    ///< Angle of the viewer to the right, around the up direction.
+  double elevationDegrees = 18;  ///< Angle of the viewer above the horizon, -90 to 90.
 };
 
-/// The unit vector that points up.
 [[nodiscard]] Vec3d directionOf(Up up);
 
 /// Stability of the points on a floor if the given direction is up: the area of the convex hull of the lowest points,
-/// divided by the area of the bounding box seen from above. Negative if the mean of the points is outside of the hull
-/// (unstable); 0 if the hull has no area.
+/// divided by the area of the bounding box seen from above. Negative (unstable) if the mean of the points is outside of
+/// the hull; 0 if the hull has no area.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// Y if the points are stable with y up, or stable in no direction. Otherwise another stable direction; z is tested
-/// first. Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of
-/// Man-Made Objects).
+/// A direction in which the points are stable: Y is tested first, then Z. Y if no direction is stable. Static stability
+/// is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);
 
 /// A part of the picture, in pixels from its top left corner.

@@ -14,15 +14,15 @@ struct Tick {
   std::string label;
 };
 
-/// Round numbers within the range, ascending and evenly spaced: 3 to 6 multiples of 1, 2, 2.5 or 5 times a power of
-/// ten, with labels of the fewest digits that distinguish them. A range that is a point, or so narrow that its numbers
-/// need more than 9 digits, has ticks at its ends, with rounded labels.
+/// Ascending ticks within the range: 3 to 6 multiples of 1, 2, 2.5 or 5 times a power of ten. Labels have the fewest
+/// digits that distinguish the ticks. If the range is a point, or if its labels need more than 9 digits, the ticks are
+/// the ends of the range with rounded labels.
 [[nodiscard]] std::vector<Tick> ticksWithin(const ColourRange& range);
 
-/// The colour bar as a column of its own at the right side of a picture.
+/// A colour bar in a column at the right side of a picture.
 struct ColourBar {
   ColourRange range;
-  std::string title;     ///< Above the bar; scaled down where it is wider than a third of the picture.
+  std::string title;     ///< Above the bar. Scaled down if wider than a third of the picture.
   double capHeight = 0;  ///< Size of the text, in pixels.
 };
 

@@ -25,7 +25,7 @@ double angleAt(const TriangleMesh& mesh, uint32_t face, size_t k) {
 }  // namespace
 
 std::vector<std::array<Vec3d, 3>> cornerNormals(const TriangleMesh& mesh, const FaceGeometry& geometry) {
-  // Entries are 3 * face + corner. They fit into 32 bits, because the dual graph limits a mesh to 2^32 / 3 faces.
+  // Entries are 3 * face + corner. 32 bits suffice, because the dual graph limits a mesh to 2^32 / 3 faces.
   const auto corners = sortIntoBuckets<uint32_t>(mesh.vertices.size(), mesh.faceCount(), [&](uint32_t face, auto put) {
     if (geometry.isDegenerate(face)) return;
     for (uint32_t k = 0; k < 3; ++k) put(mesh.faces[face][k], 3 * face + k);

@@ -12,10 +12,10 @@ namespace asdfvk {
 /// Greatest angle between the normals of two faces across which normals are smoothed.
 inline constexpr double kCreaseAngleDegrees = 40;
 
-/// #F: unit normals at the three corners of each face. The normal at a corner is the sum of the normals of the faces
-/// around the vertex, weighted by their angles there. Only normals within kCreaseAngleDegrees of the normal of the face
-/// are added; normals of faces of opposite winding are reversed first. Vertices of very many faces (the hub of a fan)
-/// are not smoothed. Zero for a degenerate face.
+/// #F: unit normals at the three corners of each face; zero for a degenerate face. A corner has the sum of the normals
+/// of the faces around its vertex, weighted by the angles of these faces at the vertex. The sum has only normals within
+/// kCreaseAngleDegrees of the normal of the face. Normals of faces of opposite winding are reversed first. Vertices of
+/// very many faces, for example the hub of a fan, are not smoothed.
 [[nodiscard]] std::vector<std::array<Vec3d, 3>> cornerNormals(const TriangleMesh& mesh, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

@@ -17,9 +17,9 @@ namespace {
 constexpr char kFirst = '!', kLast = '~';
 constexpr double kGap = 3.6, kSpaceAdvance = 7;
 
-/// A glyph as text. `m x y` begins a stroke at a point, and `n` begins a stroke at the arc that follows. `l x y` adds a
-/// line. `a cx cy rx ry from to` adds an arc of an ellipse between two angles in degrees, counter-clockwise where they
-/// grow; a line joins it to the stroke.
+/// A glyph as text. `m x y` begins a stroke at a point. `l x y` adds a line. `a cx cy rx ry from to` adds a line to the
+/// start of an arc, and the arc of an ellipse between two angles in degrees; ascending angles are counter-clockwise.
+/// `n` begins a stroke at the start of the next arc.
 struct GlyphText {
   double width;
   const char* strokes;

@@ -15,7 +15,7 @@ struct FontPoint {
 };
 inline constexpr double kCapHeight = 14;
 
-/// A glyph as centre lines of strokes, each a chain of points; a single point is a dot.
+/// A glyph as centre lines of strokes. A stroke is a chain of points; a single point is a dot.
 struct Glyph {
   double width = 0;
   std::vector<std::vector<FontPoint>> strokes;
@@ -27,8 +27,8 @@ struct Glyph {
 /// Distance from the left side of a glyph to the left side of the next glyph.
 [[nodiscard]] double advanceOf(char character);
 
-// Antialiased drawing on a finished image. Coordinates are in pixels from its top left corner; parts outside of the
-// image are clipped.
+// Antialiased drawing on a finished image. Coordinates are in pixels from the top left corner of the image. Parts
+// outside of the image are clipped.
 
 /// Width of a text, in pixels. capHeight: height of capitals, in pixels.
 [[nodiscard]] double textWidth(std::string_view text, double capHeight);

@@ -11,16 +11,15 @@
 
 namespace asdfvk {
 
-/// Red, green and blue in sRGB.
 using Rgb = std::array<uint8_t, 3>;
 inline constexpr Rgb kWhite{255, 255, 255}, kInk{34, 34, 34};
 /// Colour of a body without values.
 inline constexpr Rgb kNeutral{210, 209, 204};
 
-/// A picture. Its pixels are stored in rows from the top, each row from the left.
+/// A picture: rows from the top, with pixels from the left.
 class Image {
  public:
-  /// An all-white image. Precondition: both sizes are at least 1.
+  /// A white image. Precondition: both sizes are at least 1.
   Image(int width, int height) : width_(width), height_(height) {
     ASDFVK_CHECK(width > 0 && height > 0);
     pixels_.assign(static_cast<size_t>(width) * static_cast<size_t>(height), kWhite);
@@ -52,7 +51,7 @@ class Image {
 /// Blends `share` of `over` onto `under`.
 [[nodiscard]] Rgb blend(const Rgb& under, const Rgb& over, double share);
 
-/// v scaled to length 1, or `fallback` if v has no direction.
+/// v scaled to length 1; `fallback` if v has no direction.
 [[nodiscard]] inline Vec3d unitVector(const Vec3d& v, const Vec3d& fallback) {
   const double norm = length(v);
   return norm > 1e-150 && std::isfinite(norm) ? v / norm : fallback;

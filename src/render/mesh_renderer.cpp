@@ -88,7 +88,7 @@ class MeshRenderer {
     return {grid_.camera.pointAt(place.x / kSamples, place.y / kSamples) + toViewer * depth, normal};
   }
 
-  /// The light at a sample. Samples near each other on a smooth surface have the light of the first of them.
+  /// The light at a sample. Samples that are near each other on a smooth surface share the light of the first of them.
   [[nodiscard]] double lightOf(LitPoint point, std::array<LitPoint, kSamples * kSamples>& points,
                                size_t& pointCount) const {
     constexpr double kMinCosine = 0.995, kMaxDistance = 3;  // In pixels.

@@ -30,8 +30,7 @@ std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range)
   return colours;
 }
 
-/// Draws a square in the alarm colour if there are highlighted or thin parts, the title, and the verdict at the right
-/// end.
+/// Draws the title, with a square in the alarm colour if parts are highlighted or thin. Draws the verdict at the right.
 void drawLegend(Image& image, const Picture& picture, const PixelArea& area, double capHeight) {
   const bool hasSwatch = !picture.highlighted.empty() || (picture.thinPlaces && !picture.thinPlaces->surface.empty());
   const double swatch = hasSwatch ? capHeight * 1.6 : 0;
@@ -47,7 +46,7 @@ void drawLegend(Image& image, const Picture& picture, const PixelArea& area, dou
              picture.thinPlaces->isFailure ? kAlarm : kPass);
 }
 
-/// Renders the mesh, and the thin places on it, with callouts in columns at both sides of `area`.
+/// Renders the mesh and its thin places, with callouts in columns at both sides of `area`.
 void drawMesh(Image& image, const Picture& picture, PixelArea area, const ColourRange& range, double capHeight,
               const RunControl& control) {
   const double width = picture.thinPlaces ? calloutWidth(picture.thinPlaces->callouts, capHeight) : 0;

@@ -19,11 +19,11 @@ inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 /// What render() draws. Holds views of its arrays.
 struct Picture {
   const TraceScene& scene;
-  /// #F: faces in the colours of colourOf(), grey for NaN, and a colour bar. Empty: light grey faces, and no bar.
+  /// #F: values, in the colours of colourOf() with a colour bar; NaN is grey. Empty: light grey faces, no bar.
   std::span<const double> values;
-  std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the alarm colour. Or empty.
-  std::span<const uint32_t> labels;      ///< #F: faces in the colours of colourOfPart(). Or empty.
-  std::optional<ThinPlaces> thinPlaces;  ///< Drawn on a grey body, with the title as their legend.
+  std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the alarm colour; may be empty.
+  std::span<const uint32_t> labels;      ///< #F: parts, in the colours of colourOfPart(); may be empty.
+  std::optional<ThinPlaces> thinPlaces;  ///< Drawn on a grey body; the title is the legend.
   std::string title;                     ///< Above the bar; if there is no bar, above the mesh.
   std::optional<ColourRange> range;      ///< Range of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.

@@ -14,11 +14,11 @@ struct PictureStyle {
   double textScale = 1;            ///< See Picture::textScale.
 };
 
-/// The picture of a result that a page has for browsers without WebGL 2.
+/// Style of the picture in pages, for browsers without WebGL 2.
 inline constexpr PictureStyle kPagePicture{.width = 480, .height = 360, .textScale = 1.4};
 
-/// The requested view with its up direction set. If the request has none, the direction is z if the file `input` is an
-/// STL, otherwise guessUp(). If findsThin, bestViewOf() chooses the angles for the thin places. Precondition:
+/// The requested view with its up direction set. If the request has no direction, z is up for an STL file `input`, and
+/// otherwise guessUp() decides. If findsThin, bestViewOf() chooses the angles for the thin places. Precondition:
 /// result.scene is set.
 [[nodiscard]] View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin);
 

@@ -10,8 +10,7 @@
 namespace asdfvk {
 namespace {
 
-/// First and last whole number i in [begin, end) with low <= i + 0.5 <= high. If there is none, the last is below the
-/// first.
+/// First and last whole number i in [begin, end) with low <= i + 0.5 <= high. If there is none, last < first.
 std::pair<int, int> centresWithin(double low, double high, int begin, int end) {
   // Conversions instead of std::ceil and std::floor, which are calls without SSE 4.1.
   const double from = std::clamp(low - 0.5, double(begin), double(end));

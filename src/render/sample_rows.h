@@ -28,12 +28,11 @@ struct SampleGrid {
   }
 };
 
-/// The position of a sample, in units of samples.
 struct SamplePlace {
   double x = 0, y = 0;
 };
 
-/// Barycentric coordinates of `place` in a projected triangle. They add up to 1; outside of the triangle one or two are
+/// Barycentric coordinates of `place` in a projected triangle. The sum is 1; outside of the triangle one or two are
 /// negative. Precondition: the triangle has an area.
 [[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners,
                                                         const SamplePlace& place) {
@@ -47,9 +46,9 @@ struct SamplePlace {
 
 inline constexpr uint32_t kNoSample = 0xffffffff;
 
-/// The samples of the rows [top, bottom): at each, the nearest of the drawn triangles and its depth. With one sample
-/// per pixel, a sample is at the centre of its square. With several, the samples of a pixel are on a rotated grid: all
-/// of them differ in x and in y, which smooths edges that are nearly vertical or horizontal.
+/// The samples of the rows [top, bottom). A sample has the nearest of the drawn triangles and its depth. With one
+/// sample per pixel, a sample is at the centre of its square. With several, the samples of a pixel are on a rotated
+/// grid, so that all of them differ in x and in y. This smooths edges that are nearly vertical or horizontal.
 class SampleRows {
  public:
   SampleRows(int width, int top, int bottom, int perSide = 1);
@@ -65,7 +64,6 @@ class SampleRows {
   [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
   /// Minus infinity if there is no triangle.
   [[nodiscard]] float depthAt(int column, int row) const { return depths_[indexOf(column, row)]; }
-  /// The depths of all samples, row by row.
   [[nodiscard]] std::vector<float> takeDepths() && { return std::move(depths_); }
 
  private:
@@ -78,8 +76,8 @@ class SampleRows {
   std::vector<uint32_t> indices_;
 };
 
-/// Whether the sample of `surface` is nearer to the viewer than `mesh`, or at the same depth up to rounding. False if
-/// `surface` has no sample.
+/// Whether the sample of `surface` is nearer to the viewer than `mesh`, or at the same depth up to rounding. False
+/// without a sample of `surface`.
 [[nodiscard]] inline bool isAtSurface(const SampleRows& mesh, const SampleRows& surface, int column, int row) {
   constexpr float kSlack = 1e-5F;  // In normalised units.
   return surface.indexAt(column, row) != kNoSample &&
@@ -93,7 +91,7 @@ using ProjectedSurface = std::vector<std::array<Projected, 3>>;
 /// Draws the triangles. Their indices are their positions in `surface`.
 void drawSurface(SampleRows& rows, const ProjectedSurface& surface);
 
-/// The vertices of the faces that rays can hit, once each, in normalised coordinates.
+/// The vertices of the faces that rays can hit, in normalised coordinates; each vertex once.
 [[nodiscard]] std::vector<Vec3d> verticesOfHitFaces(const TraceScene& scene);
 
 /// The faces of a scene that rays can hit, on a grid of samples.

@@ -15,14 +15,14 @@ namespace {
 constexpr double kLampRadius = 0.22;  ///< Radius of the disk of the lamp, at distance 1.
 constexpr double kSky = 0.58, kLamp = 0.55, kFill = 0.08;
 constexpr double kGroundShare = 0.66;  ///< Radiance of the lowest direction, divided by the radiance of the highest.
-constexpr double kSkyReach = 0.9;      ///< Surfaces farther away cast no shadow of the sky. Normalised unit.
-/// Numbers of directions of light. There are fewer for very many faces, because each depth map draws all faces.
+constexpr double kSkyReach = 0.9;      ///< Surfaces farther away cast no shadow of the sky. In normalised units.
+/// Numbers of directions of light. Very many faces reduce the number, because each depth map draws all faces.
 constexpr int kMinSkyCount = 16, kMaxSkyCount = 96, kSkyPerLamp = 4;
-/// Limit on the faces drawn into all maps of the sky, per texel of the side of a map.
+/// Limit on the number of faces drawn into all depth maps of the sky, divided by the side of a map in texels.
 constexpr size_t kFacesPerTexel = 48'000;
 constexpr int kMaxMapSide = 512;  ///< Greatest side of a depth map, in texels.
-/// Distance in texels by which points are lifted from their surface, so that no plane shadows itself. It is above
-/// sqrt(2), the greatest distance of a point from the texels that it is compared with.
+/// Distance in texels by which points are lifted from their surface, so that no plane shadows itself. A point is
+/// compared with texels at a distance of at most sqrt(2), which is less.
 constexpr double kLift = 1.6;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -56,8 +56,8 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
   for (int i = 0; i < skyCount; ++i) {
     const double height = 1 - 2 * (i + 0.5) / skyCount;
     const Vec3d d = spiralPoint(i, std::sqrt(1 - height * height), height);
-    // The factor 4 gives a white surface in a sky of radiance 1 the light 1: the mean of max(0, cosine) over the sphere
-    // is 1/4.
+    // With the factor 4, a white surface in a sky of radiance 1 has the light 1, because the mean of max(0, cosine)
+    // over the sphere is 1/4.
     addSource(camera.right * d.x + camera.toViewer * d.y + camera.up * d.z,
               kSky * 4 / skyCount * (kGroundShare + (1 - kGroundShare) * (0.5 + 0.5 * height)), kSkyReach);
   }

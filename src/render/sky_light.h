@@ -9,14 +9,15 @@
 namespace asdfvk {
 
 /// Light of a sky and of a lamp, with soft shadows from a depth map per direction of light (Williams 1978, Casting
-/// Curved Shadows on Curved Surfaces). Both move with the camera: the lamp is behind and above the viewer, to the left.
+/// Curved Shadows on Curved Surfaces). Sky and lamp move with the camera. The lamp is behind the viewer, above and to
+/// the left.
 class SkyLight {
  public:
   /// pictureSide: the longer side of the picture, in pixels. Precondition: the scene has a face that rays can hit.
   /// Throws Error{Cancelled}.
   SkyLight(const TraceScene& scene, const Camera& camera, int pictureSide, const RunControl& control);
 
-  /// Linear light that a white diffuse surface reflects to the viewer at a point in normalised coordinates. normal: a
+  /// Linear light that a white diffuse surface at a point in normalised coordinates reflects to the viewer. normal: a
   /// unit vector towards the viewer.
   [[nodiscard]] double at(const Vec3d& point, const Vec3d& normal) const;
 
@@ -25,12 +26,12 @@ class SkyLight {
   struct Source {
     SampleGrid grid;
     double radiance = 0;
-    double reach = 0;           ///< Distance behind a surface up to which its shadow fades; there it ends.
+    double reach = 0;           ///< The shadow of a surface fades over this distance and ends there.
     std::vector<float> depths;  ///< Per texel, the depth of the surface that is nearest to the light.
   };
 
-  /// Share of the light that reaches the point. It is 1 where no surface is in front of the point, and also where the
-  /// surface is at least `reach` in front of it; between 0 and 1 otherwise. Bilinear between the texels.
+  /// Share of the light that reaches the point, interpolated bilinearly between texels. The share is 1 if the surface
+  /// of the depth map is not in front of the point, or at least `reach` in front of it; otherwise between 0 and 1.
   [[nodiscard]] double litShare(const Source& source, const Vec3d& point) const;
 
   Vec3d toViewer_;

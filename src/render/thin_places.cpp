@@ -34,7 +34,7 @@ View bestViewOf(const TraceScene& scene, Surface places, std::span<const uint32_
   const std::vector<Vec3d> points = verticesOfHitFaces(scene);
   View base = view;
   if (!base.up) base.up = guessUp(points);
-  // The usual view comes first, so that it is chosen among equally good views.
+  // The usual view comes first, so that the usual view is chosen among equally good views.
   std::vector<View> candidates;
   for (const double elevation : {base.elevationDegrees, 50.0, -30.0})
     for (const double turn : {0.0, -60.0, 120.0, 180.0})

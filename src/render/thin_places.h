@@ -12,7 +12,7 @@
 
 namespace asdfvk {
 
-/// A place to mark with a ring and a text. In the unit of the mesh.
+/// A place to mark with a ring and a text, in the unit of the mesh.
 struct Callout {
   Vec3d place, opposite;  ///< Two points of the surface. The ring is around the visible one.
   std::string text;
@@ -26,7 +26,7 @@ struct ThinPlaces {
   bool isFailure = false;
 };
 
-/// Returns `view` with the best of twelve pairs of azimuth and elevation: the pair with the greatest sum, over the
+/// Returns `view` with the best of twelve pairs of azimuth and elevation. The best pair has the greatest sum, over the
 /// regions, of the square root of their visible area. regions: the region of each triangle of the surface. Returns
 /// `view` unchanged if no pair shows a region.
 [[nodiscard]] View bestViewOf(const TraceScene& scene, Surface surface, std::span<const uint32_t> regions,
@@ -35,8 +35,7 @@ struct ThinPlaces {
 /// Width of the columns for the texts of the callouts at either side of a picture, in pixels; 0 without callouts.
 [[nodiscard]] double calloutWidth(std::span<const Callout> callouts, double capHeight);
 
-/// Draws a ring at each place and its text in the nearer one of the two columns (left, right). A line joins ring and
-/// text.
+/// Draws a ring at each place, its text in the nearer one of the two columns (left, right), and a line between both.
 void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Callout> callouts,
                   const std::array<PixelArea, 2>& columns, double capHeight);
 

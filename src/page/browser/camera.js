@@ -12,7 +12,7 @@ const axisVector = (axis, sign) => [0, 1, 2].map((i) => i === axis ? sign : 0);
 /** The directions up, front (azimuth 0) and side (azimuth 90). boxSize: sides of the box of the mesh. */
 export function uprightFrame(up, boxSize) {
   const axis = 'xyz'.indexOf(up.at(-1)), upward = axisVector(axis, up.length > 1 ? -1 : 1);
-  // The front is the shorter horizontal axis. If both are equal, it is -y if z is up, else z.
+  // The front is the shorter horizontal axis. If both are equal, the front is -y if z is up, else z.
   const usual = axis === 2 ? 1 : 2, other = axis === 0 ? 1 : 0;
   const isBroadside = boxSize[other] >= boxSize[usual];
   const front = axisVector(isBroadside ? usual : other, isBroadside && axis === 2 ? -1 : 1);
