@@ -22,7 +22,7 @@ namespace {
 constexpr int kInternalCode = 70;
 
 /// Whether a stop is requested. Waits up to 0.5 s for a request, because a signal to the process group may reach a
-/// worker first.
+/// worker before this process.
 bool isStopping(const std::stop_token& stop) {
   constexpr int kAttempts = 50;
   for (int i = 0; i < kAttempts && !stop.stop_requested(); ++i)
@@ -50,7 +50,7 @@ class Engine {
   }
 
  private:
-  /// Adds the results of earlier runs. Returns the indices of the other jobs.
+  /// Adds the results of earlier runs. Returns the indices of the jobs without such a result.
   [[nodiscard]] std::vector<size_t> addFinished() {
     std::vector<size_t> pending(jobs_.size());
     std::iota(pending.begin(), pending.end(), size_t{0});
@@ -90,7 +90,7 @@ class Engine {
                                  .workerCount = phase.atOnce,
                                  .timeoutSeconds = options_.timeoutSeconds,
                                  .memoryBytes = options_.memoryBytes};
-    std::optional<OpenFailure> failure;  // Failure of the last worker that could not start.
+    std::optional<OpenFailure> failure;  // Failure of the latest worker that could not start.
     size_t endedCount = 0;
     const WorkerPoolClient client{.request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); },
                                   .ready = [&](const std::string& answer) -> uint32_t {

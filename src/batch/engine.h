@@ -24,18 +24,17 @@ struct JobPhase {
 
 /// Meshes in files up to this size are small.
 inline constexpr uint64_t kSmallMeshBytes = uint64_t{16} << 20;
-/// Least work that makes up for starting a worker, which opens a device: a number of meshes, and a size of their files
-/// plus kBytesPerMesh per mesh.
+/// Least work per worker: a number of meshes, and a size of their files plus kBytesPerMesh per mesh. For less work, the
+/// start of a worker, which opens a device, takes more time than the worker saves.
 inline constexpr uint64_t kMinMeshesPerWorker = 4, kMinBytesPerWorker = uint64_t{1} << 20;
-/// Greatest number of workers on one GPU if the caller requests no number. An estimate: no GPU was available to
-/// measure it.
+/// Greatest number of workers on one GPU if the caller requests no number. Estimated; not measured on a GPU.
 inline constexpr uint32_t kMaxWorkersOnGpu = 4;
 
 /// Assigns each pending job to one phase. pending: indices of the jobs. requested: jobs at once; 0: depends on the
 /// sizes of the meshes. With 0, large meshes come first, one after another with all threads. Small meshes follow, with
-/// one worker per thread, but at least kMinMeshesPerWorker and kMinBytesPerWorker per worker. If this gives only one
-/// worker, all meshes are computed one after another in their order. No other job is computed at the same time as a
-/// stream.
+/// one worker per thread. If the work per worker would be below kMinMeshesPerWorker or kMinBytesPerWorker, there are
+/// fewer workers. If only one worker remains, all meshes are computed one after another in their order. During a stream
+/// (Job::isStream), no other job is computed.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t> pending,
                                              uint32_t requested, uint32_t threadCount);
 

@@ -56,7 +56,7 @@ class FolderSearch {
       if (name.native().starts_with('.')) continue;
       std::error_code ignored;
       const fs::file_type type = entry->status(ignored).type();
-      // Dangling links and files of unknown type are inputs, whose reading then fails.
+      // Dangling links and files of unknown type are inputs, so that reading them reports an error.
       const bool isFile = type == fs::file_type::regular || type == fs::file_type::not_found ||
                           type == fs::file_type::none || type == fs::file_type::unknown;
       if (type == fs::file_type::directory && !entry->is_symlink(ignored)) {

@@ -14,7 +14,8 @@ struct InputFile {
   uint64_t byteCount = 0;  ///< Size of the file; 0 if it is unknown.
 };
 
-/// Fixed cost of a mesh (opening, preparing and writing), in bytes of a file that take the same time. Estimated.
+/// Fixed time per mesh for opening, preparing and writing, as a number of bytes of a file that take the same time.
+/// Estimated.
 inline constexpr uint64_t kBytesPerMesh = 16'384;
 
 struct InputRequest {

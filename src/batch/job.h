@@ -23,7 +23,7 @@ struct JobResult {
   std::string messages;  ///< Text for standard error.
 };
 
-/// A JobComputer, as the monitor shows it.
+/// Description of a JobComputer for the monitor.
 struct ComputerDescription {
   std::string backend;
   std::string deviceLines;
@@ -42,7 +42,7 @@ class JobComputer {
   /// Computes a job. Failures are returned in the result. next: the following job, whose input may be read ahead; may
   /// be null.
   [[nodiscard]] virtual JobResult compute(const Job& job, const Job* next) = 0;
-  /// Whether this computer cannot compute further jobs, because its device failed or a stop was requested.
+  /// Whether this computer cannot compute further jobs because its device failed or a stop was requested.
   [[nodiscard]] virtual bool isSpent() const = 0;
 };
 

@@ -37,8 +37,8 @@ std::string spreadText(const Spread& spread, double factor, const char* unit) {
 /// Column names and texts of a row of the table.
 using Cells = std::vector<std::pair<std::string, std::string>>;
 
-/// The keys of the record that are columns. Objects with null values only are left out, because another mesh may have
-/// their keys.
+/// The keys of the record that are columns. An object whose values are all null is left out, because the records of
+/// other meshes may have its keys.
 Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");
@@ -50,7 +50,7 @@ Json rowOf(const MeshRecord& mesh) {
   return row;
 }
 
-/// The cell of a value. A text is quoted if necessary.
+/// The text of a value in a cell, quoted if necessary.
 std::string cellText(const Json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return value.dump();
@@ -71,8 +71,7 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
   }
 }
 
-/// Adds the keys of `row` that `all` lacks. An object replaces null, because a mesh may lack the object that other
-/// meshes have.
+/// Adds the keys of `row` that `all` lacks. An object replaces null, because only some meshes may have the object.
 void addKeys(const Json& row, Json& all) {
   for (const auto& [key, value] : row.items()) {
     Json& known = all[key];

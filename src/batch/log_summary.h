@@ -38,7 +38,7 @@ struct WarningGroup {
 
 ASDFVK_JSON(WarningGroup, code, count, inputs)
 
-/// Counts, times and failures from the logs of a batch. Of several records of a mesh, the record with the latest time
+/// Counts, times and failures from the logs of a batch. If a mesh has several records, the record with the latest time
 /// counts. If the times are equal or missing, the last record counts.
 struct LogSummary {
   size_t recordCount = 0, invalidLineCount = 0;
@@ -59,7 +59,7 @@ struct LogSummary {
 
 /// The summary in aligned lines.
 [[nodiscard]] std::string textOf(const LogSummary& summary);
-/// The summary as one JSON document.
+/// The summary as a JSON document.
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
 /// A table in CSV (RFC 4180): a row of column names, then a row per mesh. The columns are the keys of the records,
 /// without options and hashes. A key of an object has the name of the object as prefix: "sdf.median". Objects that no

@@ -22,14 +22,14 @@ class MessageChannel {
  public:
   explicit MessageChannel(int socket = -1) : socket_(socket) {}
 
-  /// Sends a message. False if the other end is closed.
+  /// False if the other end is closed.
   bool send(std::string_view message);
   /// Reads the bytes that have arrived, without waiting. False if the other end is closed.
   bool receive();
   /// Returns the next complete message that was received; unset if there is none. Throws std::runtime_error if the
   /// bytes are not a message.
   [[nodiscard]] std::optional<std::string> take();
-  /// Waits for the next message. Unset if the other end is closed. Throws as take().
+  /// Waits for the next message. Unset if the other end is closed. Throws like take().
   [[nodiscard]] std::optional<std::string> wait();
 
  private:

@@ -57,8 +57,8 @@ void Monitor::note(const std::string& message) {
   writeStandardError(warningLine("", message));
 }
 
-/// Adds a message to the first result of a backend that was not announced, which happens if a device failed. Without a
-/// progress line, the report of the mesh already has a warning.
+/// Adds a message to the first result of a backend that announce() did not print, for example after a failure of a
+/// device. Adds none without a progress line, because the report of the mesh then has a warning.
 void Monitor::noteOtherBackend(JobResult& result) {
   const MeshRecord& record = result.record;
   if (!options_.showsProgress || options_.isQuiet || record.backend.empty() || record.status == MeshStatus::Skipped)

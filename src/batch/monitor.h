@@ -22,8 +22,8 @@ struct MonitorOptions {
   bool isQuiet = false;        ///< Prints only the reports and messages of jobs.
 };
 
-/// Receives the results of jobs in any order and from any thread. Prints them in the order of the jobs, appends them to
-/// the log and shows the progress.
+/// Receives the results of jobs in any order and from any thread. Prints the results in the order of the jobs, appends
+/// them to the log and shows the progress.
 class Monitor {
  public:
   /// Opens the log. Throws Error{OutputNotWritable}. Precondition: `jobs` outlives this object.
@@ -32,7 +32,7 @@ class Monitor {
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// Starts the time that rate and summary refer to. Called after the results of earlier runs were added.
+  /// Starts the time that rate and summary refer to. Call this after the results of earlier runs were added.
   void beginComputation();
 
   /// Prints the device lines of the first computer.
@@ -44,8 +44,7 @@ class Monitor {
   /// Adds the result of a job. Throws Error{OutputNotWritable} if the log or standard output cannot be written.
   void add(size_t job, JobResult result);
 
-  /// Prints the remaining texts and the summary. Precondition: all results were added, and finish() was not called
-  /// before.
+  /// Prints the remaining texts and the summary. Preconditions: all results were added; this is the first call.
   void finish();
 
   /// Exit codes of the added results, in the order of add().

@@ -24,8 +24,8 @@ namespace asdfvk {
 [[nodiscard]] std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected,
                                                            const std::filesystem::path& output);
 
-/// Removes the record beside the output. Called before the output is written, so that a process that is killed before
-/// it writes the new record leaves an output without a record.
+/// Removes the record beside the output. Called before the output is written. If the process is killed before it writes
+/// the new record, the output has no record.
 void removeOutputRecord(const std::filesystem::path& output);
 
 /// Removes the output and the record beside it. Removes nothing if the bytes of the output do not have the hash of

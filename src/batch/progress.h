@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// Counts of a running batch, from which its rate and the remaining time are estimated. Bytes refer to the input files.
+/// Counts of a running batch, for estimates of its rate and its remaining time. Bytes refer to the input files.
 struct BatchProgress {
   uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files.
   uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
@@ -20,7 +20,7 @@ struct BatchProgress {
   [[nodiscard]] uint64_t finishedCount() const { return doneCount + skippedCount + failedCount + droppedCount; }
   /// Finished share of the batch, 0 to 1, by bytes and number of meshes.
   [[nodiscard]] double share() const;
-  /// Estimate from the meshes that were computed or failed, by their bytes and number; infinite before the first one.
+  /// Estimated from bytes and number of the meshes that were computed or failed; infinite without such a mesh.
   [[nodiscard]] double secondsLeft(double elapsedSeconds) const;
 };
 

@@ -60,7 +60,7 @@ class WorkerPool {
            std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
   }
 
-  /// Until a worker is ready, only one process may run. Then client_.ready() determines the number.
+  /// Only one process may run until a worker is ready. Then the result of client_.ready() is the greatest number.
   [[nodiscard]] bool mayStart(const Worker& worker) const {
     if (worker.isGivenUp) return false;
     const auto startedCount = static_cast<uint32_t>(
@@ -169,7 +169,7 @@ class WorkerPool {
     giveUp(worker);
   }
 
-  /// Gives up all workers if none was ready before, because the others would fail in the same way.
+  /// Gives up all workers if none was ready before, because other workers would fail in the same way.
   void giveUp(Worker& worker) {
     worker.isGivenUp = true;
     if (!hasStarted_)

@@ -50,7 +50,7 @@ struct WorkerPoolClient {
   /// Called with a worker's answer to the greeting. Returns the greatest number of workers, or 0 if this worker cannot
   /// compute jobs.
   std::function<uint32_t(const std::string& answer)> ready;
-  /// Called at the end of each job. Returns whether the worker, if it answered, gets further jobs; if not, it is
+  /// Called at the end of each job. Returns whether a worker that answered gets further jobs; otherwise the worker is
   /// replaced.
   std::function<bool(const JobOutcome& outcome)> finished;
 };
@@ -59,12 +59,12 @@ struct WorkerPoolClient {
 /// their numbers. A worker that crashes or exceeds a limit is replaced, so that only its current job fails.
 ///
 /// One worker starts first; the others start when it is ready. A worker is given up, which means not replaced, if
-/// client.ready() returns 0 or if it fails to become ready three times in a row. If no worker was ready before, all
+/// client.ready() returns 0 or if three consecutive starts of the worker fail. If no worker was ready before, all
 /// workers are given up.
 ///
 /// After a stop request no job begins, and workers with a job receive SIGTERM. Returns when all jobs have ended, when
-/// all workers are given up, or, after a stop request, when the current jobs have ended. Returns the reason why the
-/// last worker could not start, or an empty text. Throws std::system_error if the system cannot start any worker.
+/// all workers are given up, or, after a stop request, when the current jobs have ended. The result is the reason why
+/// the last worker could not start, or an empty text. Throws std::system_error if the system cannot start any worker.
 std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop);
 

@@ -18,8 +18,8 @@ struct ProcessEnd {
 /// The end of a process as a text: "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
 [[nodiscard]] std::string textOf(const ProcessEnd& end);
 
-/// A child process that exchanges messages with this process. Its standard input and output are one socket; it shares
-/// standard error with this process. The destructor kills the child process.
+/// A child process that exchanges messages with this process. One socket is its standard input and its standard output.
+/// Its standard error is that of this process. The destructor kills the child process.
 class WorkerProcess {
  public:
   /// arguments: the first one is argv[0]. Throws std::system_error.

@@ -28,7 +28,6 @@ class CylinderGrid {
   Mesh take() { return std::move(mesh_); }
 
  private:
-  // Ring 0 is only the centre.
   void addRing(uint32_t ring, double z) {
     const double radius = radius_ * (double(ring) / ringCount_);
     for (uint32_t q = 0; q < std::max(1u, 6 * ring); ++q) {
@@ -70,8 +69,8 @@ class CylinderGrid {
 }  // namespace
 
 GeneratedShape makeCylinder(uint64_t faceCount, double radius, double length) {
-  // The discs have 12 r^2 faces, the mantle 12 r per layer. r is chosen for edges of equal length, the layers for the
-  // count.
+  // The discs have 12 r^2 faces, and each layer of the mantle has 12 r. r gives edges of equal length; the number of
+  // layers gives the face count.
   const double layersPerRing = length / radius * (3 / std::numbers::pi);
   const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
   const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));

@@ -10,11 +10,11 @@ namespace asdfvk {
 // Shapes whose diameters are known in closed form, centred at the origin, triangulated evenly. faceCount is
 // approximate.
 
-/// A geodesic sphere: each face of an icosahedron is divided into n^2 triangles, and their vertices are projected onto
-/// the sphere. n: such that the 20 n^2 faces are about faceCount. Diameter: 2 * radius.
+/// A geodesic sphere: each face of an icosahedron is divided into n^2 triangles, whose vertices are projected onto the
+/// sphere. n: such that 20 n^2 is about faceCount. Diameter: 2 * radius.
 [[nodiscard]] GeneratedShape makeSphere(uint64_t faceCount, double radius = 1);
-/// An icosahedron under n steps of OpenMesh's Loop subdivision, each followed by a projection onto the sphere. n: such
-/// that the ratio of the 20 * 4^n faces to faceCount is closest to 1. Radius 1, diameter 2.
+/// An icosahedron after n steps of OpenMesh's Loop subdivision; a projection onto the sphere follows each step. n: such
+/// that the ratio of 20 * 4^n to faceCount is closest to 1. Radius 1, diameter 2.
 [[nodiscard]] GeneratedShape makeIcosphere(uint64_t faceCount);
 /// Diameter: the smallest of the three sizes.
 [[nodiscard]] GeneratedShape makeBox(uint64_t faceCount, const Vec3d& size);

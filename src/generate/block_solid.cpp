@@ -17,7 +17,7 @@ constexpr std::array<std::array<uint32_t, 4>, 6> kBlockSides{
 
 uint32_t axisBetween(uint32_t corner, uint32_t other) { return (corner ^ other) >> 1; }  // Maps 1, 2, 4 to 0, 1, 2.
 
-/// Sets of edges of blocks; the edges of one set are divided alike.
+/// Sets of edges of blocks. The edges of a set are divided into the same number of parts.
 class EdgeSets {
  public:
   using Edge = std::pair<uint32_t, uint32_t>;
@@ -37,7 +37,6 @@ class EdgeSets {
     parents_[b] = a;
   }
 
-  /// Length of the longest edge in the set of edge (a, b).
   [[nodiscard]] double longestLike(uint32_t a, uint32_t b) { return longest_[rootOf(indices_.at(std::minmax(a, b)))]; }
 
  private:
@@ -51,14 +50,14 @@ class EdgeSets {
   std::vector<double> longest_;
 };
 
-/// The triangles of divided quads. A vertex is the mean of corners with integer weights. These weights identify the
-/// vertex, so that neighbouring quads share it.
+/// The triangles of divided quads. A vertex is the mean of corners with integer weights, which identify the vertex, so
+/// that neighbouring quads share it.
 class QuadDivider {
  public:
   QuadDivider(const std::vector<Vec3d>& corners, const SurfaceDivision& division)
       : corners_(corners), random_(division.diagonalSeed), shift_(division.otherDiagonals ? 1 : 0) {}
 
-  /// nu, nv: numbers of parts of the edges from the first corner to the second and to the last corner.
+  /// nu, nv: numbers of parts of the two edges at the first corner; the edge of nu ends at the second corner.
   void divide(const std::array<uint32_t, 4>& quad, uint64_t nu, uint64_t nv) {
     const auto vertex = [&](uint64_t u, uint64_t v) {
       return vertexOf(quad, {(nu - u) * (nv - v), u * (nv - v), u * v, (nu - u) * v});

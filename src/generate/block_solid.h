@@ -11,13 +11,13 @@
 
 namespace asdfvk {
 
-/// How the surface of a BlockSolid is cut into triangles. The points of the surface do not depend on it.
+/// Division of the surface of a BlockSolid into triangles. The shape of the surface does not depend on the division.
 struct SurfaceDivision {
-  /// Blocks are divided until their edges are at most this long; the diagonals of the quads may be longer. Infinite:
-  /// each block remains whole, which gives the coarsest mesh.
+  /// Blocks are divided until their edges are at most this long. The diagonals of the quads may be longer. Infinite: no
+  /// block is divided, which gives the coarsest mesh.
   double longestEdge = std::numeric_limits<double>::infinity();
-  uint64_t diagonalSeed = 1;    ///< Chooses at random the diagonal at which each quad is cut.
-  bool otherDiagonals = false;  ///< Cuts each quad at the diagonal that diagonalSeed did not choose.
+  uint64_t diagonalSeed = 1;    ///< Random seed for the diagonal at which each quad is cut.
+  bool otherDiagonals = false;  ///< Cuts each quad at its other diagonal instead.
 };
 
 /// A solid of hexahedra ("blocks") that meet at whole sides. A side that belongs to one block only is part of the
@@ -25,9 +25,9 @@ struct SurfaceDivision {
 class BlockSolid {
  public:
   /// Adds a block per cell of a lattice. Lattice point (i, j, k), from (0, 0, 0) to the three cell counts, is at
-  /// position(i, j, k). If `isFilled` is given, cells for which it is false are left out. Equal positions are one
-  /// corner of the solid: a lattice can close to a ring, continue an earlier lattice, or collapse sides of its blocks
-  /// to an edge or a point. A lattice may be mirrored.
+  /// position(i, j, k). Cells for which `isFilled` returns false are left out. Equal positions become one corner of the
+  /// solid. A lattice can therefore close to a ring, continue an earlier lattice, or collapse sides of its blocks to an
+  /// edge or a point. A lattice may be mirrored.
   void addLattice(const std::array<uint32_t, 3>& cellCounts,
                   const std::function<Vec3d(uint32_t i, uint32_t j, uint32_t k)>& position,
                   const std::function<bool(uint32_t i, uint32_t j, uint32_t k)>& isFilled = {});

@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-/// The lattice points on the surface of an nx x ny x nz box, welded: a full bottom layer, nz - 1 rims, a full top
+/// The lattice points on the surface of an nx x ny x nz box, without duplicates: the bottom layer, nz - 1 rims, the top
 /// layer.
 class BoxGrid {
  public:

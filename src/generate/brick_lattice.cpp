@@ -64,7 +64,7 @@ uint32_t CellCorners::mask(int32_t x, int32_t y, int32_t z) const {
 
 BrickLattice::BrickLattice(const CapsuleUnion& field, double spacing)
     : field_(field.withRadiiAtLeast(spacing * kSqrt3 / 2)), spacing_(spacing) {
-  // Keeps lattice points off the planes of symmetry of the shape, where many points would be ties.
+  // Keeps lattice points off the planes of symmetry of the shape, where mirrored capsules are equally near.
   origin_ = field_.bounds().min - Vec3d{1.37, 1.61, 1.23} * spacing;
   const Vec3d extent = field_.bounds().max - origin_ + Vec3d{2, 2, 2} * spacing;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -149,7 +149,8 @@ CellCorners BrickLattice::corners(const Brick& brick) const {
     for (int32_t z = dz * kBrickEdge; z < kBrickEdge + dz; ++z)
       for (int32_t y = dy * kBrickEdge; y < kBrickEdge + dy; ++y)
         for (int32_t x = dx * kBrickEdge; x < kBrickEdge + dx; ++x) {
-          // A brick that was left out is wholly inside or outside, so the sign of the field is exact there.
+          // A brick that was left out is wholly inside or outside of the shape, so that the sign of the field is exact
+          // there.
           corners.at(x, y, z) =
               owner < 0 ? field_.value(position(brick, x, y, z)) < 0
                         : (bricks_[static_cast<size_t>(owner)].inside[static_cast<size_t>(z % kBrickEdge)] >>

@@ -21,7 +21,6 @@ namespace asdfvk {
 inline constexpr int32_t kBrickEdge = 8;
 inline constexpr size_t kBricksPerTask = 16;
 
-/// Calls body(i) for each index below `count`, in parallel.
 template <typename Body>
 void forEachBrick(size_t count, const Body& body) {
   forEachRange(count, kBricksPerTask, [&](size_t begin, size_t end) {
@@ -52,13 +51,12 @@ class CellCorners {
   std::array<bool, (kBrickEdge + 1) * (kBrickEdge + 1) * (kBrickEdge + 1)> flags_{};
 };
 
-/// Points of a cubic lattice inside a shape, stored only near its surface: bricks that the surface cannot reach, by the
-/// Lipschitz bound of the field, are left out.
-///
-/// The set of inside points is made well-composed (Latecki, 1997): no four points around a lattice face and no eight
-/// around a cell touch only across a diagonal. This is necessary and sufficient for the boundary of the voxels of the
-/// points to be a closed 2-manifold at any resolution. All radii are raised to at least half the diagonal of a cell, so
-/// that parts thinner than a cell stay connected.
+/// Points of a cubic lattice inside a shape. Only bricks near the surface are stored: the Lipschitz bound of the field
+/// decides which bricks the surface cannot reach.
+/// ///
+/// The set of inside points is made well-composed (see cornerToFill(); Latecki, 1997). This is necessary and sufficient
+/// for the boundary of the voxels of the points to be a closed 2-manifold at any resolution. All radii are raised to at
+/// least half the diagonal of a cell, so that parts thinner than a cell stay connected.
 class BrickLattice {
  public:
   BrickLattice(const CapsuleUnion& field, double spacing);

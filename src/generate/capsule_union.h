@@ -18,11 +18,10 @@ struct Capsule {
 };
 
 /// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, with Lipschitz constant 1.
-/// The polygoniser uses the constant to skip empty space.
+/// Because of this constant, the polygoniser can skip empty space.
 class CapsuleUnion {
  public:
   static constexpr size_t kMaxCapsules = 64;
-  /// One bit per capsule.
   using Selection = uint64_t;
   static constexpr Selection kAll = ~Selection{0};
 
@@ -42,7 +41,7 @@ class CapsuleUnion {
     uint32_t part = 0;
     double diameter = 0;  ///< Diameter of the ball nearest to p.
   };
-  /// Part and diameter of the capsule nearest to p; of equally near ones the first.
+  /// Part and diameter of the capsule nearest to p. Among equally near capsules the first one counts.
   [[nodiscard]] Dominating dominating(const Vec3d& p, Selection selection = kAll) const;
 
   /// A box that contains the surface, blends included.

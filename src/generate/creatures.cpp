@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Adds the capsules of the left side (y > 0) and their mirror images. The part of a mirror image is the next number.
+/// Adds capsules of the left side (y > 0) and their mirror images. The part number of a mirror image is greater by 1.
 void addBothSides(std::vector<Capsule>& capsules, const std::vector<Capsule>& left) {
   for (Capsule capsule : left) {
     capsules.push_back(capsule);
@@ -20,9 +20,9 @@ void addBothSides(std::vector<Capsule>& capsules, const std::vector<Capsule>& le
   }
 }
 
-/// Adds a branch of `levelCount` levels. It forks into two branches of 0.8 times its length and 2^(-1/3) times its
-/// radius (Murray's law). `forward` and `side` are orthogonal unit vectors. The two branches lie in their plane, the
-/// branches of the next level in a perpendicular plane.
+/// Adds a branch of `levelCount` levels. A branch forks into two branches of 0.8 times its length and 2^(-1/3) times
+/// its radius (Murray's law). `forward` and `side` are orthogonal unit vectors. The two branches lie in the plane of
+/// these vectors, and the branches of the next level in a perpendicular plane.
 void addBranches(const Vec3d& foot, const Vec3d& forward, const Vec3d& side, double length, double radius,
                  uint32_t levelCount, std::vector<Capsule>& capsules) {
   if (levelCount == 0) return;

@@ -8,7 +8,7 @@
 namespace asdfvk {
 
 // Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up. With about
-// 2000 faces or more they are topological spheres; on coarser lattices neighbouring limbs may touch.
+// 2000 faces or more the surfaces are topological spheres. With fewer faces neighbouring limbs may touch.
 
 /// Four legs. Parts: 0 torso, 1 neck, 2 head, 3 tail, 4 and 5 front legs, 6 and 7 hind legs (left, right), 8 and 9
 /// ears.

@@ -16,8 +16,8 @@ struct GeneratedShape {
   std::vector<float> diameter;
 };
 
-/// Range of requested face counts. The result is within about 15 % of the requested count. Below some hundred faces it
-/// has the closest count that the shape allows.
+/// Range of requested face counts. The count of a result is within about 15 % of the requested count. Below some
+/// hundred faces, it is the closest count that the shape allows.
 inline constexpr uint64_t kMinFaceCount = 20;
 inline constexpr uint64_t kMaxFaceCount = 50'000'000;
 

@@ -21,7 +21,7 @@ void place(GeneratedShape& shape, const GeneratorOptions& options) {
   for (float& diameter : shape.diameter) diameter = static_cast<float>(diameter * options.scale);
 }
 
-/// Makes a part. The diameter of all its faces is its least thickness.
+/// Makes a part. All faces have the least thickness of the part as their diameter.
 GeneratedShape makePart(const GeneratorOptions& options) {
   const ThicknessPart part = makeThicknessPart(options.shape);
   SurfaceDivision division;

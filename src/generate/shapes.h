@@ -10,11 +10,10 @@
 
 namespace asdfvk {
 
-/// Names of the shapes.
 [[nodiscard]] std::vector<std::string_view> shapeNames();
 
-/// The shape of that name with its default parameters and about `faceCount` faces. It has the same bits on any number
-/// of threads. Throws Error{Usage} for an unknown name and for a count outside kMinFaceCount .. kMaxFaceCount.
+/// A shape with its default parameters and about `faceCount` faces. Its bits do not depend on the number of threads.
+/// Throws Error{Usage} for an unknown name and for a count outside kMinFaceCount .. kMaxFaceCount.
 [[nodiscard]] GeneratedShape generateShape(std::string_view name, uint64_t faceCount);
 
 }  // namespace asdfvk

@@ -18,7 +18,7 @@ namespace {
 constexpr uint32_t kNone = ~uint32_t{0};
 constexpr int kEveningRounds = 4;
 
-/// The crossed cells of a brick, its first vertex and its first quad.
+/// The cells of a brick that the surface crosses ("crossed" cells), and the indices of its first vertex and first quad.
 struct BrickCells {
   std::array<uint64_t, 8> crossed{};
   std::array<uint16_t, 8> countBefore{};  ///< Number of crossed cells of the brick below layer z.
@@ -74,7 +74,7 @@ class SurfaceNets {
             const uint32_t mask = signs.mask(x, y, z);
             if (mask == 0 || mask == 0xff) continue;
             cells.crossed[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
-            ++cells.firstVertex;  // A count, which the prefix sums below replace by an index.
+            ++cells.firstVertex;  // A count; the prefix sums below replace it by an index.
           }
       }
       forEachCrossedEdge(signs, [&](int, int32_t, int32_t, int32_t, bool) { ++cells.firstQuad; });
@@ -133,8 +133,8 @@ class SurfaceNets {
     });
   }
 
-  /// Moves each vertex by `share` of the way to the mean of its neighbours, then by Newton steps to the surface. It
-  /// stays within one spacing of the centre of its cell along each axis.
+  /// Moves each vertex by `share` of the way to the mean of its neighbours, then by Newton steps to the surface. Along
+  /// each axis, a vertex stays within one spacing of the centre of its cell.
   void moveVertices(double share, int newtonSteps) {
     const std::vector<Vec3d>& from = shape_.mesh.vertices;
     std::vector<Vec3d> to(from.size());
@@ -165,7 +165,7 @@ class SurfaceNets {
 
   [[nodiscard]] Vec3d newtonStep(const Vec3d& p, CapsuleUnion::Selection selection) const {
     const CapsuleUnion::Sample sample = field_.sample(p, selection);
-    // Midway between two limbs the gradients cancel, and a Newton step would be too long; the lower bound limits it.
+    // Midway between two limbs the gradients cancel. The lower bound prevents a Newton step that is too long.
     const double squared = std::max(0.05, dot(sample.gradient, sample.gradient));
     return sample.gradient * (-sample.value / squared);
   }
@@ -218,7 +218,7 @@ class SurfaceNets {
 
 }  // namespace
 
-// The number of crossed edges is proportional to 1 / spacing^2, more exactly on finer lattices.
+// The number of crossed edges is about proportional to 1 / spacing^2. The approximation is better for finer lattices.
 BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
   const auto wished = static_cast<double>(quadCount);
   double spacing = field.bounds().diagonal() / 20;
@@ -232,7 +232,7 @@ BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
       bestError = error;
       best.emplace(std::move(lattice));
     }
-    // The number of quads of a coarse lattice jumps with the spacing; shorter steps find counts in between.
+    // The number of quads of a coarse lattice jumps with the spacing. Shorter steps find counts between two jumps.
     const double power = attempt < 6 ? 0.5 : 0.2;
     spacing *= std::pow(std::clamp(ratio, 1.0 / 64, 64.0), power);
   }

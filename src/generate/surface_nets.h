@@ -8,15 +8,14 @@
 
 namespace asdfvk {
 
-/// The lattice of a spacing at which the surface crosses about `quadCount` lattice edges: within 2 % where possible,
-/// otherwise the closest of the tested spacings.
+/// A lattice whose surface crosses about `quadCount` lattice edges: within 2 % if possible, otherwise the best of the
+/// tested spacings.
 [[nodiscard]] BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount);
 
 /// The surface of a smooth union of capsules as a closed manifold of about `faceCount` well-shaped triangles, with the
 /// part and diameter of each triangle. Surface nets (Gibson, 1998) on a sparse lattice: a vertex per cell that the
-/// surface crosses, a quad per crossed lattice edge. Vertices are spread evenly along the surface and then moved onto
-/// it by Newton steps. Differs from the paper: the lattice is made well-composed first, so that the result is a
-/// manifold.
+/// surface crosses, a quad per crossed lattice edge. Vertices are spread evenly along the surface, and then moved onto
+/// it by Newton steps. Unlike in the paper, the lattice is first made well-composed, so that the result is a manifold.
 [[nodiscard]] GeneratedShape polygonise(const CapsuleUnion& field, uint64_t faceCount);
 
 }  // namespace asdfvk

@@ -11,9 +11,9 @@
 #include "core/text.h"
 
 // The least thickness of a part is the diameter of the smallest ball between two of its planar walls. For parallel
-// walls it is their distance. For walls that diverge from an edge it is the distance of this edge from the other wall.
-// For walls that diverge symmetrically from a top of width c, each at the angle h to the middle plane, it is c /
-// cos(h).
+// walls this diameter is the distance of the walls. For walls that diverge from the edge of one wall, it is the
+// distance of this edge from the other wall. For walls that diverge symmetrically from a top of width c, each at the
+// angle h to the middle plane, it is c / cos(h).
 
 namespace asdfvk {
 namespace {
@@ -36,7 +36,7 @@ ThicknessPart makeWedge(double firstHeight, double lastHeight) {
           .sharpLength = 20};
 }
 
-/// The wedge with a sharp edge, and a pocket with a floor of 0.7 far from that edge.
+/// A wedge with a sharp edge. Far from that edge, a pocket has a floor 0.7 thick.
 ThicknessPart makeBlade() {
   constexpr std::array<double, 4> kXs{0, 45, 55, 60}, kYs{0, 6, 14, 20};
   const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
@@ -72,7 +72,7 @@ ThicknessPart makeSteppedPlate() {
   return soundPart(std::move(solid), 1.2);
 }
 
-/// A plate of 2.5 with a boss of 8 and a rib, which is 1.5 thick at its top. slope: draft of both sides of the rib.
+/// A plate 2.5 thick with a boss of 8 x 8 and a rib whose top is 1.5 thick. slope: draft of both sides of the rib.
 ThicknessPart makeRibbedPlate(double slope) {
   constexpr double kTop = 12.5;
   BlockSolid solid;
@@ -109,8 +109,7 @@ ThicknessPart makeOpenBox(double outerSlope, double innerSlope, double wall, dou
 /// side from the axis, divided by the distance of a corner.
 double apothemFactor(uint32_t sideCount) { return std::cos(std::numbers::pi / sideCount); }
 
-/// The position function of a solid of revolution. radiusAt(i, k): radius at point (i, k) of the lattice of the
-/// profile.
+/// The position function of a solid of revolution. radiusAt(i, k): radius at point (i, k) of the profile lattice.
 template <typename Radius>
 auto revolved(uint32_t sideCount, const std::vector<double>& heights, const Radius& radiusAt) {
   return [=](uint32_t i, uint32_t j, uint32_t k) {
@@ -119,7 +118,7 @@ auto revolved(uint32_t sideCount, const std::vector<double>& heights, const Radi
   };
 }
 
-/// A drafted cup of 24 sides, open at the top, where its wall is 1 thick; the inside has more draft.
+/// A drafted cup of 24 sides with an open top. Its wall is 1 thick at the top; the inside has more draft.
 ThicknessPart makeRoundCup() {
   constexpr uint32_t kSideCount = 24;
   constexpr double kHeight = 12, kOuterSlope = 0.02, kInnerSlope = 0.04;
@@ -135,8 +134,8 @@ ThicknessPart makeRoundCup() {
   return soundPart(std::move(solid), 1 / std::hypot(1, factor * kOuterSlope));
 }
 
-/// Rings of teeth around a tube of 12 sides with a wall of 3. crest: width of a tooth at its top; the upper flank is
-/// then horizontal, so that a tooth is thinnest at its top. crest 0: sharp teeth with two inclined flanks.
+/// Rings of teeth around a tube of 12 sides with a wall of 3. crest: width of a tooth at its top. With a crest, the
+/// upper flank is horizontal, so that a tooth is thinnest at its top. crest 0: sharp teeth with two inclined flanks.
 ThicknessPart makeThread(double crest) {
   constexpr uint32_t kSideCount = 12, kToothCount = 2;
   constexpr double kBase = 1.6, kLand = 1.4, kDepth = 2, kBore = 2, kEnd = 3.2;
@@ -182,8 +181,8 @@ ThicknessPart makeBracket(uint32_t sideCount) {
 }
 
 /// A plate with a hole of radius 5 near an edge. sideCount: number of sides of the hole, a multiple of 4. The ligament
-/// is between the edge of the plate and the nearest part of the hole: a corner if sideCount is a multiple of 8,
-/// otherwise the middle of a side.
+/// is between the edge of the plate and the nearest part of the hole. This part is a corner of the hole if sideCount is
+/// a multiple of 8, otherwise the middle of a side.
 ThicknessPart makeLigament(uint32_t sideCount) {
   constexpr double kRadius = 5, kLigament = 0.6, kThickness = 4;
   const double nearest = kRadius * (sideCount % 8 == 0 ? 1 : apothemFactor(sideCount));
