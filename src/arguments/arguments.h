@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-/// Parsing of command lines.
 namespace asdfvk {
 
 /// An option or a positional argument.
@@ -18,14 +17,14 @@ struct Argument {
   std::string placeholder =
       {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
   std::string text = {};  ///< Text of the help.
-  /// Called with the values of each occurrence of the argument. For a list, called once with all values. The values are
-  /// empty for a flag and for an omitted optional value.
+  /// Called with the values of each occurrence of the argument; for a list, called once with all values. A flag and an
+  /// omitted optional value have no values.
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;
   size_t valueCount = 1;
-  /// For an option with an optional value: whether the next argument is its value. Null: only a value after an equals
-  /// sign counts.
+  /// For an option with an optional value: whether the next argument is its value. Null: its value must follow an
+  /// equals sign.
   std::function<bool(const std::string& next)> takesNext = {};
 
   /// The long name, with dashes.

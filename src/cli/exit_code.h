@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Exit status of the program. After several failures, the first one determines it.
+/// Exit status of the program. If a mesh has several failures, the first one determines the code.
 enum class ExitCode : int {
   Done = 0,
   Usage = 1,        ///< The command line is invalid.
@@ -59,22 +59,19 @@ class SharedExitCode {
   ExitCode first_ = ExitCode::Done;
   bool hasResult_ = false, lacksResult_ = false, isCancelled_ = false;
 };
-/// Done, or CheckFailed if the check failed. A check that is not independent gives Done.
+/// Done, or CheckFailed if the check failed. Done if the check is not CheckReport::independent.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
 /// Done, TooThin, or CheckFailed if the limit could not be judged. Precondition: the report has a limit.
 [[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness);
 
-/// A failure, as the program reports it.
 struct Failure {
   ExitCode code = ExitCode::Internal;
   std::string message;            ///< One line with the reason and the remedy.
   std::string name = "internal";  ///< nameOf(ErrorCode), or another name such as "internal" or "timeLimit".
 };
 
-/// The failure of a mesh that took longer than --timeout.
 [[nodiscard]] Failure timeLimitFailure(double timeoutSeconds);
-/// The failure of a mesh that a stop request ended.
 [[nodiscard]] Failure cancelledFailure();
 
 /// Describes the current exception. Precondition: called in a catch block. requiresGpu: the remedy must not propose the

@@ -60,7 +60,7 @@ std::unique_ptr<Session> openSession(const SessionOptions& options) {
   }
 }
 
-/// Whether a file is read during the computation of the previous mesh. Excludes large files, because both meshes are
+/// Whether a file is read during the computation of the previous mesh. False for large files, because both meshes are
 /// then in memory.
 bool isReadAhead(const Job& job) {
   constexpr uint64_t kMaxBytes = uint64_t{256} << 20;

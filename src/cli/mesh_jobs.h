@@ -24,7 +24,7 @@ class JobRecords {
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
   /// Completes the record and, in a batch, writes it beside the output. If the record cannot be written, the mesh fails
-  /// and its output is removed. old: record of an earlier run; if the mesh failed and the earlier output is out of
+  /// and its output is removed. old: record of an earlier run. If the mesh failed and the earlier output is out of
   /// date, the earlier output is removed.
   [[nodiscard]] JobResult finish(const Job& job, MeshRecord record, MeshRun run,
                                  const std::optional<MeshRecord>& old) const;
@@ -41,18 +41,16 @@ class JobRecords {
   Json options_;
 };
 
-/// Throws an OpenFailure with the members of `failure`.
 [[noreturn]] void throwOpenFailure(const Failure& failure);
 
-/// Computes meshes with one session.
 class MeshComputer : public JobComputer {
  public:
-  /// Opens the session. showsBar: shows a progress bar for each mesh if standard error is a terminal. Precondition:
-  /// `settings` and `records` outlive this object. Throws OpenFailure.
+  /// showsBar: shows a progress bar for each mesh if standard error is a terminal. Precondition: `settings` and
+  /// `records` outlive this object. Throws OpenFailure.
   MeshComputer(const MeshSettings& settings, const JobRecords& records, std::stop_token stop, bool showsBar = false);
 
-  /// Adds all results to `page`, which the caller writes, instead of writing them. jobs: all jobs of the page.
-  /// Precondition: both outlive this object.
+  /// Adds all results to `page` instead of writing them. The caller writes the page. jobs: all jobs of the page.
+  /// Precondition: `page` and `jobs` outlive this object.
   void collectIn(Page& page, const std::vector<Job>& jobs);
 
   [[nodiscard]] ComputerDescription describe() const override;
@@ -71,7 +69,7 @@ class MeshComputer : public JobComputer {
   bool isSpent_ = false;
   Page* page_ = nullptr;
   const std::vector<Job>* jobsOfPage_ = nullptr;
-  std::future<LoadedMesh> ahead_;  ///< The last member, because its destructor waits for a task that uses the others.
+  std::future<LoadedMesh> ahead_;  ///< Last: its destructor waits for a task that uses other members.
 };
 
 }  // namespace asdfvk

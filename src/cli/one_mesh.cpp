@@ -115,7 +115,6 @@ bool mayWait(const std::string& path) {
   return path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
 }
 
-/// Writes the files of a mesh: result, picture and points.
 class MeshFiles {
  public:
   MeshFiles(const std::string& input, const std::string& output, const MeshSettings& settings, bool showsBar,
@@ -145,7 +144,7 @@ class MeshFiles {
   /// Precondition: the output is not a page.
   void writeResult(Mesh& mesh, const Options& options, const Result& result) const {
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
-    flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has a copy.
+    flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has its own copy of the faces.
     const AwaitedReader reader(output_, stop_);
     asdfvk::writeResult(output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
   }

@@ -15,14 +15,13 @@
 
 namespace asdfvk {
 
-/// Settings for computing a mesh and writing its result.
 struct MeshSettings {
   SessionSettings session;
   ComputationSettings computation;
   Outputs outputs;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
   bool makesFolders = false;  ///< Whether a missing folder of the result is created.
-  /// Whether a record is written beside the result and replaces the report. Pages then have no times.
+  /// Whether the mesh is part of a batch: a record beside the result replaces the report, and pages have no times.
   bool isOfBatch = false;
 };
 
@@ -30,8 +29,8 @@ struct MeshSettings {
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshSettings& settings);
 [[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
-/// Reads and computes a mesh, writes its result and prints the report or the failure. Returns the exit code. Throws
-/// Error{OptionConflict} if outputs contradict each other.
+/// Reads and computes a mesh, writes its result and prints the report or the failure. Throws Error{OptionConflict} if
+/// outputs contradict each other.
 [[nodiscard]] ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings,
                                       const std::stop_token& stop);
 
@@ -67,15 +66,15 @@ struct SharedPage {
   std::string name;  ///< Name of the mesh in the page.
 };
 
-/// Computes a mesh and writes its result. Failures are returned in the MeshRun. deadline: its stop request or expiry
-/// ends the computation. showsBar: shows a progress bar if standard error is a terminal. sharedPage: if not null,
-/// receives the result instead of the file `output`.
+/// Computes a mesh and writes its result. Failures are returned in the MeshRun. A stop request or the expiry of
+/// `deadline` ends the computation. showsBar: shows a progress bar if standard error is a terminal. sharedPage: if not
+/// null, receives the result instead of the file `output`.
 [[nodiscard]] MeshRun computeMesh(Session& session, const std::string& input, const std::string& output,
                                   LoadedMesh loaded, const MeshSettings& settings, const Deadline& deadline,
                                   bool showsBar, const SharedPage* sharedPage = nullptr);
 
 /// Writes a page atomically. opensBrowser: opens the page in the browser. If the output is a FIFO, waits for its
-/// reader; a stop request ends the wait with Error{Cancelled}. Throws Error{OutputNotWritable}.
+/// reader; a stop request ends this wait with Error{Cancelled}. Throws Error{OutputNotWritable}.
 void finishPage(const Page& page, const std::string& output, bool opensBrowser, const std::stop_token& stop);
 
 /// Hook for tests that inject faults, called with the input before a mesh is computed. Null in the program.

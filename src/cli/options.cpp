@@ -75,9 +75,9 @@ bool exists(const std::string& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-/// Whether an option with an optional value takes the next argument as its value. --segment takes a word unless it
-/// looks like a file: it has a dot or a slash, begins with a dash, or exists. --check never takes the next argument, so
-/// that a mesh can follow; a number that is not a file is an error.
+/// Whether an option with an optional value takes the next argument as its value. --segment takes a word that does not
+/// look like a file. A word looks like a file if it has a dot or a slash, begins with a dash, or is the path of a file.
+/// --check never takes the next argument, so that a mesh can follow; a number that is not a file is an error.
 bool takesNext(const OptionRow& row, const std::string& next) {
   const std::vector<std::string> names = namesOf(row);
   if (std::find(names.begin(), names.end(), next) != names.end()) return true;
@@ -138,8 +138,9 @@ bool estimates(const Options& options) {
   return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
 }
 
-/// Applies what --fields, --picture-of and --points imply, such as --measure both for a field of the shape diameter.
-/// Sets the default of --picture-of. Throws Error{OptionConflict} for a field that the other options do not compute.
+/// Sets the options that --fields, --picture-of and --points imply, such as --measure both for a field of the shape
+/// diameter. Sets the default of --picture-of. Throws Error{OptionConflict} for a field that the other options do not
+/// compute.
 void completeFields(CommandLine& line, bool choosesPicture) {
   Options& options = line.computation.options;
   Outputs& outputs = line.outputs;

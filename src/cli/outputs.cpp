@@ -87,11 +87,11 @@ std::string normalised(const fs::path& path) {
   return fs::absolute(followLinks(path), ignored).lexically_normal().string();
 }
 
-/// Uses of files, to find a file with two uses. Files are compared by device and inode, so that links are followed;
-/// missing files by normalised path.
+/// Finds files with two uses. Existing files are compared by device and inode, so that links are followed. Missing
+/// files are compared by normalised path.
 class FileUses {
  public:
-  /// Returns the earlier use of the file. If it has none, adds `use` and returns an empty text.
+  /// Returns the earlier use of the file. If there is none, adds `use` and returns an empty text.
   std::string add(const std::string& path, const std::string& use) {
     std::string& ofName = useOfName_[normalised(path)];
     struct stat status {};

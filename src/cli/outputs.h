@@ -16,14 +16,14 @@ namespace asdfvk {
 
 /// Options of the files and texts that are written.
 struct Outputs {
-  std::string path;    ///< Path of the result: a file, a directory, "-"; empty: beside each input.
-  std::string format;  ///< One of outputFormats(). Empty: the extension of `path` decides; without one ply.
+  std::string path;                 ///< Path of the result: a file, a directory, "-"; empty: beside each input.
+  std::string format;               ///< One of outputFormats(). Empty: the extension of `path`; ply if there is none.
   std::vector<std::string> fields;  ///< Names of --fields, in this order; empty: the default of fieldNames().
   bool ascii = false;
   std::string colourOf = {};  ///< See WriteOptions.
   bool coloursVertices = false;
   std::string picture;            ///< Path of the .png file, "-" for standard output; empty: no picture.
-  std::string pictureOf = "sdf";  ///< Name of the field that the picture shows; empty: it shows the thin places.
+  std::string pictureOf = "sdf";  ///< Name of the field that the picture shows; empty: the thin places.
   View pictureView;
   bool choosesView = false;  ///< Whether --picture-view is given.
   std::string points;      ///< Path of the .ply or .swc file of skeleton points, "-" for standard output; empty: none.
@@ -33,7 +33,6 @@ struct Outputs {
   bool verbose = false;  ///< Prints the full report and the lines about devices.
 };
 
-/// Options of a call for many meshes.
 struct BatchOptions {
   bool recurses = false;         ///< Arguments may be folders: all meshes below them are inputs.
   std::string list;              ///< Path of the file that lists meshes, "-" for standard input; empty: none.
@@ -48,8 +47,7 @@ struct BatchOptions {
 
   /// Whether inputs come from folders or a list. Then -o is the root of a tree of results.
   [[nodiscard]] bool hasTree() const { return recurses || !list.empty(); }
-  /// Whether this is a batch, which writes a record beside each output. A progress line and a summary replace the
-  /// reports.
+  /// Whether a record is written beside each output, and a progress line and a summary replace the reports.
   [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
 };
 
@@ -75,7 +73,7 @@ inline constexpr const char* kPageFormat = "html";
 /// Returns the path of the result of each input, "-" for standard output. If BatchOptions::hasTree(), results are in a
 /// tree below -o, whose folders need not exist. Throws Error{OptionConflict} if two outputs (results, their records,
 /// log, picture, points) have the same path, if an output is also an input, or if several meshes have the same output
-/// file and it is not a page.
+/// file that is not a page.
 [[nodiscard]] std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                                    std::span<const InputFile> inputs);
 
@@ -90,7 +88,7 @@ inline constexpr const char* kPageFormat = "html";
 /// Creates the folder of the file `output`. Throws Error{OutputNotWritable}.
 void makeFolderOf(const std::string& output);
 
-/// Throws Error{OutputNotWritable} if the file cannot be written. Allows an error before the computation begins.
+/// Throws Error{OutputNotWritable} if the file cannot be written. Called before the computation, to report this early.
 void requireWritablePlace(const std::string& output);
 
 }  // namespace asdfvk

@@ -22,9 +22,9 @@ namespace {
 /// Bytes of unused memory at the end of the heap that are not returned to the kernel.
 constexpr int kKeptBytes = 128 << 20;
 
-/// Makes the allocator reuse freed memory, large arrays included. Memory that is returned to the kernel costs time,
-/// because the kernel clears each new page. All threads share one heap, so that each can reuse memory that another one
-/// freed.
+/// Makes the allocator reuse freed memory, including large arrays. Memory that is returned to the kernel costs time,
+/// because the kernel clears each new page. All threads share one heap, so that a thread can reuse memory that another
+/// thread freed.
 void keepFreedMemory() {
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);
@@ -52,7 +52,7 @@ MeshSettings settingsOf(const CommandLine& line) {
           .isOfBatch = line.batch.isBatch()};
 }
 
-/// The command asdf-vk summarize LOG.jsonl... arguments: without the command.
+/// The command `asdf-vk summarize LOG.jsonl...`. arguments: those after `summarize`.
 ExitCode summarize(const std::vector<std::string>& arguments) {
   std::vector<std::string> logs;
   std::string format;

@@ -15,7 +15,7 @@
 
 namespace asdfvk {
 
-/// A computed mesh with its settings, the input of the reports. Holds references only.
+/// A computed mesh with its settings, for the reports.
 struct MeshOutcome {
   const std::string& mesh;    ///< Path of the mesh, as on the command line.
   const std::string& output;  ///< Path of the result; "-" for standard output.
@@ -28,13 +28,14 @@ struct MeshOutcome {
 /// Rows of title and text. A row without a title continues the previous row.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// The rows of the full report. First the thickness, beginning with its verdict; if it is not measured, the rows of the
-/// short report. Then details of values, parts, seeds, device, solver and times. Titles have at most nine characters.
+/// The rows of the full report. The first rows are those of the thickness, which begin with the verdict, or those of
+/// the short report if the thickness was not measured. Details of values, parts, seeds, device, solver and times
+/// follow. Titles have at most nine characters.
 [[nodiscard]] ReportRows reportRows(const Report& report);
 
-/// The report as aligned lines: the name of the mesh with the verdict or the mesh row, further rows, and the output
-/// files. With --verbose it has all of reportRows(), else at most six lines of at most 100 columns (more only for long
-/// file names).
+/// The report as aligned lines. The first line has the name of the mesh and the verdict or the row "mesh". Further rows
+/// and the output files follow. With --verbose the report has all of reportRows(). Otherwise it has at most six lines
+/// of at most 100 columns; long file names take more columns.
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
 
 /// One line: "the check failed: " and the reason.
@@ -51,11 +52,11 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// The message of the warning, with a remedy by options if there is one.
 [[nodiscard]] std::string textWarning(const Warning& warning);
 
-/// The lines about the devices of the session, with a remark if Vulkan runs on the CPU. Without isVerbose, empty unless
-/// another backend replaces Vulkan or a CPU device was chosen among several devices.
+/// The lines about the devices of the session, with a remark if Vulkan runs on the CPU. Without isVerbose, the text is
+/// empty unless another backend replaces Vulkan or a CPU device was chosen among several devices.
 [[nodiscard]] std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose);
 
-/// One line per device, or a line with the reason why there is none.
+/// One line per device; if there is none, a line with the reason.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
 /// One line of JSON with the keys of docs/formats.md.
@@ -67,7 +68,7 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// One line with the keys "mesh", "output", "status" and "record", for a mesh that --skip-existing skips.
 [[nodiscard]] std::string jsonSkipped(const std::string& mesh, const MeshRecord& record);
 
-/// Prints the report on the device on standard output. Returns Device if the self-test failed, else Done. Throws as
+/// Prints the report on the device on standard output. Returns Device if the self-test failed, else Done. Throws like
 /// reportDevice(). Also throws DeviceReport::failure, after printing.
 [[nodiscard]] ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop);
 
@@ -76,7 +77,6 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
-/// Makes a page without results.
 [[nodiscard]] Page emptyPage();
 
 /// The name of a mesh in a page: its file name.

@@ -73,7 +73,7 @@ std::string shortErrorRow(const Report& report) {
   }
   const ErrorEstimate& estimate = *report.estimatedError;
   std::string text = fmt::format("about {:.2g} % of the range on average", 100 * estimate.average);
-  if (estimate.relativeMedian > 0)  // 0 where most faces cast rays: it would suggest that there are no errors.
+  if (estimate.relativeMedian > 0)  // 0 if most faces cast rays: "0 %" would suggest no errors.
     text += fmt::format(", {} % of the value in the median", twoDigits(estimate.relativeMedian));
   return text;
 }
@@ -157,7 +157,6 @@ std::string solverRow(const SolverReport& solver) {
                      solver.finishedOnCpu ? ", finished on the CPU" : "");
 }
 
-/// The total time, then the time of each stage that ran.
 std::string timeRow(const StageSeconds& seconds) {
   double sum = 0;
   std::string stages;

@@ -1,4 +1,3 @@
-// The wall thickness in the text report.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -8,8 +8,7 @@
 namespace asdfvk {
 namespace {
 
-/// Escapes a line of text for groff_man(7), so that each character stands for itself. A hyphen becomes a minus sign, so
-/// that options can be copied.
+/// Escapes a line of text for groff_man(7). A hyphen becomes a minus sign, so that options can be copied.
 std::string plain(const std::string& text) {
   static const std::pair<char, const char*> kEscapes[]{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
                                                        {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};

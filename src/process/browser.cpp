@@ -20,7 +20,7 @@ void openInBrowser(const std::string& path) {
   posix_spawn_file_actions_init(&streams);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&streams, stream, "/dev/null", O_RDWR, 0);
-  // The browser outlives the session of the terminal. It does not inherit ignored signals.
+  // The browser must outlive the session of the terminal, and must not inherit ignored signals.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t ignored;

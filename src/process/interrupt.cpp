@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-// The signal handler only uses lock-free atomics, removeUnfinishedFiles() and a pipe. A byte in the pipe is a stop
+// The signal handler uses only lock-free atomics, removeUnfinishedFiles() and a pipe. A byte in the pipe is a stop
 // request. Closing the pipe ends the waiting thread.
 std::atomic<int> listenerCount{0};
 std::atomic<int> signalCount{0};

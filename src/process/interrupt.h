@@ -11,10 +11,10 @@ namespace asdfvk {
 /// Exit code of a process that a signal cancelled: 128 + SIGINT.
 inline constexpr int kCancelledCode = 130;
 
-/// During its lifetime, handles SIGINT, SIGTERM and SIGHUP, unless they were ignored before. The first signal requests
-/// a stop of the computation, or ends the program if no Listening exists. A second signal ends the program, unless it
-/// follows within 0.2 s: a terminal or a wrapper may send a signal twice. A program that a signal ends exits with
-/// kCancelledCode and leaves no half-written file. Precondition: no other Interrupt exists.
+/// Handles SIGINT, SIGTERM and SIGHUP during its lifetime, except signals that were ignored before. The first signal
+/// requests a stop of the computation, or ends the program if no Listening exists. A second signal ends the program if
+/// it follows after more than 0.2 s, because a terminal or a wrapper may send a signal twice. A program that a signal
+/// ends exits with kCancelledCode and leaves no half-written file. Precondition: no other Interrupt exists.
 class Interrupt {
  public:
   /// isWorker: ignores all signals after the first one, because the main process kills a worker that does not stop.

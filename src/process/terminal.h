@@ -29,8 +29,8 @@ void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();
 
-/// A progress bar in one line. Appears after one second and is redrawn at most ten times per second. The destructor
-/// clears it.
+/// A progress bar in one line. It appears after one second and is redrawn at most ten times per second. The destructor
+/// clears the bar.
 class ProgressBar {
  public:
   /// write: writes a text to the terminal. now: returns a time in seconds.
