@@ -48,16 +48,15 @@ def cgal_segmentation(
     clusters: 2 to 100. smoothness: 0 to 1000.
     expansion, options: as in asdf_vk.compat.cgal.
 
-    PATH-cgal_{clusters}_{smoothness:.2f}.csv has the segment of each face, from 0 on, a line per
-    face in the order of the mesh; PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the values from
-    0 to 1, with 6 significant digits. The files appear whole, or not at all.
+    PATH-cgal_{clusters}_{smoothness:.2f}.csv has the segment of each face, from 0 on, a line per face in the order of
+    the mesh; PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the values from 0 to 1, with 6 significant digits. The
+    files get these names when both are complete.
 
-    Returns 1 done, 2 PATH.off cannot be opened, 3 it is no OFF file or violates the format, 4 it
-    has no faces, 6 a face is not a triangle. Raises asdf_vk.Error for what has no code, such as
-    fewer different values than clusters, and OSError where a file cannot be written.
+    Returns 1: done; 2: PATH.off cannot be opened; 3: PATH.off is no OFF file or violates the format; 4: the mesh has no
+    faces; 6: a face is not a triangle. Raises asdf_vk.Error for other failures, such as fewer different values than
+    clusters, and OSError if a file cannot be written.
 
-    In a process that was forked after a use of asdf_vk, the work runs in a new process of the same
-    interpreter.
+    In a process that was forked after a use of asdf_vk, the work runs in a new process of the same interpreter.
     """
     path = os.fsdecode(path_without_extension)
     try:
@@ -72,7 +71,7 @@ def cgal_segmentation(
             raise
         return _in_new_process(path, clusters, smoothness, {"expansion": expansion, **options})
     name = f"{path}-cgal_{clusters}_{smoothness:.2f}"
-    # ravel(): the types of NumPy 2 know a list of numbers only from an array of one dimension.
+    # ravel(): NumPy 2 types the result of tolist() as a list of numbers only for an array of one dimension.
     segments = "".join([f"{label}\n" for label in labels.ravel().tolist()])
     numbers = "".join([f"{value:g}\n" for value in values.ravel().tolist()])
     _write_whole({f"{name}.csv": segments, f"{name}_sdf.csv": numbers})
@@ -91,9 +90,7 @@ def cgal_segmentation_arrays(
     """Like cgal_segmentation(), but in memory, without files and return codes.
 
     vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`, and None.
-
-    Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,).
-    Raises asdf_vk.Error.
+    Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,). Raises asdf_vk.Error.
     """
     for name, value in (("clusters", clusters), ("smoothness", smoothness)):
         if value is None:
@@ -108,7 +105,7 @@ def _read_triangles(path: str) -> asdf_vk.Mesh | int:
     try:
         with open(path, "rb") as file:
             start = file.read(_COUNTS_LIMIT)
-    except (OSError, ValueError):  # ValueError: no path can have this name.
+    except (OSError, ValueError):  # ValueError: not a valid name of a file.
         return CANNOT_OPEN
     words = b"\n".join(line.split(b"#")[0] for line in start.splitlines()).split()
     if not words or not words[0].endswith(b"OFF"):
@@ -151,7 +148,7 @@ pickle.dump(outcome, sys.stdout.buffer)
 
 
 def _in_new_process(path: str, clusters: int, smoothness: float, options: dict[str, Any]) -> int:
-    """For a forked process, which has no threads and devices of its parent. Raises what the new process raises."""
+    """Computes in a new process, because a forked process lacks the threads and devices of its parent."""
     search_path = os.pathsep.join(entry or os.getcwd() for entry in sys.path)
     done = subprocess.run(
         [sys.executable, "-c", _CHILD],

@@ -4,7 +4,8 @@
     values = asdf_vk.shape_diameter(vertices, faces)    # float32 (m,), in the unit of the mesh, NaN = no value
     labels = asdf_vk.segment(vertices, faces)           # int32 (m,)
 
-`vertices` is (n, 3) float, `faces` (m, 3) int. Instead of both, pass an object that has them (trimesh.Trimesh).
+`vertices` is (n, 3) float, `faces` (m, 3) int. A single object with these two attributes (trimesh.Trimesh) is also
+allowed.
 """
 
 from __future__ import annotations

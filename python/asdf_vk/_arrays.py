@@ -41,7 +41,6 @@ def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
 def polygon_arrays(
     vertices: Any, corners: Any, first_corner: Any
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32], NDArray[np.uint32]]:
-    """Returns the checked arguments of mesh_of_polygons()."""
     points = _native(points_array(vertices, "vertices"), np.float64, "vertices")
     arrays = []
     for value, name, allowed in ((corners, "corners", len(points) - 1), (first_corner, "first_corner", np.size(corners))):
@@ -130,7 +129,7 @@ def field_array(value: Any, name: str) -> NDArray[Any]:
 
 
 def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
-    """An array of a kind of NumPy: "iu" for integers. wanted: what it has to be, for the message."""
+    """Returns an array. kinds: allowed kinds of NumPy, "iu" for integers. wanted: their name, for the message."""
     try:
         array = np.asarray(value)
     except (MemoryError, KeyboardInterrupt):
@@ -149,7 +148,7 @@ def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
 
 
 def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
-    """Returns (n, 3); (0, 3) also for []."""
+    """Returns (n, 3), for [] (0, 3)."""
     if array.shape == (0,):
         return array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -160,7 +159,7 @@ def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
-    """Returns the array itself where its type, byte order, alignment and layout fit, otherwise a copy."""
+    """Returns the array itself if its type, byte order, alignment and layout fit, otherwise a copy."""
     try:
         with np.errstate(over="ignore"):
             return np.require(array, dtype, ["C_CONTIGUOUS", "ALIGNED"])

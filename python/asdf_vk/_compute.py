@@ -45,7 +45,7 @@ def computed(
     options: dict[str, Any],
     implied: dict[str, Any],
 ) -> _core.ComputedFields:
-    """Calls `compute` with the options of the caller and those that the function implies; issues the warnings."""
+    """Calls `compute` with the options of the caller and those that the function implies. Issues the warnings."""
     progress = split_progress(options, _core.option_names())
     result = compute(_merged(options, implied), progress)
     for warning in result.warnings():
@@ -59,7 +59,7 @@ def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) 
 
 
 def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
-    """Returns the options, with measure="both" where only the thickness would be measured."""
+    """Returns the options, with measure="both" if they would measure only the thickness."""
     measure = options.get("measure")
     has_limit = measure is None and options.get("thinner_than") is not None
     is_thickness = isinstance(measure, str) and measure == "thickness"

@@ -30,11 +30,11 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: ArrayLike) -> Mesh:
     """Makes a Mesh of faces with any number of corners, for example from Blender or VTK.
 
-    vertices: (n, 3). corners: (k,) indices of vertices; a face has its corners counter-clockwise seen from outside.
+    vertices: (n, 3). corners: (k,) indices of vertices, for each face counter-clockwise seen from outside.
     first_corner: (m + 1,), ascending from 0 to k: face i has the corners corners[first_corner[i]:first_corner[i + 1]].
 
-    Functions return a value per face. A face of several triangles has the least of their thicknesses; other values are
-    means weighted by area. Arrays are copied. Raises InputError.
+    Functions return a value per face. If a face has several triangles, it gets the least of their thicknesses, and
+    area-weighted means of their other values. Arrays are copied. Raises InputError.
     """
     return _core.mesh_of_polygons(*polygon_arrays(vertices, corners, first_corner))
 
@@ -119,13 +119,13 @@ def write_points(
 ) -> None:
     """Writes skeleton points with their radii: trees in .swc, a point cloud in .ply (binary). Replaces atomically.
 
-    points, radii: (k, 3) and (k,), as of skeleton_points(). Left out are points with a number that is not finite,
-        and in .swc those whose radius is not above 0.
-    components: (k,) integers: each component is a tree of .swc, as by info.fields["component"] of
-        compute(centres=True); None: one tree.
+    points, radii: (k, 3) and (k,), for example of skeleton_points(). Points with a number that is not finite are left
+        out, in .swc also points whose radius is not above 0.
+    components: (k,) integers, for example info.fields["component"] of compute(centres=True). In .swc, each component is
+        a tree. None: one tree.
 
-    A tree is the minimum spanning tree of its points. Its root is the point with the greatest radius.
-    Raises OutputError, InputError, UsageError.
+    A tree is the minimum spanning tree of its points. Its root is the point with the greatest radius. Raises
+    OutputError, InputError, UsageError.
     """
     target = _path(path)
     if target != "-" and os.path.splitext(target)[1].lower() not in (".swc", ".ply"):

@@ -27,7 +27,7 @@ def _computed(vertices: Any, faces: Any, options: dict[str, Any], **implied: Any
 
 
 def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]) -> Info:
-    """Computes everything that the options name in one pass: fields and report.
+    """Computes fields and report for all given options in one pass.
 
     vertices: (n, 3) float32 or float64, or an object with `vertices` and `faces` (Mesh, trimesh.Trimesh).
     faces: (m, 3) int32, uint32 or int64 indices, counter-clockwise seen from outside. Other integer types are
@@ -50,7 +50,7 @@ def shape_diameter(
     options: seeds (faces that cast rays: 0.1, 5000, "10%", "all" or "auto"), rays, cone_angle, recipe, max_error, orient,
         backend, threads, progress, ... (docs/python.md). per="vertex": the mean over the faces of each vertex.
 
-    Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value. Raises and warns as compute().
+    Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value. Raises and warns like compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, with_diameter(given)), "sdf", given)
@@ -59,7 +59,7 @@ def shape_diameter(
 def thickness(
     vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]
 ) -> NDArray[np.float32]:
-    """Wall thickness: diameter of the largest ball that touches a face from inside, clear of opposing walls.
+    """Wall thickness: diameter of the largest ball that touches a face from inside and crosses no opposing wall.
 
     vertices, faces: as for compute(). All faces are measured; `seeds` has no effect. Further options:
     thinner_than: judge whether any point of the surface is thinner than this length (unit of the mesh), and find the
@@ -67,7 +67,7 @@ def thickness(
     allow_sharp_edges: leave thin regions with a sharp edge or tip out of the verdict. Needs thinner_than.
 
     Returns float32 (m,) at the barycentres, or (n,) with per="vertex", in the unit of the mesh, NaN = no value. Raises
-    and warns as compute().
+    and warns like compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, given, measure="thickness"), "thickness", given)
@@ -89,8 +89,8 @@ def segment(
         ("all" clusters, or only the "first" as in CGAL 5.5.1). Segments of CGAL's values need definition="cgal" too;
         see asdf_vk.compat.cgal.
 
-    Returns int32 (m,) or (n,), labels 0 to k - 1 ascending by mean value, -1 for a face without a triangle. Raises
-    and warns as compute().
+    Returns int32 (m,) or (n,), labels 0 to k - 1 ascending by mean value, -1 for a face without a triangle. Raises and
+    warns like compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, given, segment=method_of(method)), "segment", given)
@@ -103,8 +103,8 @@ def skeleton_points(
 
     vertices, faces, options: as for shape_diameter().
 
-    Returns points, float64 (m, 3), and radii, float32 (m,), half of the shape diameters. Both are NaN
-    where a face has no value. Raises and warns as compute().
+    Returns points, float64 (m, 3), and radii, float32 (m,), half of the shape diameters. Both are NaN if a face has no
+    value. Raises and warns like compute().
     """
     given = dict(options)
     return skeleton_of(_computed(vertices, faces, given, centres=True), given)
@@ -121,13 +121,13 @@ def radii(
 ) -> NDArray[np.float64]:
     """Radius of the largest ball in the shape that is centred at each point, for example at nodes of a skeleton.
 
-    vertices, faces: as for shape_diameter(); faces is None where `vertices` is an object with both.
+    vertices, faces: as for shape_diameter(); faces is None if `vertices` is an object with both.
     points: (k, 3). orient: as for asdf_vk.Scene. Scene.radii() saves time for several calls.
     options: session, or backend, device, require_gpu and threads.
 
     Returns float64 (k,), in the unit of the mesh: the distance to the nearest face. NaN for a point in front of this
-    face or outside of the bounding box. Surfaces inside of the shape, as where parts overlap, stop the ball too.
-    Raises InputError, UsageError, DeviceError, CancelledError.
+    face or outside of the bounding box. Surfaces inside of the shape, for example of overlapping parts, also limit the
+    ball. Raises InputError, UsageError, DeviceError, CancelledError.
     """
     with Scene(vertices, faces, orient=orient, **options) as scene:
         return scene.radii(points, progress=progress)

@@ -26,9 +26,9 @@ class Scene:
     orient: "keep", "auto" (reverse inverted closed components) or "flip" (reverse all faces).
     options: session, or backend, device, require_gpu and threads.
 
-    `faces=` of the methods is a region: a mask, (m,) bool, or indices of faces. Rays are cast by faces of the region
-    only and hit the whole mesh; the other faces have no value.
-    Any number of threads may use a scene; one computation of a session runs at a time.
+    `faces=` of the methods is a region: a mask, (m,) bool, or indices of faces. Only faces of the region cast rays and
+    get values; the rays hit the whole mesh. Any number of threads may use a scene; one computation of a session runs at
+    a time.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Scene:
         session = session_of(settings)
         split_progress(settings, ())
         mesh = mesh_argument(vertices, faces)
-        if isinstance(mesh, tuple):  # The scene outlives the call; the caller may change the arrays then.
+        if isinstance(mesh, tuple):  # Copies, because the caller may change the arrays after this call.
             mesh = mesh[0].copy(), mesh[1].copy()
         self._open: _core.Scene | None = _core.Scene(
             session._opened, mesh, {"orient": orient}, checked_progress(progress)
@@ -77,18 +77,18 @@ class Scene:
         points: (k, 3), on the surface or inside. normals: (k, 3), outwards, of any length above 0.
         options: definition, rays, cone_angle, false_hit_angle, outlier_deviations, cone_rotation, progress.
 
-        Returns float32 (k,), in the unit of the mesh, NaN = no value. Rays start inside of the
-        point by 1e-5 of the diagonal of the bounding box, so that they do not hit the surface at the point.
+        Returns float32 (k,), in the unit of the mesh, NaN = no value. Rays start 1e-5 of the diagonal of the bounding
+        box below the point, so that they do not hit the surface at the point.
         """
         settings: dict[str, Any] = dict(options)
         progress = split_progress(settings, ConeOptions.__annotations__)
         return self._opened.values_at(*pairs_array(points, normals), settings, progress)
 
     def distance(self, points: ArrayLike, *, progress: Progress | None = None) -> NDArray[np.float64]:
-        """Distance of each point to the nearest point of the surface, inside and outside alike.
+        """Distance of each point to the nearest point of the surface, for points inside and outside.
 
-        points: (k, 3). Returns float64 (k,), in the unit of the mesh, never negative. Faces without an area do not
-        count. Raises InputError for a point that is not finite, and where no face has an area.
+        points: (k, 3). Returns float64 (k,), in the unit of the mesh, never negative. Ignores faces without an area.
+        Raises InputError if a point is not finite or no face has an area.
         """
         return self._opened.distance(float_points(points), False, checked_progress(progress))
 

@@ -23,7 +23,7 @@ class Device:
     kind: str
     usable: bool
     reason: str
-    """Reason "chosen" for the default device; for others, why they are ranked lower or rejected."""
+    """"chosen" for the default device. For other devices, the reason why the device is rejected or has a lower rank."""
 
 
 def devices() -> list[Device]:
@@ -36,7 +36,7 @@ class Session:
 
     backend: "auto" (Vulkan, else the CPU), "vulkan", "cpu" (single precision) or "reference" (double precision).
     device: a Vulkan device, by index or by a part of its name; empty: the device of the highest rank.
-    require_gpu: raise DeviceError where the CPU would trace.
+    require_gpu: raise DeviceError if the CPU would trace.
     threads: number of CPU threads; 0: the number of cores. Results do not depend on the number.
     None stands for the default of an option.
 
@@ -71,7 +71,7 @@ class Session:
         return self._opened.runs_on_cpu
 
     def close(self) -> None:
-        """Releases the device; scenes of the session keep it until they are closed."""
+        """Releases the device. Open scenes of the session keep the device."""
         self._open = None
 
     def __enter__(self) -> Session:
@@ -130,7 +130,7 @@ def default_session(**options: Any) -> Session:
 
 @atexit.register
 def close_default_sessions() -> None:
-    """Releases the devices that the free functions use. They are opened again when needed."""
+    """Releases the devices that the free functions use. A later call opens them again."""
     with _default_sessions_lock:
         _default_sessions.clear()
 

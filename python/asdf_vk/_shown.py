@@ -36,7 +36,7 @@ def table_of(report: Report) -> str:
 
 
 def texts_of(report: Report | None, name: str, label: str, face_count: int) -> dict[str, object]:
-    """Returns the texts of a layer of a page. report: the report of the result, if it has one."""
+    """Returns the texts of a layer of a page. report: None if the result has no report."""
     summary, sentence = [("Mesh", f"faces: {face_count:,}")], ""
     warnings: list[str] = []
     defects: list[str] = []

@@ -79,7 +79,7 @@ def mesh_of(asdf_vk, obj):
 
 
 class Computation(threading.Thread):
-    """asdf_vk.compute() in a thread of its own. The main thread reads `fraction` and sets `is_cancelled`."""
+    """asdf_vk.compute() in a separate thread. The main thread reads `fraction` and sets `is_cancelled`."""
 
     def __init__(self, asdf_vk, mesh, options) -> None:
         super().__init__(daemon=True)
@@ -176,7 +176,7 @@ def set_materials(mesh, segments) -> None:
 
 
 def length(context, value: float, other: float = np.nan) -> str:
-    """In the unit of the scene: four digits, and up to six where it takes more to differ from another length."""
+    """A length in the unit of the scene: four digits, or up to six to differ from the text of another length."""
     settings = context.scene.unit_settings
 
     def text(number: float, digits: int) -> str:
@@ -206,7 +206,7 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
         text = f"{info.segment_count} part{'s' if info.segment_count != 1 else ''}"
     elif measure == "THICKNESS":
         least, report = info.fields["least_thickness"], info.thickness
-        lowest = limit if report.regions else 0  # Without a thin region, what is below the limit is so by rounding.
+        lowest = limit if report.regions else 0  # Without a thin region, values are below the limit only by rounding.
         set_colours(mesh, colours_of(least, lowest))
         text = f"least thickness {length(context, report.min, limit)}"
         if limit > 0:

@@ -1,9 +1,9 @@
 """Macro of FreeCAD 0.20 and later: checks the wall thickness of the selected shape in mm.
 
 Copy this file into the folder of macros (Macro, Macros, User macros location), select a solid or a mesh, and run the
-macro. The limit is entered in a panel. The result is a group with a mesh in the colours of its thickness, red where it
-is thinner than the limit, and with the thin places. A click on a place, in the panel or in the tree, shows the place.
-In a script, also with freecadcmd:
+macro. The limit is entered in a panel. The result is a group with the thin places, and with a mesh in the colours of
+its thickness, red below the limit. A click on a place, in the panel or in the tree, shows the place. In a script, also
+with freecadcmd:
 
     import asdf_vk_freecad
     report = asdf_vk_freecad.check(document.Body, 0.8).thickness
@@ -43,7 +43,7 @@ def module():
 
 
 def length(value: float, limit: float) -> str:
-    """In mm: four digits, and up to six where it takes more to differ from the limit."""
+    """A length in mm: four digits, or up to six to differ from the text of the limit."""
     digits = next((n for n in (4, 5, 6) if f"{value:.{n}g}" != f"{limit:.{n}g}"), 4)
     return f"{value:.{digits}g} mm"
 
@@ -54,7 +54,7 @@ def summary(report) -> str:
 
 
 def triangles_of(obj, deviation: float):
-    """Vertices (n, 3) in mm in the document, and triangles (m, 3). Each solid has vertices of its own."""
+    """Vertices (n, 3) in mm in the document, and triangles (m, 3). No two solids share a vertex."""
     if obj.isDerivedFrom("Mesh::Feature"):
         placed = obj.Mesh.copy()
         placed.Placement = obj.getGlobalPlacement()
@@ -70,7 +70,7 @@ def triangles_of(obj, deviation: float):
     else:
         meshes = []
     if not any(mesh.CountFacets for mesh in meshes):
-        raise ValueError(f"{obj.Label} has no faces; select a solid, a body or a mesh, and of a link its original")
+        raise ValueError(f"{obj.Label} has no faces; select a solid, a body, a mesh, or the original of a link")
     vertices, triangles, count = [], [], 0
     for mesh in meshes:
         points, faces = mesh.Topology
@@ -99,9 +99,9 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
     """Checks the walls of an object, and adds the result to its document.
 
     limit: mm. deviation: greatest distance of the triangles from curved faces, mm; a wall between two curved faces can
-    look thinner by twice this length. progress: called with a fraction from 0 to 1 and a text; False cancels.
-    Returns the report of asdf_vk.compute(): .thickness.verdict, .thickness.min, .thickness.regions, .fields.
-    Raises ImportError, ValueError, asdf_vk.Error; after asdf_vk.CancelledError the document is unchanged.
+    look thinner by twice this length. progress: called with a fraction from 0 to 1 and a text; False cancels. Returns
+    the report of asdf_vk.compute(): .thickness.verdict, .thickness.min, .thickness.regions, .fields. Raises
+    ImportError, ValueError, asdf_vk.Error; after asdf_vk.CancelledError the document is unchanged.
     """
     asdf_vk = module()
     if not limit > 0 or not deviation > 0:
@@ -120,8 +120,8 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
 
 
 def colours_of(least, limit: float, is_thin: bool) -> list:
-    """Viridis from the limit to the greatest value, grey without a value; red below the limit where walls are thin.
-    Where none is, what is below the limit is so by rounding."""
+    """Viridis from the limit to the greatest value, grey without a value, red below the limit. Without thin walls
+    nothing is red: values are then below the limit only by rounding."""
     colours = np.tile(GREY, (len(least), 1))
     has_value = np.isfinite(least)
     if has_value.any():
@@ -202,8 +202,6 @@ def show_place(place) -> None:
 
 
 class Panel:
-    """The task panel."""
-
     def __init__(self, obj) -> None:
         from PySide import QtGui
 
@@ -270,7 +268,7 @@ class Panel:
 
 
 def show_panel():
-    """Opens the panel for the selected object. The macro calls it."""
+    """Opens the panel for the selected object."""
     import FreeCADGui
 
     selection = FreeCADGui.Selection.getSelection()

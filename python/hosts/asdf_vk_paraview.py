@@ -6,11 +6,11 @@ In ParaView: Tools, Manage Plugins, Load New. In pvpython, pvbatch and the Pytho
     asdf_vk_paraview.load(globals())
     walls = WallThickness(Input=part, Limit=0.8)
 
-The filters are in the menu Filters, asdf-vk. ParaView 5.11 with Python 3.11, as in Debian 12, loads Python plug-ins
-after this import only, because it imports a function that Python 3.11 removed.
+The filters are in the menu Filters, asdf-vk. ParaView 5.11 imports a function that Python 3.11 removed. With Python
+3.11, as in Debian 12, ParaView 5.11 therefore loads Python plug-ins only after this import.
 
-Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has
-functions with the same results for scripts of VTK and PyVista.
+Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has functions with the
+same results for scripts of VTK and PyVista.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class WallThickness(SurfaceFilter):
         limit = self.options.get("thinner_than")
         if limit is None:
             return
-        # Without a thin region, what is below the limit is so by rounding.
+        # Without a thin region, values are below the limit only by rounding.
         thin = (info.fields["least_thickness"] < limit) & bool(info.thickness.regions)
         cells.add_array(surface, "thin", thin.astype("u1"))
         verdict, least = vtkStringArray(), vtkDoubleArray()

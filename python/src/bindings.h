@@ -4,7 +4,6 @@
 
 namespace asdfvk::python {
 
-/// Adds Mesh, the readers and the writers.
 void bindFiles(pybind11::module_& module);
 
 /// Adds write_picture(path, mesh, fields, name) and write_page(path, mesh, layers). name: name of the field; empty: the
@@ -12,7 +11,6 @@ void bindFiles(pybind11::module_& module);
 /// defects.
 void bindShown(pybind11::module_& module);
 
-/// Adds ComputedFields, Session and Scene.
 void bindScenes(pybind11::module_& module);
 
 /// Adds the functions of asdf_vk/cgal.h: postprocess_sdf(mesh, values, threads, progress) -> (normalized, min, max) and

@@ -7,8 +7,8 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// The destructor blocks an unwinding thread for ever: a catch inside of the handler of another exception would end the
-/// process.
+/// Its destructor blocks an unwinding thread for ever. A catch clause cannot do this, because in the handler of another
+/// exception it would end the process.
 class UnwindingStop {
  public:
   UnwindingStop() = default;

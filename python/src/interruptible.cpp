@@ -32,7 +32,7 @@ struct Progress {
   std::atomic<const char*> stage{""};
 };
 
-/// Calls `callback` where the progress has changed. Returns whether the work may go on.
+/// Calls `callback` if the progress has changed. Returns whether the work may go on.
 class ProgressCall {
  public:
   ProgressCall(const Progress& progress, const py::object& callback) : progress_(progress), callback_(callback) {}
@@ -54,8 +54,8 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
-/// Threads that run tasks; as many as tasks ever ran at once. They are kept to the end of the process, because TBB
-/// 2021.8 leaks some 10 KB with each thread that used it while the processors were busy, and then ended.
+/// Threads that run tasks: the greatest number of simultaneous tasks so far. Threads are kept until the end of the
+/// process, because TBB 2021.8 leaks about 10 KB when a thread ends that used it while the processors were busy.
 class Workers {
  public:
   /// `task` may be destroyed after its future is ready.

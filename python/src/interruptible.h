@@ -14,8 +14,8 @@ namespace asdfvk::python {
 /// (bool or numpy.bool_), Error{Cancelled} is thrown in the same way. Throws what `work` throws.
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
 
-/// Stops all `work` that daemon threads have left behind, and waits for its end. For the end of the process, when no
-/// thread can return to Python, because destructors of libraries then release what `work` uses.
+/// Stops each `work` that a daemon thread left running, and waits for its end. Called at the end of the process, when
+/// no thread can return to Python, because destructors of libraries then release what `work` uses.
 void stopAtExit();
 
 /// Throws Error{ForkedProcess} in a process that was forked after the first call. Such a process has no threads or

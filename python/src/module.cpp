@@ -99,7 +99,7 @@ PYBIND11_MODULE(_core, module) {
 #undef PyInit__core
 
 extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
-  // pybind11 2 waits forever for the GIL if a sub-interpreter is the first to use it.
+  // pybind11 2 waits forever for the GIL if the first interpreter that uses it is a sub-interpreter.
   if (PyInterpreterState_Get() == PyInterpreterState_Main()) return asdfvkInitialiseCore();
   PyErr_SetString(PyExc_ImportError,
                   "asdf_vk can be imported by the main interpreter of a process only, not by sub-interpreters");

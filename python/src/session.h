@@ -32,7 +32,7 @@ class SharedSession {
  public:
   /// Throws Error{ForkedProcess} and the errors of Session().
   explicit SharedSession(const SessionSettings& settings);
-  /// In a forked process nothing is released: the threads of the device do not exist there.
+  /// Releases nothing in a forked process, where the threads of the device do not exist.
   ~SharedSession();
   SharedSession(const SharedSession&) = delete;
   SharedSession& operator=(const SharedSession&) = delete;

@@ -1,4 +1,3 @@
-// Pages and pictures of fields on a mesh.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 

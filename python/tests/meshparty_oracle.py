@@ -12,7 +12,7 @@ from shapes import Mesh
 
 
 class TrimeshLike:
-    """What MeshParty reads of a mesh: normals of vertices are means over their faces, weighted by the angles there."""
+    """The members of a mesh that MeshParty reads. Normals of vertices are means over faces, weighted by the angles."""
 
     def __init__(self, mesh: Mesh) -> None:
         self.vertices, self.faces = np.asarray(mesh[0], np.float64), np.asarray(mesh[1])
@@ -51,7 +51,7 @@ def rotation_to(axis: NDArray[Any]) -> NDArray[Any]:
 
 
 class Oracle:
-    """Adds up the seconds of its rays, which MeshParty leaves to Embree, and of all else."""
+    """Sums the seconds of the rays, which MeshParty leaves to Embree, and the seconds of all else."""
 
     def __init__(self) -> None:
         self.ray_seconds = self.other_seconds = 0.0

@@ -1,4 +1,4 @@
-"""The examples of the manual run and print what they say."""
+"""Runs the examples of the manual, and compares their output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What needs no host program; scripts/test-hosts runs the add-ons in theirs."""
+"""Parts of the add-ons that need no host program. scripts/test-hosts runs the add-ons in their programs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def test_the_package_has_the_add_ons() -> None:
         documentation = ast.get_docstring(ast.parse(path.read_text()))
         assert documentation and path.parent == Path(next(iter(asdf_vk.hosts.__path__)))
     version = tuple(map(int, asdf_vk.__version__.split(".")))
-    assert f'"version": {version},' in paths[0].read_text()  # Of the add-on, which Blender reads without running it.
+    assert f'"version": {version},' in paths[0].read_text()  # Blender reads this version without running the add-on.
 
 
 def _surface(with_line: bool) -> Any:

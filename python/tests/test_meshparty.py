@@ -52,7 +52,7 @@ def test_values_are_those_of_the_definition(name: str, reference: asdf_vk.Sessio
     found = meshparty.shape_diameter_function(inds, mesh, session=reference)
     assert found.dtype == np.float64
     np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))
-    # Where a ray meets a vertex, that of the oracle may pass between triangles.
+    # If a ray meets a vertex, the ray of the oracle may pass between triangles.
     different = ~np.isclose(found, expected, rtol=1e-9, equal_nan=True)
     assert different.sum() <= 1, (found[different], expected[different])
 
@@ -76,7 +76,7 @@ def test_normals_are_computed_where_the_mesh_has_none(reference: asdf_vk.Session
     np.testing.assert_allclose(
         meshparty.shape_diameter_function(inds, Plain, session=reference),
         meshparty.shape_diameter_function(inds, mesh, session=reference), rtol=1e-6)
-    many = np.tile(inds, 4000)  # Several parts.
+    many = np.tile(inds, 4000)  # More rays than one part.
     found = meshparty.shape_diameter_function(many, Plain, 30, session=reference)
     np.testing.assert_array_equal(found, np.tile(found[:12], 4000))
 

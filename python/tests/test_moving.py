@@ -1,4 +1,4 @@
-"""The rows of docs/moving.md whose library is installed: their call and ours on one shape."""
+"""For each row of docs/moving.md whose library is installed: its call and that of asdf_vk on one shape."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def barycentres_and_normals(vertices: NDArray[Any], faces: NDArray[Any]) -> tupl
 
 
 def first_hits(vertices: NDArray[Any], faces: NDArray[Any], origins: NDArray[Any], axes: NDArray[Any]) -> NDArray[Any]:
-    """Distances to the first triangle along each ray, itself excluded (t > 1e-6), by Moeller and Trumbore; or inf."""
+    """Distances to the first triangle along each ray beyond 1e-6, or inf (Möller and Trumbore 1997)."""
     a = vertices[faces[:, 0]]
     edge1, edge2 = vertices[faces[:, 1]] - a, vertices[faces[:, 2]] - a
     found = np.full(len(origins), np.inf)
@@ -122,6 +122,6 @@ def test_libigl_shape_diameter() -> None:
     points, normals = barycentres_and_normals(vertices, faces)
     theirs = embree.shape_diameter_function(vertices, faces, points, normals, 1000)
     ours = asdf_vk.Scene(vertices, faces).at(points, normals, rays=1000)
-    # The mean chord over a half-space is 1 on a unit sphere; ours is 1.717 by its cone and weights.
+    # The mean chord over a half-space is 1 on a unit sphere; asdf_vk has 1.717, because of its cone and weights.
     np.testing.assert_allclose(np.median(theirs), 1, rtol=0.05)
     np.testing.assert_allclose(np.median(ours), 1.717, rtol=0.01)

@@ -52,7 +52,7 @@ def test_import_opens_nothing() -> None:
     threads = len(os.listdir("/proc/self/task")) - threads_of_numpy
     print("vulkan" in maps, threads, len(os.listdir("/proc/self/fd")))
     """
-    # No driver, no thread beside those of NumPy, such as OpenBLAS's; the descriptors are the three standard streams and that of the listing.
+    # No driver, and no thread except those of NumPy. The descriptors are three standard streams and that of the listing.
     assert output(code).split() == ["False", "0", "4"]
 
 
@@ -104,7 +104,8 @@ def test_the_interpreter_goes_on_while_rays_are_traced() -> None:
 
 def test_calls_keep_the_memory() -> None:
     # In a fresh process, because the heap of a test run with threads grows and shrinks by itself. A leak grows in every
-    # block of calls, what a library allocates once or twice does not. TBB loses memory only where processors are busy.
+    # block of calls; memory that a library allocates once or twice does not. TBB loses memory only if processors are
+    # busy.
     code = """
     def resident_bytes():
         return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
@@ -259,7 +260,7 @@ def test_a_fork_before_the_first_use() -> None:
 def test_a_fork_after_the_first_use_is_a_clear_error(tmp_path: Path, first: str) -> None:
     path = tmp_path / "cube.ply"
     asdf_vk.write(path, cube())
-    # The child ends as a program does, not by os._exit(): sessions are released, or left alone, without a hang.
+    # The child ends like a program, not by os._exit(): sessions are released, or left alone, without a hang.
     code = f"""
     path = {str(path)!r}
     result = asdf_vk.{first}

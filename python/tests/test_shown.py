@@ -26,7 +26,7 @@ def meshes_of(page: Path) -> list[dict[str, Any]]:
 
 
 def numbers(page: Path, array: int, count: int) -> Any:
-    """docs/page-format.md."""
+    """An array of a page (docs/page-format.md)."""
     found = re.search(f'<script type="[^"]*" id="array-{array}">(.*?)</script>', page.read_text(), re.DOTALL)
     assert found is not None
     planes = np.frombuffer(zlib.decompress(base64.b64decode(found[1])), "u1").reshape(-1, count)

@@ -15,7 +15,7 @@ from shapes import Mesh, cube, joined, sphere
 
 
 class Trimesh:
-    """What the function reads of a trimesh.Trimesh."""
+    """The members of a trimesh.Trimesh that the function reads."""
 
     def __init__(self, mesh: Mesh) -> None:
         self.vertices, self.faces = mesh

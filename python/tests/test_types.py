@@ -1,4 +1,4 @@
-"""Type annotations: of the package, of these tests, and as a caller sees them."""
+"""Type annotations of the package and of these tests, and their effect in the code of a caller."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_the_package_and_its_tests_are_typed() -> None:
     found = mypy(
         "--cache-dir=/dev/null", str(_PACKAGE), "python/tests", "python/cgal_Segmentation_Module.py"
     )
-    # mypy 1.15 warns before that Unpack is no longer incomplete; mypy 1.0 needs it enabled.
+    # mypy 1.15 first warns that Unpack is no longer incomplete; mypy 1.0 needs it enabled.
     assert re.search(r"^Success", found, re.MULTILINE), found
 
 

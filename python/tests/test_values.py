@@ -55,7 +55,7 @@ def test_the_verdict_of_the_thickness() -> None:
     assert report.greatest_section.diameter == pytest.approx(1, rel=2e-3)
     assert report.unjudged.open_count == report.unjudged.inverted_count == 0
     np.testing.assert_allclose(info.fields["least_thickness"].min(), report.min, rtol=1e-6)
-    # All faces are measured, whatever the seeds are; a limit changes no value.
+    # All faces are measured for any seeds. A limit changes no value.
     given: tuple[int | str, ...] = (1, "all")
     for seeds in given:
         np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)

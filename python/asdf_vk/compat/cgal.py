@@ -4,17 +4,16 @@
     values, (low, high) = cgal.sdf_values(vertices, faces)
     labels, count = cgal.segmentation_from_sdf_values(vertices, faces, values)
 
-Names of parameters and defaults are CGAL's. The functions follow the manual and the outputs of
-CGAL 5.5.1 and contain none of its code. What differs:
+Names of parameters and defaults are those of CGAL. The functions follow the manual and the outputs of CGAL 5.5.1 and
+contain none of its code. Differences:
 
 - A missing value is NaN in results; CGAL has -1. Both are accepted in arguments.
-- All clusters are expanded by default, as some versions of CGAL do; expansion="first" is the rule
-  of CGAL 5.5.1.
-- Meshes need not be manifold. Two faces of equal orientation are neighbours across an edge that no
-  other face has. An edge of more faces is divided in the way in which CGAL's readers split
-  vertices. CGAL's readers also reverse faces of such meshes.
-- Fewer different values than clusters, and a mesh without any value, are errors (InputError, codes
-  "tooFewValues" and "noValues"); CGAL does not end, or crashes.
+- All clusters are expanded by default, as in some versions of CGAL; expansion="first" is the rule of CGAL 5.5.1.
+- Meshes need not be manifold. Two faces of equal orientation are neighbours across an edge that no other face has. An
+  edge of more faces is divided in the same way as CGAL's readers split vertices. CGAL's readers also reverse faces of
+  such meshes.
+- It is an error (InputError) if there are fewer different values than clusters (code "tooFewValues"), or if no face has
+  a value (code "noValues"). CGAL then crashes or does not end.
 - None stands for the default of each keyword.
 - number_of_clusters is 2 to 100, smoothing_lambda 0 to 1000, number_of_rays 1 to 1024.
 """
@@ -56,21 +55,20 @@ def sdf_values(
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
     """CGAL's sdf_values(): the shape diameter of each face, by default post-processed.
 
-    vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`; see
-        asdf_vk.shape_diameter().
+    vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`; see asdf_vk.shape_diameter().
     cone_angle: full opening angle in radians, above 0 and below pi; rounded to 1e-9 degrees.
     number_of_rays: per face, 1 to 1024.
     postprocess: apply sdf_values_postprocessing().
-    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The values of
-        the other faces are interpolated; segments then differ from CGAL's.
+    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The values of the other faces are
+        interpolated; segments then differ from those of CGAL.
     progress: called with a fraction from 0 to 1 and the name of the stage; False cancels.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
-    Returns the values, float64 (m,), and a pair of the least and the greatest value. Post-processed
-    values are in [0, 1], without NaN; the pair is then that of the smoothed values before they are
-    mapped to [0, 1], in the unit of the mesh. Other values, and their pair, are in the unit of the
-    mesh, NaN = no value; the pair is NaN where no face has a value.
-    Raises InputError, UsageError, DeviceError, CancelledError. Issues MeshWarning.
+    Returns the values, float64 (m,), and a pair of numbers in the unit of the mesh. Post-processed values are
+    in [0, 1], without NaN; the pair is the least and the greatest smoothed value before the mapping to [0, 1]. Without
+    post-processing, the values are in the unit of the mesh, NaN = no value; the pair is the least and the greatest
+    value, or NaN if no face has a value. Raises InputError, UsageError, DeviceError, CancelledError. Issues
+    MeshWarning.
     """
     try:
         if isinstance(cone_angle, (bool, np.bool_)):
@@ -108,13 +106,12 @@ def sdf_values_postprocessing(
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
     """CGAL's sdf_values_postprocessing(): fills missing values, smooths, and maps to [0, 1].
 
-    vertices, faces: as for sdf_values(); faces is None where `vertices` is an object with both.
+    vertices, faces: as for sdf_values(); faces is None if `vertices` is an object with both.
     sdf_values: (m,), at least 0 and finite; NaN and -1 are missing values. The array is not changed.
     threads: CPU threads; 0: the number of cores. progress: as for sdf_values().
 
-    Returns float64 (m,) in [0, 1], and a pair of the least and the greatest smoothed value, in the
-    unit of `sdf_values`. If all smoothed values are equal, they are not mapped to [0, 1].
-    Raises InputError, CancelledError.
+    Returns float64 (m,) in [0, 1], and a pair of the least and the greatest smoothed value, in the unit of
+    `sdf_values`. Smoothed values that are all equal are not mapped to [0, 1]. Raises InputError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
     values = _values_of(sdf_values, mesh)
@@ -137,18 +134,18 @@ def segmentation_from_sdf_values(
     """CGAL's segmentation_from_sdf_values(): clusters of values, and a graph cut into segments.
 
     vertices, faces: as for sdf_values_postprocessing().
-    sdf_values: (m,), post-processed: 0 to 1. NaN and -1 are missing values, which are filled as by
-        sdf_values_postprocessing(). The array is not changed.
+    sdf_values: (m,), post-processed: 0 to 1. Missing values, NaN and -1, are filled as by sdf_values_postprocessing().
+        The array is not changed.
     number_of_clusters: 2 to 100. A cluster has any number of segments.
     smoothing_lambda: weight of the boundaries, 0 to 1000; CGAL's manual has 0 to 1.
     output_cluster_ids: return the clusters instead of the segments.
     expansion: clusters that the graph cut expands: "all", or only the "first" as in CGAL 5.5.1.
     threads, progress: as for sdf_values_postprocessing().
 
-    Returns int32 (m,), labels 0 to k - 1 ascending by mean value, and k, the number of segments; or
-    the clusters and `number_of_clusters`. The labels are CGAL's if the values are CGAL's to about
-    1e-5 of the range. Noise of 1e-3 may change many labels.
-    Raises InputError, UsageError, CancelledError.
+    Returns int32 (m,), labels 0 to k - 1 ascending by mean value, and k, the number of segments. With
+    output_cluster_ids, returns the clusters and `number_of_clusters`. The labels equal those of CGAL if the values
+    agree with those of CGAL to about 1e-5 of the range. Noise of 1e-3 may change many labels. Raises InputError,
+    UsageError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
     values = _values_of(sdf_values, mesh)
@@ -167,7 +164,7 @@ def segmentation_from_sdf_values(
 def values_and_segments(
     vertices: Any, faces: ArrayLike | None, segmentation: dict[str, Any], options: dict[str, Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Returns post-processed values and segments, without warnings. options: of the backend."""
+    """Returns post-processed values and segments, without warnings. options: as for sdf_values()."""
     computed = _computed(vertices, faces, {"segment": "cgal", **segmentation}, options, None)
     return computed.array("normalized", single=False), computed.array("segment")
 

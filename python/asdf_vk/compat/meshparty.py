@@ -3,21 +3,20 @@
     from asdf_vk.compat import meshparty
     values = meshparty.shape_diameter_function(mesh_inds, mesh)
 
-Parameters and defaults are MeshParty's (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). Nothing
-of MeshParty is imported. The function computes MeshParty's definition:
+Parameters and defaults are those of MeshParty (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). Nothing of
+MeshParty is imported. The function computes MeshParty's definition:
 
-- A ray starts one unit of length below its vertex, at vertex - vertex normal. MeshParty's meshes are
-  in nanometres; a mesh that is about one unit large must be scaled first.
-- num_points directions: a Vogel disk of radius 1 at the height 1 / tan(cone_angle) above the start,
-  around the reversed vertex normal. cone_angle is half of the opening angle, in radians.
-- The length of a ray is the distance from its start to its first hit. Its weight is 1 / angle, with
-  the angle between the ray and the normal of the face that it hits. A ray is dropped if its angle
-  is below median - deviation, or above both median + deviation and a right angle. Median and standard
-  deviation are those of the angles of the cone.
+- A ray starts one unit of length below its vertex, at vertex - vertex normal. MeshParty's meshes are in nanometres; a
+  mesh that is about one unit large must be scaled first.
+- num_points directions: a Vogel disk of radius 1 at the height 1 / tan(cone_angle) above the start, around the reversed
+  vertex normal. cone_angle is half of the opening angle, in radians.
+- The length of a ray is the distance from its start to its first hit. Its weight is 1 / angle, with the angle between
+  the ray and the normal of the face that it hits. A ray is dropped if its angle is below median - deviation, or above
+  both median + deviation and a right angle. Median and standard deviation are those of the angles of the cone.
 - The value is the weighted mean of the lengths; NaN if no ray hits.
 
-What differs: hits are found in double precision, Embree's in float32. Where no ray of any cone hits,
-all values are NaN; MeshParty fails.
+Differences: hits are computed in double precision, in Embree in float32. If no ray of any cone hits, all values are
+NaN; MeshParty fails.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
 
 __all__ = ["shape_diameter_function"]
 
-_RAYS_AT_ONCE = 1 << 20  # They take about 150 MB.
+_RAYS_AT_ONCE = 1 << 20  # About 150 MB.
 
 
 def shape_diameter_function(
