@@ -1,4 +1,4 @@
-# Cross-compiles for aarch64 with Debian's compiler and runs what the build makes under qemu: scripts/test-systems.
+# Cross-compiles for aarch64 with Debian's compiler, and runs programs of the build under qemu (scripts/test-systems).
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

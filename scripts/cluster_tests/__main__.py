@@ -34,8 +34,6 @@ MAX_SHOWN = 10
 
 @dataclasses.dataclass
 class Row:
-    """Of the table."""
-
     engine: str
     version: str
     events: str
@@ -51,7 +49,7 @@ def _say(text: str) -> None:
 
 
 def _interrupt(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
-    """The first run, with its accidents; returns how it ended."""
+    """Runs the recipe and interrupts it by the events of the engine. Returns a text about its end."""
     start = time.monotonic()
     process = engine.submit(results)
     for event in engine.events(results):
@@ -71,7 +69,7 @@ def _interrupt(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
 
 
 def _resume(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
-    """The same call again, which has to skip what is done; returns how it ended."""
+    """Repeats the call, which must skip finished meshes. Returns a text about its end."""
     before, output_count_before = _statuses(results), output_count(results)
     start = time.monotonic()
     code = engine.submit(results).wait(RUN_LIMIT_SECONDS)
@@ -81,7 +79,7 @@ def _resume(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
     _say(f"{engine.name}: {ended}")
     if not engine.only_meshes_failed(code):
         raise Failed(f"the resumed run failed: {ended}")
-    # A result whose process was killed before it recorded it is computed again.
+    # If a process was killed between writing a result and recording it, the result is computed again.
     least = output_count_before - len(engine.events(results))
     if counts["skipped"] < least:
         raise Failed(f"at least {least} meshes were done before: {ended}")

@@ -1,4 +1,4 @@
-"""Programs in the background of the test, all on loopback."""
+"""Background programs of the test, all on loopback."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STOP_LIMIT_SECONDS = 20
 
 
 class Failed(Exception):
-    """The text says what failed."""
+    """A failure of the test, with its reason."""
 
 
 def free_ports(count: int) -> list[int]:
@@ -43,14 +43,14 @@ def answers(port: int) -> bool:
 
 
 def processes_with(program: str, argument: str) -> list[int]:
-    """Those of `program` with an argument that contains `argument`, in ascending order."""
+    """Numbers of the processes of `program` with an argument that contains `argument`, ascending."""
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             arguments = (folder / "cmdline").read_text(errors="replace").split("\0")
-        except OSError:  # It ended.
+        except OSError:  # The process ended.
             continue
-        # A script has its interpreter first.
+        # The first argument of a script's process is the interpreter.
         names = [os.path.basename(one) for one in arguments[:2]]
         if program in names and any(argument in one for one in arguments):
             found.append(int(folder.name))
@@ -58,13 +58,13 @@ def processes_with(program: str, argument: str) -> list[int]:
 
 
 def kill(process_id: int) -> None:
-    """Stopped first, so that what it has written is final when others look."""
+    """Stops the process before killing it, so that its files do not change when others look."""
     os.kill(process_id, signal.SIGSTOP)
     os.kill(process_id, signal.SIGKILL)
 
 
 class Daemons:
-    """Started programs; their output goes to files of `folder`."""
+    """Started programs. Their output is written to files in `folder`."""
 
     def __init__(self, folder: pathlib.Path) -> None:
         self._folder = folder
@@ -72,7 +72,7 @@ class Daemons:
 
     def start(self, name: str, command: Sequence[str], environment: Mapping[str, str],
               is_ready: Callable[[], bool]) -> None:
-        """Returns when it is ready."""
+        """Returns when the program is ready."""
         log = self._folder / f"{name}.out"
         with open(log, "wb") as output:
             process = subprocess.Popen(command, env=dict(environment), stdin=subprocess.DEVNULL,
@@ -87,7 +87,7 @@ class Daemons:
             time.sleep(POLL_SECONDS)
 
     def stop(self) -> None:
-        """All, the last one first."""
+        """Stops all programs, in reverse order of their start."""
         while self._running:
             _, process = self._running.pop()
             process.terminate()

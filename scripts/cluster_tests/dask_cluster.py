@@ -14,7 +14,7 @@ from daemons import HOST, Failed, answers, free_ports, kill
 from engine import Engine, Event, Surroundings
 
 WORKER_COUNT = 2
-PYTHON = "/usr/bin/python3"  # for which Debian's packages are
+PYTHON = "/usr/bin/python3"  # The Python of Debian's packages.
 
 
 class DaskCluster(Engine):
@@ -24,7 +24,7 @@ class DaskCluster(Engine):
         super().__init__(surroundings, "dask")
         self._file = self.folder / "scheduler.json"
         self._port = free_ports(1)[0]
-        self._environment["DASK_CONFIG"] = str(self.folder / "settings")  # none of the user
+        self._environment["DASK_CONFIG"] = str(self.folder / "settings")  # Not the settings of the user.
         self._observer: distributed.Client | None = None
         self._client: subprocess.Popen[str] | None = None
 
@@ -36,7 +36,7 @@ class DaskCluster(Engine):
         recipe = self.recipe("dask_host.sh")
         self._start("scheduler", [recipe, "scheduler", str(self._file), "--host", HOST, "--port",
                                   str(self._port)], lambda: answers(self._port))
-        # The script waits for the file of the scheduler, and the client below for the workers.
+        # The script waits for the file of the scheduler. The client below waits for the workers.
         self._start("workers", [recipe, "workers", str(self._file), str(WORKER_COUNT), "--host",
                                 HOST, "--local-directory", str(self.folder)], self._file.exists)
         file = str(self._file)

@@ -1,4 +1,4 @@
-"""The function of the Dask recipe where no program runs, or one that fails in every way."""
+"""Tests the function of the Dask recipe with programs that do not start or fail in different ways."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from daemons import Failed
 from engine import RECIPES
 from meshes import summary
 
-# What stands in for asdf-vk, and what the record says. $5 is the log.
+# For each name: a program instead of asdf-vk, and code and message of its record. $5 is the log.
 _PROGRAMS = {
     "killed": ("kill -KILL $$", -9, ""),
     "ends without a record": ("echo a reason >&2; exit 3", 3, "a reason"),
@@ -38,7 +38,7 @@ def _record(recipe: types.ModuleType, place: pathlib.Path, log_folder: pathlib.P
 
 
 def check(folder: pathlib.Path, asdf_vk: str) -> None:
-    """Fails where the function raises or returns another record."""
+    """Fails if the function raises or returns another record."""
     recipe = _recipe()
     path = os.environ["PATH"]
     for name, (script, code, message) in _PROGRAMS.items():

@@ -1,4 +1,4 @@
-"""What the test needs of a cluster's software, and what it has in common."""
+"""Base class of the cluster software under test."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ class Surroundings:
 
 @dataclasses.dataclass(frozen=True)
 class Event:
-    """An accident while the first run computes."""
+    """An interruption of the first run."""
 
-    share: float  # of the results, from which on it happens
+    share: float  # Share of the results after which it happens.
     what: str
     happen: Callable[[], None]
 
 
 class Engine(abc.ABC):
-    """Files are in `folder`, which is new."""
+    """Cluster software. Its files are in `folder`, which is new."""
 
     name: str
 
@@ -56,15 +56,15 @@ class Engine(abc.ABC):
 
     @abc.abstractmethod
     def submit(self, results: pathlib.Path) -> subprocess.Popen[str]:
-        """Calls the recipe; ends when the meshes are done."""
+        """Starts the recipe. The process ends when all meshes are done."""
 
     @abc.abstractmethod
     def events(self, results: pathlib.Path) -> list[Event]:
-        """Of the first run."""
+        """The interruptions of the first run."""
 
     @staticmethod
     def process_of(results: pathlib.Path) -> int:
-        """The oldest process that computes shards into this folder."""
+        """Returns the oldest process that computes shards into this folder."""
         found: list[int] = []
 
         def find() -> bool:
@@ -78,7 +78,7 @@ class Engine(abc.ABC):
         while True:
             try:
                 return kill(self.process_of(results))
-            except ProcessLookupError:  # It has just ended.
+            except ProcessLookupError:  # The process has just ended.
                 continue
 
     def only_meshes_failed(self, code: int) -> bool:
@@ -101,7 +101,7 @@ class Engine(abc.ABC):
         return done.stdout.strip()
 
     def _recipe(self, results: pathlib.Path, command: Sequence[str]) -> subprocess.Popen[str]:
-        """With what all recipes end with."""
+        """Starts the command with the arguments that all recipes need."""
         arguments = [*command, str(self._surroundings.tree.list_file), str(results), *OPTIONS]
         with open(self.folder / "recipe.out", "a") as output:
             return subprocess.Popen(arguments, env=self._environment, cwd=self.folder, text=True,

@@ -1,4 +1,4 @@
-"""The meshes of the test: a tree of folders, its list, and what a single run makes of it."""
+"""The meshes of the test: a tree of folders, a list of its files, and the results of a single run."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from daemons import Failed
 
 SHAPES = ("animal", "hand", "figure", "sphere", "icosphere", "slab", "cylinder", "torus", "cube")
 FACE_COUNTS = (100, 5000)  # approximately
-# Every face casts rays, and many of them: a mesh takes long enough to be interrupted.
+# Every face casts many rays, so that a mesh takes long enough to be interrupted.
 OPTIONS = ("--format", "npy", "--seeds", "all", "--rays", "100")
-# Each engine has to complete the others and to record these.
+# Each engine must compute the other meshes and record these failures.
 BROKEN = {
     "empty.ply": b"",
     "cut.off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n",
@@ -32,7 +32,7 @@ class Tree:
 
 
 def generate(generator: str, folder: pathlib.Path, count: int) -> Tree:
-    """The same tree every time; existing files are kept."""
+    """Makes a tree that is the same for each call. Keeps existing files."""
     numbers = random.Random(15)
     paths = []
     for index in range(count):
@@ -56,7 +56,7 @@ def generate(generator: str, folder: pathlib.Path, count: int) -> Tree:
 
 
 def outputs(results: pathlib.Path) -> dict[str, bytes]:
-    """Bytes of the results by path below the folder."""
+    """Returns the bytes of the results by path below the folder."""
     files = results.rglob("*.npy")
     return {str(file.relative_to(results)): file.read_bytes() for file in files}
 
@@ -66,7 +66,7 @@ def output_count(results: pathlib.Path) -> int:
 
 
 def records(results: pathlib.Path) -> list[dict[str, Any]]:
-    """Those of all logs. A line that a kill has cut is none."""
+    """Returns the records of all logs. Ignores lines that a kill has cut."""
     found = []
     for log in sorted((results / "log").glob("*.jsonl")):
         for line in log.read_text().splitlines():
@@ -78,7 +78,7 @@ def records(results: pathlib.Path) -> list[dict[str, Any]]:
 
 
 def single_run(program: str, tree: Tree, results: pathlib.Path) -> int:
-    """Returns how many meshes it skipped. Fails where it is not complete."""
+    """Computes all meshes in one call, and returns the number of skipped ones. Fails if a result is missing."""
     (results / "log").mkdir(parents=True, exist_ok=True)
     log = results / "log/single.jsonl"
     command = [program, "--files-from", str(tree.list_file), "-o", str(results), "--quiet"]
@@ -93,7 +93,7 @@ def single_run(program: str, tree: Tree, results: pathlib.Path) -> int:
 
 
 def summary(program: str, results: pathlib.Path) -> dict[str, int]:
-    """Counts of `asdf-vk summarize`, which counts each mesh once."""
+    """Returns the counts of `asdf-vk summarize`, which counts each mesh once."""
     logs = [str(log) for log in (results / "log").glob("*.jsonl")]
     done = subprocess.run([program, "summarize", "--json", *logs], check=False,
                           capture_output=True, text=True)
@@ -104,13 +104,13 @@ def summary(program: str, results: pathlib.Path) -> dict[str, int]:
     return {name: found[name] for name in names}
 
 
-# Of a record: what does not depend on when, where and by whom a mesh was computed.
+# Keys of a record that do not depend on the time and place of the computation.
 _FIXED = ("inputHash", "optionsHash", "faceCount", "version", "commit", "device", "backend",
           "estimatedError", "segmentCount", "code", "message")
 
 
 def differences(results: pathlib.Path, expected: pathlib.Path) -> list[str]:
-    """Between the bytes of all outputs, and between the records of all meshes; empty: none."""
+    """Lists the differences between the outputs, and between the records."""
     found = []
     ours, theirs = outputs(results), outputs(expected)
     for path in sorted(ours.keys() | theirs.keys()):
@@ -123,8 +123,8 @@ def differences(results: pathlib.Path, expected: pathlib.Path) -> list[str]:
         recorded.setdefault(record["input"], []).append(record)
     for record in records(expected):
         status = record["status"]
-        # A process that is killed after it has written the record beside the result writes none to
-        # its log; the next run has one of status skipped, which is the same otherwise.
+        # A process that is killed after it has written the record beside the result writes no line to its log. The next
+        # run then has a record of status skipped, which is otherwise equal.
         same = [one for one in recorded.get(record["input"], ())
                 if one["status"] in (status, "skipped")]
         if not same:

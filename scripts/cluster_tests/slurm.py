@@ -14,7 +14,7 @@ from engine import Engine, Event, Surroundings
 NODE = "localhost"
 CPU_COUNT = 2
 TASK_COUNT = 6
-MAX_SOCKET_PATH = 107  # of Linux
+MAX_SOCKET_PATH = 107  # Limit of Linux.
 
 _CONFIGURATION = """
 ClusterName=test
@@ -71,7 +71,7 @@ class Slurm(Engine):
         (self.folder / "slurm.conf").write_text(_CONFIGURATION.format(
             user=getpass.getuser(), folder=self.folder, socket=socket, node=NODE, cpus=CPU_COUNT,
             controller_port=self._ports[0], node_port=self._ports[1]))
-        # --force: whoever may write to a parent folder of build is no concern of a test.
+        # --force: permissions of the parent folders of build do not matter for a test.
         munged = ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={socket}"]
         munged += [f"--{name}-file={self.folder}/munge.{name}" for name in ("pid", "log", "seed")]
         self._start("munged", munged, socket.exists)

@@ -1,4 +1,4 @@
-"""Tests of every Vulkan implementation at hand; scripts/test-devices describes the options."""
+"""Tests of every Vulkan implementation of this machine; scripts/test-devices describes the options."""
 
 from __future__ import annotations
 
@@ -22,8 +22,7 @@ from implementations import (
     with_driver,
 )
 
-# Shapes of asdf-vk-generate with numbers of faces. The last has more texels than the least limit
-# of a buffer.
+# Shapes of asdf-vk-generate with numbers of faces. The last mesh needs more texels than the smallest limit of a buffer.
 GENERATED = (("animal", 2000), ("torus", 1200), ("slab", 300), ("figure", 30000))
 REAL = (
     "models/fandisk.off",
@@ -34,7 +33,7 @@ REAL = (
 
 
 class Row:
-    """A line of the table, and what failed."""
+    """A line of the table, and the failed checks."""
 
     def __init__(self, implementation: Implementation, version: str) -> None:
         self.implementation = implementation
@@ -178,20 +177,20 @@ def main() -> int:
         names = arguments.only.split(",")
         unknown = set(names) - {one.name for one in implementations}
         if unknown:
-            parser.error(f"no such implementation: {', '.join(sorted(unknown))}; --list names them")
+            parser.error(f"unknown implementation: {', '.join(sorted(unknown))}; --list names them")
         implementations = [one for one in implementations if one.name in names]
     for reason in drivers.missing:
-        _say(f"not at hand: {reason}")
+        _say(f"not available: {reason}")
     if arguments.list:
         for one in implementations:
             print(f"{one.name}: {one.title} ({_version(surroundings, one)})")
         return 0
     if not implementations:
-        _say("no Vulkan implementation is at hand")
+        _say("no Vulkan implementation is available")
         return 1
     meshes = _meshes(surroundings, arguments.quick)
     suites = () if arguments.no_suites else QUICK_SUITES if arguments.quick else SUITES
-    if not arguments.fake_suites:  # ctest runs most of them.
+    if not arguments.fake_suites:  # ctest runs most of these suites.
         implementations = [
             dataclasses.replace(one, suites=()) if one.wrapper else one for one in implementations
         ]

@@ -1,4 +1,4 @@
-"""What runs on an implementation: suites, the matrix of variants, runs under validation."""
+"""Checks of an implementation: suites, the matrix of variants, runs with validation layers."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ import subprocess
 
 from implementations import Implementation, Surroundings, ValidationLayer
 
-# Begin of the name of the case that proves that they report errors.
+# Beginning of the name of the test case which shows that the validation layers report errors.
 CONTROL = "control: the validation layers"
 SUITE_LIMIT_SECONDS = 1800
 RUN_LIMIT_SECONDS = 180
 
 KERNELS = ("seed", "ray", "packet")
 FETCHES = ("storage", "texel")
-# Errors by which a device refuses a variant that was named on the command line.
+# Errors of a device that does not support a variant.
 REFUSALS = ("deviceLimit", "kernelUnsupported")
-# Rays per cone; faces that cast rays at most, all of which are checked.
+# Rays per cone, and the greatest number of faces that cast rays; all these faces are checked.
 RAY_COUNTS = {30: 1000, 1024: 32}
 FURTHER_OPTIONS = (("--solver", "cg"), ("--solver", "jacobi"))
 
@@ -39,8 +39,8 @@ class Status(enum.Enum):
 class Outcome:
     what: str
     status: Status
-    detail: str  # reason of a refusal or failure
-    command: str  # repeats it
+    detail: str  # Reason of a refusal or failure.
+    command: str  # Command that repeats the run.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,13 +51,13 @@ class Mesh:
 
 @dataclasses.dataclass(frozen=True)
 class _Ended:
-    code: int  # negative: minus the signal
+    code: int  # Negative: minus the signal.
     output: str
     error: str
 
 
 class Checks:
-    """Runs on one implementation; logs go to `folder`."""
+    """Runs checks on one implementation. Logs are written to `folder`."""
 
     def __init__(
         self, surroundings: Surroundings, implementation: Implementation, layer: ValidationLayer
@@ -69,7 +69,7 @@ class Checks:
         self._logs.mkdir(parents=True, exist_ok=True)
 
     def suite(self, name: str) -> Outcome:
-        """Its failed cases are in the detail."""
+        """Runs a test suite. The outcome has its failed cases."""
         command = [str(self._surroundings.build / f"tests/asdfvk-test-{name}")]
         command.append("--source-file-exclude=*real_meshes_test.cpp")
         ended = self._run(command, self._layer.environment, SUITE_LIMIT_SECONDS)
@@ -83,12 +83,12 @@ class Checks:
         return Outcome(name, Status.FAILED, detail, repeat)
 
     def matrix(self, meshes: list[Mesh]) -> list[Outcome]:
-        """The variants, and the default one, which is never refused."""
+        """Runs the variants, and the default variant, which no device may refuse."""
         cells = itertools.product(meshes, RAY_COUNTS, [(), *_variants()])
         return [self._computation(mesh, rays, variant, {}) for mesh, rays, variant in cells]
 
     def validated(self, mesh: Mesh) -> list[Outcome]:
-        """Each variant, solver and measure once; a message of the validation layer is an error."""
+        """Runs each variant, solver and measure once. A message of the validation layer is an error."""
         environment = {**self._layer.environment, "ASDF_VK_VALIDATION": "1"}
         cells = (*_variants(), *FURTHER_OPTIONS)
         return [self._computation(mesh, 30, options, environment) for options in cells]
@@ -167,7 +167,7 @@ def _how_it_ended(code: int) -> str:
 
 
 def _failed_cases(output: str) -> list[str]:
-    """Names of doctest's output: a case with an error has its name printed before the error."""
+    """Names of failed cases in doctest's output, which prints the name before the first error of a case."""
     failed: dict[str, None] = {}
     case = ""
     for line in output.splitlines():

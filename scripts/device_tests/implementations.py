@@ -1,4 +1,4 @@
-"""The Vulkan implementations at hand, and the environments in which programs run on them."""
+"""The Vulkan implementations of this machine, and the environments in which programs run on them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ import subprocess
 from packages import PackageSources, Unavailable, is_newer
 
 LAYER = "VK_LAYER_KHRONOS_validation"
-SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "diagnose", "cli")  # as in scripts/test-devices
+SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "diagnose", "cli")  # As in scripts/test-devices.
 KERNEL_SUITES = ("vk", "trace", "poisson", "predict")
 FAKE_SUITES = (*KERNEL_SUITES, "pipeline", "diagnose")
 QUICK_SUITES = ("vk", "poisson", "predict")
 # lavapipe has a subgroup of one lane per 32 bits of these vectors.
 _LAVAPIPE_VECTOR_BITS = (128, 256, 512)
-# Of the machine, not of an implementation.
+# Variables of the machine that do not belong to an implementation.
 _UNRELATED_VARIABLES = (
     "VK_INSTANCE_LAYERS",
     "VK_LAYER_PATH",
@@ -35,7 +35,7 @@ class Implementation:
     name: str
     title: str
     environment: dict[str, str] = dataclasses.field(default_factory=dict)
-    wrapper: tuple[str, ...] = ()  # program that runs a command on a fake device
+    wrapper: tuple[str, ...] = ()  # Program that runs a command on a fake device.
     suites: tuple[str, ...] = SUITES
 
 
@@ -47,9 +47,8 @@ class ValidationLayer:
 
 @dataclasses.dataclass(frozen=True)
 class Surroundings:
-    """Where programs and downloads are."""
 
-    build: pathlib.Path  # of CMake
+    build: pathlib.Path  # The build folder of CMake.
     folder: pathlib.Path  # build/devices
 
     @property
@@ -57,7 +56,7 @@ class Surroundings:
         return str(self.build / "src/asdf-vk")
 
     def environment(self, *parts: dict[str, str]) -> dict[str, str]:
-        """That of this process without settings of Vulkan, and with files below `folder` only."""
+        """Returns the environment of this process without settings of Vulkan, and with files below `folder` only."""
         result = dict(os.environ)
         for name in _UNRELATED_VARIABLES:
             result.pop(name, None)
@@ -69,7 +68,6 @@ class Surroundings:
         return result
 
     def devices(self, environment: dict[str, str]) -> list[dict[str, object]]:
-        """Of --list-devices."""
         command = [self.program, "--list-devices", "--json"]
         variables = self.environment(environment)
         done = subprocess.run(command, check=True, capture_output=True, text=True, env=variables)
@@ -100,7 +98,7 @@ def _is_program(file: pathlib.Path) -> bool:
 
 
 class Drivers:
-    """Finds implementations; `missing` collects the reasons of those that are not at hand."""
+    """Finds implementations. `missing` has the reasons why other implementations are not available."""
 
     def __init__(self, surroundings: Surroundings) -> None:
         self._surroundings = surroundings
@@ -180,7 +178,7 @@ class Drivers:
         return [Implementation("newer-mesa", f"lavapipe of Mesa {newest.version}", environment)]
 
     def _fakes(self) -> list[Implementation]:
-        """On lavapipe, by the programs of tests/fake_device."""
+        """Fake devices on lavapipe, which the programs of tests/fake_device make."""
         folder = self._surroundings.build / "tests/fake_device"
         wrappers = sorted(file for file in folder.glob("*") if _is_program(file))
         if not wrappers or not list(folder.glob("*.so")):
@@ -196,7 +194,7 @@ class Drivers:
         return found
 
     def _newest_layer(self, folder: pathlib.Path) -> ValidationLayer:
-        """The layer of that package; the package has no manifest."""
+        """The validation layer of the package, which has no manifest."""
         library = _find(folder, "libVkLayer_khronos_validation.so")
         version = _layer_version(library)
         extensions = {
@@ -232,7 +230,7 @@ class _LayerProperties(ctypes.Structure):
 
 
 def _layer_version(library: pathlib.Path) -> str:
-    """The version of Vulkan that the layer was made for."""
+    """The Vulkan version of the layer."""
     count, properties = ctypes.c_uint32(1), _LayerProperties()
     try:
         enumerate_layers = ctypes.CDLL(str(library)).vkEnumerateInstanceLayerProperties

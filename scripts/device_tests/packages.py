@@ -1,4 +1,4 @@
-"""Packages of the configured package sources, downloaded and unpacked without installing them."""
+"""Downloads and unpacks packages of the configured package sources without installing them."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _LISTS_MAX_AGE_SECONDS = 24 * 3600
 
 
 class Unavailable(Exception):
-    """The package sources do not have it; the text is the reason."""
+    """A package that the sources do not have, with the reason."""
 
 
 class Candidate(NamedTuple):
     version: str
-    suite: str  # for example bookworm-backports
+    suite: str  # For example bookworm-backports.
 
 
 def _run(*command: str | pathlib.Path, cwd: pathlib.Path | None = None) -> str:
@@ -37,7 +37,7 @@ def is_newer(version: str, other: str) -> bool:
 
 
 class PackageSources:
-    """The package sources of this machine, with lists and downloads below `folder`."""
+    """The package sources of this machine. Lists and downloads are below `folder`."""
 
     def __init__(self, folder: pathlib.Path) -> None:
         self._lists = folder / "lists"
@@ -61,7 +61,7 @@ class PackageSources:
                 raise
 
     def newest(self, package: str) -> Candidate:
-        """The newest version in the sources, whatever the pinning."""
+        """Returns the newest version in the sources, regardless of pinning."""
         best: Candidate | None = None
         for line in _run("apt-cache", *self._options, "madison", package).splitlines():
             _, version, origin = (part.strip() for part in line.split("|"))
@@ -73,14 +73,14 @@ class PackageSources:
         return best
 
     def installed_version(self, package: str) -> str:
-        """Empty where it is not installed."""
+        """Returns the installed version, or "" if the package is not installed."""
         for line in _run("apt-cache", *self._options, "policy", package).splitlines():
             if line.strip().startswith("Installed:") and "(none)" not in line:
                 return line.split()[1]
         return ""
 
     def required(self, package: str, candidate: Candidate) -> dict[str, str]:
-        """Versions of the packages that its installation would add or replace, itself included."""
+        """Returns the versions of the packages that an installation would add or replace."""
         command = ["apt-get", *self._options, "install", "--simulate", "--no-install-recommends"]
         command.append(f"--target-release={candidate.suite}")
         output = _run(*command, f"{package}={candidate.version}")
@@ -99,7 +99,6 @@ class PackageSources:
 
 
     def unpack(self, versions: dict[str, str], folder: pathlib.Path) -> None:
-        """Does nothing where the folder exists."""
         if folder.exists():
             return
         partial = folder.parent / "unpacking"

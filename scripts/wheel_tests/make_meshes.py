@@ -1,4 +1,4 @@
-"""Ten meshes: closed ones by asdf-vk-generate, and open ones and ones of several components made from them.
+"""Makes ten meshes: closed ones by asdf-vk-generate, and from these open ones and ones of several components.
 
 usage: make_meshes.py GENERATOR FOLDER
 """
@@ -24,16 +24,16 @@ class Surface:
         self.faces = faces
 
     def without(self, share: float) -> Surface:
-        """An open surface: this share of the faces, those with the greatest x, is missing."""
+        """Returns an open surface: leaves out this share of the faces, those with the greatest x."""
         x = self.vertices[self.faces].mean(axis=1)[:, 0]
         return Surface(self.vertices, self.faces[x <= np.quantile(x, 1 - share)])
 
     def shifted(self, lengths: float) -> Surface:
-        """Along x, in units of the length of the bounding box."""
+        """Returns the surface moved along x by this number of lengths of its bounding box."""
         return Surface(self.vertices + [lengths * np.ptp(self.vertices[:, 0]), 0, 0], self.faces)
 
     def beside(self, other: Surface) -> Surface:
-        """Both in one mesh."""
+        """Returns both surfaces as one mesh."""
         faces = np.concatenate([self.faces, other.faces + len(self.vertices)])
         return Surface(np.concatenate([self.vertices, other.vertices]), faces)
 

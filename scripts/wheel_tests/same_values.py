@@ -1,8 +1,8 @@
 """Compares the values of the installed module with those of the program asdf-vk, bit for bit, in a bare system.
 
 usage: same_values.py FOLDER BACKEND...
-The folder has meshes, and beside each MESH the values of the program, MESH.BACKEND.npy. Prints a table. Then checks
-that the libraries of the wheel are in use, and the default backend where no Vulkan loader is installed.
+The folder has meshes. MESH.BACKEND.npy has the values of the program for MESH. Prints a table. Then checks that the
+module uses the libraries of the wheel, and that it has the right default backend without a Vulkan loader.
 """
 
 from __future__ import annotations
@@ -21,16 +21,15 @@ BACKENDS: tuple[Backend, ...] = ("reference", "cpu")
 
 
 class Failed(Exception):
-    """The text is the reason."""
+    """A failure of a check, with its reason."""
 
 
 def _compare(path: pathlib.Path, backend: Backend) -> str:
-    """A cell of the table."""
     expected = np.load(f"{path}.{backend}.npy")
     values = asdf_vk.shape_diameter(asdf_vk.read_mesh(path), backend=backend)
     if values.dtype != expected.dtype or values.shape != expected.shape:
         raise Failed(f"{path.name}, {backend}: {values.dtype} {values.shape} for {expected.dtype} {expected.shape}")
-    # NaN too, which is different from itself.
+    # Compares bits, because NaN differs from itself.
     different = int(np.count_nonzero(values.view(np.uint32) != expected.view(np.uint32)))
     if different:
         raise Failed(f"{path.name}, {backend}: {different} of {len(values)} values are different")
@@ -40,7 +39,7 @@ def _compare(path: pathlib.Path, backend: Backend) -> str:
 
 
 def _check_libraries() -> None:
-    """What the wheel carries is loaded from the wheel."""
+    """Checks that the libraries of the wheel are loaded from the wheel."""
     package = pathlib.Path(asdf_vk.__file__).parent
     maps = pathlib.Path("/proc/self/maps").read_text().splitlines()
     loaded = sorted({line.split()[-1] for line in maps if ".so" in line})
@@ -53,7 +52,7 @@ def _check_libraries() -> None:
 
 
 def _check_fallback(backend: str) -> None:
-    """Without an option, the CPU computes, and the session has the reason."""
+    """Checks that the CPU computes without an option, and that the session has the reason."""
     with asdf_vk.Session() as session:
         lines = session.device_lines
         expected = "vulkan: not available: no Vulkan loader (libvulkan.so.1) was found"

@@ -1,4 +1,4 @@
-"""A wheel that runs on a bare system; scripts/wheel describes it."""
+"""Builds a wheel that runs on a bare system; scripts/wheel describes it."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ def _run(log: pathlib.Path, *command: str | pathlib.Path) -> None:
 
 
 def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
-    """The plain wheel, which needs the libraries of this system."""
-    # setuptools adds what an earlier build left there, removed files too.
+    """Builds the plain wheel, which needs the libraries of this system."""
+    # setuptools also adds files that an earlier build left in this folder.
     for left in pathlib.Path("build").glob("lib.*"):
         shutil.rmtree(left)
-    # Options of an earlier CMAKE_ARGS are kept there.
+    # This file keeps options of an earlier CMAKE_ARGS.
     for cache in pathlib.Path("build").glob("temp.*/CMakeCache.txt"):
         cache.unlink()
     options = ["--no-build-isolation", "--no-deps", "--no-index", f"--wheel-dir={folder}"]

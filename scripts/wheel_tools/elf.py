@@ -1,4 +1,4 @@
-"""Shared libraries: what they need, and which manylinux tag allows it."""
+"""Properties of shared libraries: needed libraries, and the manylinux tag that allows them."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import NamedTuple
 
 Version = tuple[int, ...]
 
-# Libraries of every manylinux system (PEP 600), as far as they occur here; none of them is carried. libstdc++ and
-# libgcc_s are among them: with copies of its own in the wheel, an exception could not pass from one module to another.
+# Libraries of every manylinux system (PEP 600) that are needed here; the wheel contains none of them. With its own
+# copies of libstdc++ and libgcc_s, an exception could not pass from one module to another.
 SYSTEM_LIBRARIES = frozenset({
     "libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2",
     "ld-linux-aarch64.so.1", "libstdc++.so.6", "libgcc_s.so.1", "libatomic.so.1", "libz.so.1",
 })  # fmt: skip
 
-# Highest versions of symbols by the least glibc of a tag: from the policies of auditwheel for x86_64. The C++ libraries
-# of Debian 12 and 13 need glibc 2.34 at least.
+# Highest versions of symbols for the least glibc of a tag, from the policies of auditwheel for x86_64. The C++
+# libraries of Debian 12 and 13 need at least glibc 2.34.
 _LIMITS: dict[Version, dict[str, Version]] = {
     (2, 34): {"GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13), "GCC": (7, 0, 0), "ZLIB": (1, 2, 9)},
     (2, 35): {"GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12, 0, 0), "ZLIB": (1, 2, 9)},
@@ -28,7 +28,7 @@ _GLIBC_OF_NAMES = {"ABI_DT_RELR": (2, 36)}  # GLIBC_ABI_DT_RELR, for compact rel
 
 
 class NotPortable(Exception):
-    """The text is the reason."""
+    """The library is not portable, with the reason."""
 
 
 class Elf(NamedTuple):
@@ -36,7 +36,7 @@ class Elf(NamedTuple):
 
     needed: tuple[str, ...]
     run_path: str
-    versions: dict[str, Version]  # highest needed version by name: GLIBC, GLIBCXX, ...
+    versions: dict[str, Version]  # Highest needed version by name: GLIBC, GLIBCXX, ...
 
     @classmethod
     def read(cls, path: pathlib.Path) -> Elf:
@@ -64,7 +64,7 @@ def dotted(version: Version) -> str:
 
 
 def highest(libraries: Iterable[Elf]) -> dict[str, Version]:
-    """The highest needed version of each name."""
+    """Returns the highest needed version of each name."""
     versions: dict[str, Version] = {}
     for library in libraries:
         for name, version in library.versions.items():
@@ -73,7 +73,7 @@ def highest(libraries: Iterable[Elf]) -> dict[str, Version]:
 
 
 def least_glibc(versions: dict[str, Version]) -> Version:
-    """Of the manylinux tag that allows these versions."""
+    """Returns the version of the manylinux tag that allows these versions."""
     others = {name: version for name, version in versions.items() if name != "GLIBC"}
     for glibc, limits in _LIMITS.items():
         if all(version <= limits[name] for name, version in others.items()):

@@ -1,4 +1,4 @@
-"""Licences of what a wheel contains from Debian's packages."""
+"""Licences of the parts of a wheel that are from Debian's packages."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 import shutil
 import subprocess
 
-# Their headers are compiled into the module. Those of carried libraries have the licence of the library.
+# Headers of these packages are compiled into the module. Copied libraries have their own licence files.
 HEADER_PACKAGES = ("libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "nlohmann-json3-dev", "python3-pybind11")
 _COMMON = pathlib.Path("/usr/share/common-licenses")
 
@@ -28,7 +28,7 @@ def _version(package: str) -> str:
 def add_licences(folder: pathlib.Path, carried: dict[str, pathlib.Path]) -> None:
     """Fills the folder: a file for each package, the texts of /usr/share/common-licenses that they cite, and a list.
 
-    `carried` has the files that the libraries of the wheel were copied from.
+    `carried`: by name, the original files of the libraries in the wheel.
     """
     packages = {name: package_of(source) for name, source in carried.items()}
     folder.mkdir(parents=True, exist_ok=True)
