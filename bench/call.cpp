@@ -1,5 +1,5 @@
-// Seconds of Session::compute() on the arrays of a mesh, one run per line of standard input, for comparison with the
-// Python module in turns (bench/python_call.py). asdfvk-bench-call MESH [BACKEND]
+// Prints the seconds of Session::compute() on the arrays of a mesh, one run per line of standard input.
+// bench/python_call.py runs it in turns with the Python module. Usage: asdfvk-bench-call MESH [BACKEND]
 #include <fmt/format.h>
 
 #include <cstdio>

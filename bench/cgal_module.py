@@ -3,8 +3,8 @@
 
     PYTHONPATH=BUILD/python bench/cgal_module.py BUILD/bench/asdfvk-bench-cgal-oracle MESH...
 
-A row per mesh and setting: clusters, smoothness, greatest difference of two values, share of equal
-labels, segments here and of CGAL, and seconds here.
+A row per mesh and setting: clusters, smoothness, greatest difference of two values, share of equal labels, numbers of
+segments of asdf-vk and of CGAL, and seconds of asdf-vk.
 """
 
 from __future__ import annotations

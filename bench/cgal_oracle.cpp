@@ -1,5 +1,5 @@
-// Writes CGAL's own result of a mesh: a line per face with its value from 0 to 1 and its segment. Other programs
-// compare with it, such as cgal_module.py.
+// Writes CGAL's result for a mesh: a line per face with its value from 0 to 1 and its segment. Other programs, such as
+// cgal_module.py, compare with this output.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,5 +1,4 @@
-// Does `--definition cgal` give CGAL's raw values? Shares of the faces whose value is near CGAL's, per mesh and
-// backend.
+// Does `--definition cgal` give CGAL's raw values? Prints the shares of faces with close values, per mesh and backend.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,8 +20,8 @@ constexpr std::array kTolerances{1e-9, 1e-5, 1e-4};  ///< Shares of the range of
 
 struct Agreement {
   std::array<double, kTolerances.size()> shares{};
-  double largest = 0;          ///< Of the range.
-  uint64_t oneSidedCount = 0;  ///< Faces with a value on one side only.
+  double largest = 0;          ///< Share of the range.
+  uint64_t oneSidedCount = 0;  ///< Faces to which only one of both gives a value.
 };
 
 Agreement agreementOf(const std::vector<double>& values, const std::vector<double>& expected) {
@@ -30,7 +29,7 @@ Agreement agreementOf(const std::vector<double>& values, const std::vector<doubl
   for (const double value : expected)
     if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
   Agreement agreement;
-  const double range = std::max(0.0, high - low);  // 0 where no face has a value.
+  const double range = std::max(0.0, high - low);  // 0 if no face has a value.
   std::array<uint64_t, kTolerances.size()> counts{};
   for (size_t face = 0; face < expected.size(); ++face) {
     const bool isMissing = std::isnan(values[face]), isExpectedMissing = std::isnan(expected[face]);

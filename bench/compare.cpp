@@ -1,4 +1,4 @@
-// How fast are the backends compared with Embree and CGAL? The same mesh and rays for all, in turns.
+// How fast are the backends compared with Embree and CGAL? All use the same mesh and rays, in turns.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -20,7 +20,7 @@
 namespace asdfvk::bench {
 namespace {
 
-/// The backends whose whole computations are timed; the reference is too slow.
+/// The backends whose whole computations are timed. The reference is left out, because it is too slow.
 std::vector<std::string> fastBackends() { return {"vulkan", "cpu"}; }
 
 /// Every backend by its name, and Vulkan with each kernel that is not the device's default.
@@ -68,7 +68,7 @@ class MeshComparison {
       traces.emplace_back(kEmbreeFast, [&] { static_cast<void>(embreeFast_->trace(seeds)); });
       traces.emplace_back(kEmbreeRobust, [&] { static_cast<void>(embreeRobust_->trace(seeds)); });
     }
-    // The first tracer of a round finds cold caches; therefore each round starts with another one.
+    // The first tracer of a round finds cold caches. Each round therefore starts with another tracer.
     std::rotate(traces.begin(), traces.begin() + round % static_cast<uint32_t>(traces.size()), traces.end());
     for (const auto& [name, trace] : traces) {
       const Stopwatch watch;
@@ -94,7 +94,7 @@ class MeshComparison {
     return watch.seconds();
   }
 
-  /// The program with its default options, which include the error estimate.
+  /// Time of the program with its default options, which include the error estimate.
   double processSeconds(const std::string& backend, const std::string& seeds) const {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{
@@ -105,7 +105,7 @@ class MeshComparison {
     return watch.seconds();
   }
 
-  /// Random faces in the order of the hierarchy, which is the fastest for every tracer; ours would sort them.
+  /// Random faces in the order of the hierarchy, the fastest order for every tracer and that of asdf-vk.
   std::vector<uint32_t> chooseSeeds(const std::string& count) const {
     const std::vector<uint32_t>& candidates = mesh_.prepared.traceableFaces;
     const std::vector<uint32_t> chosen = randomPermutationSeeds(
@@ -127,7 +127,7 @@ class MeshComparison {
   std::map<std::string, std::unique_ptr<Session>> sessions_;
 };
 
-/// The index of the part, when the rounds are divided into equal parts.
+/// The index of the part that contains the round, for equal parts.
 size_t partOf(size_t round, size_t roundCount, size_t partCount) { return round * partCount / roundCount; }
 
 bool isFirstOfPart(size_t round, size_t roundCount, size_t partCount) {

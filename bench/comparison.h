@@ -12,13 +12,13 @@
 namespace asdfvk::bench {
 
 struct ComparisonRequest {
-  std::vector<std::string> seeds{"all", "10%"};  ///< As parseSeedCount() reads them.
+  std::vector<std::string> seeds{"all", "10%"};  ///< In the syntax of parseSeedCount().
   std::string device;
   uint32_t roundCount = 5;
-  uint32_t cgalRunCount = 3;  ///< At most one per round. CGAL takes about a hundred times as long.
+  uint32_t cgalRunCount = 3;  ///< At most one per round. CGAL is about a hundred times slower.
 };
 
-/// One entry per round; the entries i of all tasks were measured in the same round.
+/// One entry per round. The entries i of all tasks are from the same round.
 using Seconds = std::vector<double>;
 
 inline const std::string kEmbreeFast = "Embree, fast", kEmbreeRobust = "Embree, robust";
@@ -28,11 +28,10 @@ struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;
   std::map<std::string, Seconds> trace = {};  ///< By tracer; all trace the same rays.
-  /// By backend and task: a computation in memory by a recipe, without an error estimate, or a process from file to
-  /// file.
+  /// By backend and task: a recipe in memory, without an error estimate; or the program from file to file.
   std::map<std::pair<std::string, std::string>, Seconds> total = {};
 
-  /// Time of kEmbreeFast over that of the tracer. None without Embree.
+  /// Time of kEmbreeFast divided by that of the tracer. Unset without Embree.
   [[nodiscard]] std::optional<Dispersion> speedOverEmbree(const std::string& tracer) const;
 };
 
@@ -42,11 +41,11 @@ struct Comparison {
   uint32_t roundCount = 0;
   std::map<std::string, std::string> devices = {};  ///< By backend.
   std::vector<SeedComparison> seeds = {};
-  /// The rounds are divided into as many equal parts as CGAL has runs; each run takes place in the first round of its
-  /// part. Empty without CGAL and for a mesh that CGAL rejects.
+  /// The rounds are divided into as many equal parts as CGAL has runs. Each run takes place in the first round of its
+  /// part. Empty without CGAL, or if CGAL rejects the mesh.
   Seconds cgal = {};
 
-  /// CGAL's time over the given time in the same part of the rounds. None without CGAL.
+  /// CGAL's time divided by the given time in the same part of the rounds. Unset without CGAL.
   [[nodiscard]] std::optional<Dispersion> cgalOver(const Seconds& seconds) const;
 };
 

@@ -4,9 +4,10 @@
     scripts/install-packages bench && cmake --preset develop && cmake --build --preset develop
     bench/comparison_chart.py [MESH] [-o CHART.png]
 
-The mesh is a generated animal of 100,000 faces unless one is named. Seconds are medians of asdfvk-bench-compare, which
-runs all in turns: CGAL's sdf_values and Embree's rays from the mesh in memory, asdf-vk as a process from file to file. An
-error is the average over the faces, over the range of the values, against the same definition with 300 rays per face.
+The mesh is a generated animal of 100,000 faces by default. Seconds are medians of asdfvk-bench-compare, which runs all
+programs in turns. CGAL's sdf_values and Embree's rays begin with the mesh in memory; asdf-vk is a process from file to
+file. An error is the average over the faces, divided by the range of the values, against the same definition with 300
+rays per face.
 """
 import argparse
 import json

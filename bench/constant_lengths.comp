@@ -1,6 +1,5 @@
 #version 450
-// In place of shaders/trace_rays.comp: lengths and hits that are a smooth function of the origin instead of those of
-// rays, in the time that writing them takes.
+// Replaces shaders/trace_rays.comp. Lengths and hits are a smooth function of the origin; the only cost is writing them.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 

@@ -1,15 +1,15 @@
 #pragma once
 
-// Embree 3 or 4, as CMake found it. No other file depends on the version.
+// Embree 3 or 4, depending on CMake. No other file depends on the version.
 #if ASDFVK_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
 
-/// Ray queries. intersect1() finds the nearest hit of one ray, intersect8() those of eight rays; isActive has eight
-/// numbers, -1 for a ray to trace and 0 for the others. Embree 3 takes the flags of a query in a context, Embree 4 in
-/// arguments. With the flag `incoherent` Embree traverses the hierarchy for each ray separately.
+/// Ray queries. intersect1() finds the nearest hit of one ray, intersect8() those of eight rays. isActive has eight
+/// numbers: -1 for a ray to trace, else 0. Embree 3 has the flags of a query in a context, Embree 4 in arguments. With
+/// the flag `incoherent`, Embree traverses the hierarchy for each ray separately.
 namespace asdfvk {
 
 #if ASDFVK_EMBREE_VERSION >= 4

@@ -1,5 +1,5 @@
-// How many rays per second can the host feed to a device, and where does its time go? The tracer alone, with a device
-// that takes no time, and the whole computation with a kernel that writes lengths instead of tracing.
+// How many rays per second can the host feed to a device, and where is the time spent? Measures the tracer alone with a
+// device that takes no time, and the whole computation with a kernel that writes lengths instead of tracing.
 #include <fmt/format.h>
 #include <volk.h>
 
@@ -41,14 +41,14 @@ struct Arguments {
   uint64_t generatedFaceCount = 1'500'000;
 };
 
-/// What passes between host and device.
+/// Waits and copies between host and device.
 struct Traffic {
-  double waitSeconds = 0;  ///< For which the host waits for the device.
+  double waitSeconds = 0;  ///< Time for which the host waits for the device.
   uint64_t waitCount = 0;
-  uint64_t upByteCount = 0, downByteCount = 0;  ///< Of copies; none where the host maps the memory of the device.
+  uint64_t upByteCount = 0, downByteCount = 0;  ///< Copied bytes; 0 if the host maps the memory of the device.
 };
 
-/// Adds up the traffic while it exists.
+/// Sums the traffic during its lifetime.
 class TrafficCounter {
  public:
   TrafficCounter() {
@@ -98,7 +98,7 @@ class TrafficCounter {
   TrafficCounter& operator=(const TrafficCounter&) = delete;
 
   [[nodiscard]] static double waitSeconds() { return traffic_.waitSeconds; }
-  /// Since the last call.
+  /// The traffic since the last call.
   [[nodiscard]] static Traffic take() { return std::exchange(traffic_, {}); }
 
  private:
@@ -111,8 +111,7 @@ class TrafficCounter {
   static inline std::set<VkBuffer> ofHost_;
 };
 
-/// Time for which the host waits for the device, by stage. Waits between two stages count for the first of them. Needs
-/// a TrafficCounter.
+/// Time by stage for which the host waits for the device. A wait between two stages counts for the first stage.
 class StageWaits {
  public:
   void begin(Stage stage) {
@@ -129,8 +128,8 @@ class StageWaits {
   Stage current_ = Stage::Geometry;
 };
 
-/// While it exists, submissions end at once without running their commands. Mapped memory that is allocated meanwhile
-/// is filled with a length, so that results are valid; hits are not.
+/// During its lifetime, submissions end at once without running their commands. New mapped memory is filled with a
+/// length, so that values are valid; hits are not valid.
 class IdleDevice {
  public:
   IdleDevice() {
@@ -158,10 +157,10 @@ class IdleDevice {
   static inline PFN_vkQueueSubmit submit_ = nullptr;
   static inline PFN_vkAllocateMemory allocate_ = nullptr;
   static inline PFN_vkMapMemory map_ = nullptr;
-  static inline uint64_t byteCount_ = 0;  // Of the last allocation.
+  static inline uint64_t byteCount_ = 0;  // Size of the last allocation.
 };
 
-/// While it exists, kernels are compiled from constant_lengths.comp instead of trace_rays.comp.
+/// During its lifetime, kernels are compiled from constant_lengths.comp instead of trace_rays.comp.
 class ConstantLengths {
  public:
   ConstantLengths() {
@@ -226,7 +225,7 @@ class ConstantBackend final : public Backend {
   std::unique_ptr<VulkanPredictionKernels> predictionKernels_;
 };
 
-/// ConeTracer::trace() alone.
+/// Measures ConeTracer::trace() alone.
 std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Arguments& arguments,
                           const RunControl& control) {
   const TraceableMesh mesh(source);
@@ -263,7 +262,7 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
   return text;
 }
 
-/// The whole computation in memory.
+/// Measures the whole computation in memory.
 std::string measurePipeline(SessionState& session, const Mesh& mesh, const Arguments& arguments,
                             const RunControl& control) {
   std::string text = "\nwhole computation, median seconds of the host by stage, without waiting for the device\n";

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Prints the tables of docs/accuracy.md of generated meshes: shapes with known values, and the animal against the reference.
+"""Prints the tables of docs/accuracy.md for generated meshes: shapes with known values, and the animal.
 
     bench/known_shapes.py [--faces 1310720] [--backend auto] [--build build/develop]
 
---faces: up to this size, without the animal if it is larger. Needs python3-numpy. The exact values are those of a sphere, a
-slab and a cylinder without facets and ends, by the definition of docs/method.md in a few lines of NumPy.
+-- --faces: greatest size; a smaller one leaves the animal out if it is larger. Needs python3-numpy. Exact values are
+-- those of a sphere, a slab and a cylinder without facets and ends, by the definition of docs/method.md in a few lines
+-- of NumPy. The animal is compared with the reference.
 """
 from __future__ import annotations
 
@@ -21,7 +22,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 RAY_COUNT = 30
 SIZES = [320 * 4**level for level in range(7)]
 ANIMAL_FACES = 100_000
-SAMPLE = 4_000  # Faces that are traced where a shape has many.
+SAMPLE = 4_000  # Number of traced faces of large shapes.
 HEAD = "|     faces | measured | median   | mean     | max      | order |\n" \
        "|----------:|---------:|---------:|---------:|---------:|------:|"
 
@@ -48,7 +49,7 @@ def directions(normals: np.ndarray, degrees: float) -> np.ndarray:
 
 
 def mean(lengths: np.ndarray, hit_cosines: np.ndarray, degrees: float) -> np.ndarray:
-    """lengths, hit_cosines (n_f . n_g): (m, rays). The weighted mean without false hits and outliers, (m,)."""
+    """Weighted mean without false hits and outliers, (m,). lengths, hit_cosines (n_f . n_g): (m, rays)."""
     lengths = np.where(hit_cosines > 1e-3, np.nan, lengths)
     median = np.nanmedian(lengths, 1, keepdims=True)
     kept = np.abs(lengths - median) <= np.nanstd(lengths, 1, keepdims=True) + 1e-5 * median
@@ -67,7 +68,7 @@ def of_slab(_: np.ndarray, normals: np.ndarray, degrees: float) -> np.ndarray:
 
 
 def of_cylinder(centres: np.ndarray, normals: np.ndarray, degrees: float) -> np.ndarray:
-    """Radius 0.25, along z, infinite: from its points nearest to the barycentres."""
+    """Values of an infinite cylinder along z of radius 0.25, at its points nearest to the barycentres."""
     rays = directions(normals, degrees)[..., :2]
     start = centres[:, :2] * 0.25 / np.hypot(*centres[:, :2].T)[:, None]
     lengths = -2 * np.einsum("mrk,mk->mr", rays, start) / (rays**2).sum(2)
@@ -75,7 +76,7 @@ def of_cylinder(centres: np.ndarray, normals: np.ndarray, degrees: float) -> np.
     return mean(lengths, np.einsum("mrk,mk->mr", hits / 0.25, normals[:, :2]), degrees)
 
 
-# Name, exact values, and for a cone of so many degrees the faces far enough from rim and ends, by barycentre and normal.
+# For each shape: name, exact values, and the faces far enough from rim and ends for a cone of the given angle.
 SHAPES = {
     "icosphere": ("Sphere, radius 1", of_sphere, lambda c, n, degrees: np.ones(len(c), bool)),
     "slab": ("Slab, 2 x 2 x 0.1, faces 0.19 from the rim", of_slab,
@@ -107,12 +108,12 @@ class Programs:
         return path
 
     def compute(self, mesh: pathlib.Path, *options: str) -> str:
-        """The result is in result.npz; returns standard output."""
+        """Computes result.npz; returns the standard output."""
         return subprocess.run([self.asdf_vk, mesh, "--backend", self.backend, "--quiet", "-o", self.folder / "result.npz",
                                *options], check=True, text=True, stdout=subprocess.PIPE).stdout
 
     def traced(self, mesh: pathlib.Path, face_count: int, degrees: float) -> tuple[np.ndarray, np.ndarray]:
-        """Values, and the faces that have traced ones: all, or random ones."""
+        """Returns values and the indices of traced faces: all faces, or random ones."""
         sample = ["--seeds", "all"] if face_count < 2 * SAMPLE else [
             "--seeds", str(SAMPLE), "--sampler", "random", "--guidance", "none", "--no-estimate", "--max-iterations", "1"]
         self.compute(mesh, "--angle", f"{degrees:g}", *sample)

@@ -3,10 +3,11 @@
 
     PYTHONPATH=build/develop/python bench/meshparty_speed.py [--generate build/develop/src/asdf-vk-generate] [--points 400]
 
-Ten generated meshes of about 4,000 faces, 200 units large. The values are those of python/tests/meshparty_oracle.py, a loop
-over vertices with rays against all triangles. MeshParty leaves its rays to Embree, so the rest of the definition is timed by
-itself too. Its function draws nothing at random; its noise between two runs is here the difference of the oracle on the
-mesh and on the mesh with vertices rounded to float32, in which Embree computes. Needs python3-numpy.
+The ten generated meshes have about 4,000 faces and are 200 units large. The values of the definition are those of
+python/tests/meshparty_oracle.py, a loop over vertices with rays against all triangles. MeshParty leaves its rays to
+Embree, so that the time without rays is printed too. MeshParty draws no random numbers. As its noise, the program
+prints the difference of the oracle between the mesh and a copy with vertices in float32, in which Embree computes.
+Needs python3-numpy.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ def mesh_of(generate: str, shape: str, face_count: int) -> tuple[np.ndarray, np.
 
 
 def differences(values: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Relative; a value on one side only counts as infinite."""
+    """Relative differences; infinite if only one of both has a value."""
     both = np.abs(values / others - 1)
     both[np.isnan(values) & np.isnan(others)] = 0
     return np.nan_to_num(both, nan=np.inf)

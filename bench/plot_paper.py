@@ -17,10 +17,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-# Table 1 of the ASDF paper, for its horse: percent: (average error, maximum error), over the range of the values.
+# Table 1 of the ASDF paper, for its horse. Percent: (average error, maximum error), divided by the range of the values.
 PRINTED = {50: (.0099, .4022), 20: (.0198, .5054), 10: (.0272, .5292), 5: (.0374, .5538), 2: (.0575, .5374),
            1: (.0695, .5813)}
-# Section 5 of the paper: its horse takes 60 s with all faces and slightly more than 6 s with 10 % of them.
+# Section 5 of the paper: the horse takes 60 s with all faces and slightly more than 6 s with 10 % of them.
 PRINTED_TIME_RATIO = 0.1
 
 # Okabe and Ito 2008, Color Universal Design.
@@ -81,8 +81,7 @@ def select(rows, **wanted):
 
 
 def save_plot(folder, name, title, labels, series, scale="log", limits=None, categories=None):
-    """Writes NAME.svg and NAME.png and returns the former. Each series is (name, [(x, y)], options of Axes.plot).
-    Categories are labels of x = 0, 1, ...."""
+    """Returns NAME.svg; also writes NAME.png. Series: (name, [(x, y)], options of Axes.plot). categories: labels of x."""
     figure, axes = plt.subplots(figsize=(5.6, 4), layout="constrained")
     for label, points, style in series:
         points = sorted(point for point in points if not math.isnan(point[1]))
@@ -122,7 +121,7 @@ def table_plots(folder, rows, mesh, has_printed):
 
 
 def error_plots(folder, rows, meshes):
-    """Figure 5: average error by the share of the faces, and by mesh as the paper has it."""
+    """Figure 5: average error by share of the faces, and by mesh as in the paper."""
     label = "average error / range"
     errors = [row["average_error"] for row in rows if row["percent"] < 100 and row["average_error"] > 0]
     limits = (min(errors) / 1.2, max(errors) * 1.2)
@@ -146,7 +145,7 @@ def error_plots(folder, rows, meshes):
 
 
 def time_plots(folder, rows, mesh):
-    """Figure 6: seconds by the number of seeds, and over the time of the full trace."""
+    """Figure 6: seconds by number of seeds, and seconds divided by the time of the full trace."""
     stages = ("sample_seconds", "trace_seconds", "predict_seconds", "solve_seconds")
     series = [(recipe, [(row["seeds"], sum(row[stage] for stage in stages)) for row in select(rows, recipe=recipe)],
                {"color": colour, "marker": marker}) for (recipe, colour), marker in zip(COLOURS.items(), MARKERS)]

@@ -1,8 +1,8 @@
-"""Time of asdf_vk.shape_diameter() on arrays over that of Session::compute(), in turns.
+"""Compares asdf_vk.shape_diameter() on arrays with Session::compute(), in turns.
 
     PYTHONPATH=build/develop/python /usr/bin/python3 bench/python_call.py build/develop/bench/asdfvk-bench-call MESH
 
-Prints the medians and the median of the ratios.
+Prints the medians of the seconds, and the median of their ratios.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Delay between SIGINT and KeyboardInterrupt in calls of asdf_vk, at moments spread over each call.
+"""Measures the delay between SIGINT and KeyboardInterrupt in calls of asdf_vk, at different moments of each call.
 
     PYTHONPATH=build/develop/python /usr/bin/python3 bench/python_stop.py MESH
 
-Prints per call: its duration, then the median and the greatest delay.
+Prints for each call: its duration, the median delay and the greatest delay.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ MOMENTS = 12
 
 
 def delay(call: Callable[[], Any], after: float) -> float | None:
-    """Seconds from the signal to the exception; None where the call ended before."""
+    """Seconds from the signal to the exception; None if the call ended before the signal."""
     sent = 0.0
 
     def send() -> None:
@@ -36,7 +36,7 @@ def delay(call: Callable[[], Any], after: float) -> float | None:
         call()
         timer.cancel()
         timer.join()
-        time.sleep(0.01)  # A signal sent in the last moment arrives here.
+        time.sleep(0.01)  # A signal from the end of the call arrives here.
     except KeyboardInterrupt:
         return time.perf_counter() - sent
     return None

@@ -1,4 +1,4 @@
-// How fast is our reader of binary PLY compared with OpenMesh's? Both read into plain arrays, in turns.
+// How fast is the reader of binary PLY compared with OpenMesh's? Both read into plain arrays, in turns.
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -23,7 +23,7 @@ namespace {
 using namespace asdfvk;
 using namespace asdfvk::bench;
 
-/// Receives the mesh of an OpenMesh reader as plain arrays; attributes are ignored.
+/// Receives the mesh of an OpenMesh reader as plain arrays. Ignores attributes.
 class ArrayImporter : public OpenMesh::IO::BaseImporter {
  public:
   using VertexHandle = OpenMesh::VertexHandle;

@@ -1,6 +1,6 @@
-// How accurate are the recipes over many meshes? Errors against the full function and against one of many rays, the
-// estimated error over the actual one, and the cost. The constants of the recipes were tuned on the meshes at odd
-// places of the list (sorted by name, models/ before psb/off); therefore the summary separates odd and even places.
+// How accurate are the recipes over many meshes? Prints errors against the full function and against a function of many
+// rays, the estimated error divided by the actual error, and the cost. The recipes were tuned on the meshes at odd
+// places of the list (sorted by name, models/ before psb/off). The summary therefore separates odd and even places.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace asdfvk::bench;
 constexpr std::array<double, 3> kEstimatedPercents{5, 10, 20};
 constexpr double kMaxError = 0.01, kMaxRelativeError = 0.05;
 
-/// Estimated over actual error.
+/// Estimated error divided by actual error.
 struct EstimateRatios {
   double average = 0, robustAverage = 0, relativeMedian = 0, relativePercentile90 = 0;
 };
@@ -40,24 +40,24 @@ EstimateRatios ratiosOf(const ErrorEstimate& estimate, const FieldErrors& actual
           over(estimate.relativePercentile90, actual.relativePercentile90)};
 }
 
-/// Average errors over the range of the reference. Full: the function of 30 rays at every face, fixed cones. Truth:
-/// many rays at every face, hashed cones. Floor: the error of the full function against the truth.
+/// Average errors, divided by the range of the reference. Full function: 30 rays at every face, fixed cones. Truth:
+/// many rays at every face, hashed cones. Floor: error of the full function against the truth.
 struct MeshRow {
   std::string name;
   uint64_t faceCount = 0;
-  double paper = 0, balanced = 0, quality = 0;                      ///< At 10 %, against the full function.
-  double balancedTruth = 0, qualityTruth = 0;                       ///< At 10 %, against the truth, over the floor.
-  double qualityTruthAt40 = 0;                                      ///< At 40 %, likewise.
-  std::array<EstimateRatios, kEstimatedPercents.size()> estimates;  ///< Balanced.
-  double boundedError = 0;                                          ///< Balanced, --max-error 1%: actual error.
-  double boundedShare = 0;                                          ///< Likewise: share of the faces that are seeds.
-  double boundedRelativeError = 0;  ///< Balanced, --max-error 5%rel: actual median of the relative error.
-  double boundedRelativeShare = 0;  ///< Likewise: share of the faces that are seeds.
-  double iterations = 0;            ///< Solver iterations, balanced over paper, at 10 %.
-  double overTrace = 0;             ///< Time of sample, predict and solve over that of trace, balanced at 10 %.
+  double paper = 0, balanced = 0, quality = 0;  ///< At 10 %, against the full function.
+  double balancedTruth = 0, qualityTruth = 0;   ///< At 10 %, against the truth, divided by the floor.
+  double qualityTruthAt40 = 0;                  ///< At 40 %, against the truth, divided by the floor.
+  std::array<EstimateRatios, kEstimatedPercents.size()> estimates;  ///< Recipe balanced.
+  double boundedError = 0;                                          ///< Balanced with --max-error 1%: actual error.
+  double boundedShare = 0;          ///< Balanced with --max-error 1%: seeds divided by faces.
+  double boundedRelativeError = 0;  ///< Balanced with --max-error 5%rel: median relative error.
+  double boundedRelativeShare = 0;  ///< Balanced with --max-error 5%rel: seeds divided by faces.
+  double iterations = 0;            ///< Solver iterations at 10 %: balanced divided by paper.
+  double overTrace = 0;             ///< Balanced at 10 %: time of sample, predict and solve, divided by that of trace.
 };
 
-/// With `onlyEstimates` the estimates only.
+/// onlyEstimates: measures only the estimates.
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,
                 const RunControl& control) {
   MeshRow row;
@@ -70,7 +70,7 @@ MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCoun
   const Result full = compute(recipeOptions(Recipe::Paper, 100));
   row.faceCount = full.report.faceCount;
   const auto errors = [&](const Result& result) { return errorsOverRange(full.sdf(), result.sdf()); };
-  Result balanced;  // At 10 %.
+  Result balanced;  // Result at 10 %.
   for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
     Result result = compute(recipeOptions(Recipe::Balanced, kEstimatedPercents[i]));
     if (result.report.estimatedError) row.estimates[i] = ratiosOf(*result.report.estimatedError, errors(result));
@@ -192,7 +192,7 @@ std::string summaryOf(const char* title, const std::vector<MeshRow>& rows, bool 
          (onlyEstimates ? "" : recipeSummary(rows));
 }
 
-/// "1.02 0.99 1.01", by share of seeds.
+/// For example "1.02 0.99 1.01", one ratio per share of seeds.
 std::string toText(const MeshRow& row, double EstimateRatios::*ratio) {
   std::string text;
   for (const EstimateRatios& ratios : row.estimates)

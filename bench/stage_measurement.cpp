@@ -9,7 +9,6 @@ double secondsOf(const FileRun& run, TimeSpan span) {
   return seconds[Stage::Sample] + seconds[Stage::Trace] + seconds[Stage::Predict] + seconds[Stage::Solve];
 }
 
-/// The quantity of every run.
 template <typename Quantity>
 std::vector<double> samplesOf(const StageRow& row, const Quantity& quantity) {
   std::vector<double> samples;
@@ -30,7 +29,7 @@ Options optionsFor(const std::string& seeds) {
   return options;
 }
 
-/// The program with its default options, which include the error estimate.
+/// Runs the program with its default options, which include the error estimate.
 ProcessUsage runProcess(const std::filesystem::path& mesh, const StageRow& row, const std::string& device,
                         const std::filesystem::path& output) {
   std::vector<std::string> arguments{mesh, "--seeds", row.seeds, "--backend", row.backend, "-o", output, "--quiet"};

@@ -15,21 +15,21 @@
 namespace asdfvk::bench {
 
 struct StageRequest {
-  std::vector<std::string> seeds;     ///< As parseSeedCount() reads them.
-  std::vector<std::string> backends;  ///< As sessionOptionsOf() reads them.
+  std::vector<std::string> seeds;     ///< In the syntax of parseSeedCount().
+  std::vector<std::string> backends;  ///< Names for sessionOptionsOf().
   std::string device;
   uint32_t runCount = 5;
 };
 
-/// The runs of one backend with one choice of seeds. The runs i of all rows were made in the same round.
+/// The runs of one backend with one choice of seeds. The runs i of all rows are from the same round.
 struct StageRow {
   std::string seeds, backend;
   bool runsOnCpu = false;
   std::vector<FileRun> runs = {};
-  std::vector<ProcessUsage> processes = {};  ///< Of asdf-vk, from file to file, with opening the device.
+  std::vector<ProcessUsage> processes = {};  ///< asdf-vk from file to file, with opening the device.
 
   [[nodiscard]] Dispersion seconds(Stage stage) const;
-  [[nodiscard]] Dispersion share(Stage stage) const;  ///< Of the total.
+  [[nodiscard]] Dispersion share(Stage stage) const;  ///< Share of the total.
   [[nodiscard]] Dispersion total() const;
   [[nodiscard]] Dispersion raysPerSecond() const;
   [[nodiscard]] Dispersion process(double ProcessUsage::*quantity) const;
@@ -44,29 +44,28 @@ struct StageMeasurement {
   std::string mesh;
   std::vector<StageRow> rows = {};
 
-  /// Time of the reference over the time of `row`, by round. None unless `row` is a row of Vulkan, and without a row of
-  /// the reference with the same seeds.
+  /// Time of the reference divided by the time of `row`, by round. Unset if `row` is not a row of Vulkan, or if the
+  /// reference has no row with the same seeds.
   [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
 
-  /// Time of the process of all faces over that of `row` by the same backend, by round: CPU seconds on a CPU, seconds
-  /// elsewhere. None without a row of all faces.
+  /// Time of the process of all faces divided by that of `row` by the same backend, by round: CPU seconds on a CPU,
+  /// elapsed seconds on other devices. Unset without a row of all faces.
   [[nodiscard]] std::optional<Dispersion> speedUp(const StageRow& row) const;
 
-  /// TimeSpan::Interpolation over the time of the trace of all faces by the same backend, by round. None without a row
-  /// of all faces.
+  /// TimeSpan::Interpolation divided by the trace time of all faces by the same backend. Unset without a row of all faces.
   [[nodiscard]] std::optional<Dispersion> overFullTrace(const StageRow& row) const;
 
  private:
   [[nodiscard]] const StageRow* find(const std::string& seeds, const std::string& backend) const;
 };
 
-/// Keeps the devices open from mesh to mesh.
+/// Keeps the devices open for further meshes.
 class StageBench {
  public:
-  /// Throws Error{Usage} for a malformed request.
+  /// Throws Error{Usage} for an invalid request.
   explicit StageBench(StageRequest request);
 
-  /// Each round runs every row once; a first round for warm-up is not counted.
+  /// Each round runs every row once. A first round for warm-up is not counted.
   [[nodiscard]] StageMeasurement measure(const std::string& name, const std::filesystem::path& mesh,
                                          const RunControl& control);
 

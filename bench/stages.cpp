@@ -1,5 +1,4 @@
-// How is the time of a computation from file to file distributed over its stages? Each backend at several shares of
-// seeds, in turns.
+// How is the time of a computation from file to file distributed over its stages? Runs all backends and shares in turns.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -66,7 +65,7 @@ std::string ratiosText(const StageMeasurement& measurement) {
   return text.empty() ? text : "\n" + text;
 }
 
-/// The headline: what the interpolation saves.
+/// The first line: time saved by the interpolation.
 std::string speedUpsText(const StageMeasurement& measurement) {
   std::string text;
   for (const StageRow& row : measurement.rows)

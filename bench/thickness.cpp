@@ -1,6 +1,6 @@
 // Is the wall thickness right, and how long does the check of all faces take? Compares the backends with brute force
-// over all pairs of triangles in double, and parts with their known least thickness; measures the time of a check
-// against that of the shape diameter of all faces.
+// over all pairs of triangles in double, and parts with their known least thickness. Compares the time of a check with
+// the time of the shape diameter of all faces.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -48,10 +48,10 @@ Options checkOptions(double limit, bool allowsSharpEdges = false) {
   return options;
 }
 
-/// Both fields at some faces, by brute force, and the cap of each face.
+/// Both fields at some faces by brute force, and the cap of each face.
 struct Truth {
   struct Section {
-    double diameter, bound;  // The cap, and what it may be at most.
+    double diameter, bound;  // The cap, and its upper bound.
   };
   std::vector<uint32_t> faces;
   std::vector<Section> sections;
@@ -82,7 +82,7 @@ struct Truth {
     });
   }
 
-  /// Over the diagonal; infinite where only one has a value.
+  /// Difference divided by the diagonal; infinite if only one of both has a value.
   [[nodiscard]] double difference(size_t field, size_t i, double found) const {
     const double expected = values[field][i];
     double least = kUnlimited;
@@ -124,7 +124,7 @@ void printAgreement(const NamedMesh& named, Session& session, const Truth& truth
   }
 }
 
-/// CPU seconds from the mesh in memory to the result, in alternation after a warm-up.
+/// CPU seconds from the mesh in memory to the result, alternating, after a warm-up.
 void printTimes(const NamedMesh& named, Session& session, uint32_t runs, const RunControl& control) {
   Options diameterOptions;
   diameterOptions.seeds = SeedCount::all();
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
     std::vector<NamedMesh> meshes;
     for (const std::string& path : arguments.meshes) {
       meshes.push_back({std::filesystem::path(path).stem().string(), readMesh(path)});
-      meshes.back().mesh.polygons = {};  // Compared by triangle.
+      meshes.back().mesh.polygons = {};  // Values are compared by triangle.
     }
     if (arguments.parts)
       for (const auto& session : sessions) printParts(*session, arguments.longestEdge, control);

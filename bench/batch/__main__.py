@@ -1,13 +1,14 @@
 """Measures and checks batches of asdf-vk (docs/batches.md).
 
-  python3 bench/batch threads MESHES         time of --threads 1 over that of the default, files in and .npy out
-  python3 bench/batch cgal MESHES            CPU time of CGAL's sdf_values, 25 rays, over the time of one call on the same meshes
-  python3 bench/batch many [--count 10000]   generated meshes, every hundredth broken, one that hangs, one that takes 10 GB
-  python3 bench/batch kill [--moments 50]    kill -9 at random moments, then the same call: the bytes of a run without it
-  python3 bench/batch shards MESHES          --shard 1/7 to 7/7: their union, and their shares of the work
+    python3 bench/batch threads MESHES         time of --threads 1 divided by the default time, from file to .npy
+    python3 bench/batch cgal MESHES            CPU time of CGAL's sdf_values with 25 rays, divided by the time of one
+    call
+    python3 bench/batch many [--count 10000]   generated meshes: 1 % are broken, one hangs, one needs 10 GB
+    python3 bench/batch kill [--moments 50]    kill -9 at random moments and a second call: same bytes as without kill
+    python3 bench/batch shards MESHES          --shard 1/7 to 7/7: union of the results, and share of the work per shard
 
-Programs are taken from --build (build/develop). All files are written to a temporary folder. The exit code is 1 where
-a check fails.
+Programs are taken from --build (build/develop). Files are written to a temporary folder. The exit code is 1 if a check
+fails.
 """
 import argparse
 import pathlib

@@ -1,4 +1,4 @@
-"""The measurements of bench/batch; each prints its figures and checks."""
+"""The measurements of bench/batch. Each function prints its figures and checks."""
 import collections
 import os
 import pathlib

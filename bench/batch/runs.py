@@ -1,4 +1,4 @@
-"""Runs of asdf-vk, what they have written, and checks of it."""
+"""Runs of asdf-vk, their outputs, and checks."""
 import filecmp
 import json
 import os

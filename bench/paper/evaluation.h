@@ -13,14 +13,14 @@
 
 namespace asdfvk::bench {
 
-/// The shares of Table 1 of the ASDF paper, and all faces, in percent.
+/// All faces, and the shares of Table 1 of the ASDF paper, in percent.
 inline constexpr std::array<double, 7> kPercents{100, 50, 20, 10, 5, 2, 1};
 
 struct NamedMesh {
   std::string name;  ///< Unique; letters, digits, "-", "_" and "." only, because file names contain it.
   Mesh mesh;
-  View view = {};                               ///< Of its pictures.
-  std::shared_ptr<const SceneData> scene = {};  ///< For its pictures; evaluate() sets it.
+  View view = {};                               ///< View of the pictures.
+  std::shared_ptr<const SceneData> scene = {};  ///< For the pictures; set by evaluate().
 };
 
 /// Reads the meshes and names them by their files. Throws Error{Input}.
@@ -30,20 +30,20 @@ struct NamedMesh {
 [[nodiscard]] std::vector<NamedMesh> generateMeshes(uint64_t faceCount);
 
 struct EvaluationOptions {
-  uint32_t seedSetCount = 3;     ///< Random seed sets; numbers are medians over them unless stated.
+  uint32_t seedSetCount = 3;     ///< Random seed sets. By default, numbers are medians over the sets.
   uint32_t truthRayCount = 600;  ///< Rays per face of the truth.
 };
 
-/// A recipe at one share of the faces. Errors are over all faces and over the range of the full function.
+/// A recipe at one share of the faces. Errors are over all faces, divided by the range of the full function.
 struct ShareResult {
   double percent = 0;
   uint64_t seedCount = 0;
   double averageError = 0, maximumError = 0;               ///< Against the full function.
   double leastAverageError = 0, greatestAverageError = 0;  ///< The range of averageError over the seed sets.
   double truthAverageError = 0, truthMaximumError = 0;     ///< Against the truth.
-  double estimatedError = kNoValue;                        ///< The result's own estimate of averageError; NaN for none.
+  double estimatedError = kNoValue;  ///< Estimate of averageError in the result; NaN if there is none.
   double sampleSeconds = 0, traceSeconds = 0, predictSeconds = 0, solveSeconds = 0;
-  double timeRatio = 0;  ///< Sum of these seconds over the time of the full trace in the same round.
+  double timeRatio = 0;  ///< Sum of these seconds, divided by the time of the full trace in the same round.
 };
 
 struct Evaluation {
@@ -56,8 +56,7 @@ struct Evaluation {
 };
 
 /// Compares all recipes at all shares with the full function and with the truth: the function of truthRayCount rays at
-/// every face, with hashed cones. Throws for a mesh whose values are all equal. Reports progress on
-/// standard error.
+/// every face, with hashed cones. Throws for a mesh whose values are all equal. Reports progress on standard error.
 [[nodiscard]] Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& options,
                                   const RunControl& control);
 

@@ -10,10 +10,10 @@
 
 namespace asdfvk::bench {
 
-/// A page per figure, figureN.html, with the results that its pictures show: docs/page.md.
+/// A page (docs/page.md) per figure, figureN.html, with the results of its pictures.
 class FigurePages {
  public:
-  /// figure: number in the paper. label: distinguishes this result from the others of the figure.
+  /// figure: number in the paper. label: distinguishes results of a figure.
   void add(int figure, const NamedMesh& mesh, const Result& result, const std::string& label);
 
   void write(const OutputFolder& folder) const;

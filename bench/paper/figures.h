@@ -7,7 +7,7 @@
 namespace asdfvk::bench {
 
 // Shares of the faces in the figures of the ASDF paper, in percent.
-inline constexpr double kFigurePercent = 10;  ///< Figures 1, 4 and 8; the paper states it for Figure 4.
+inline constexpr double kFigurePercent = 10;  ///< Figures 1, 4 and 8. The paper states this share for Figure 4.
 inline constexpr double kSparsePercent = 5;   ///< Figure 3.
 inline constexpr double kSamplerPercent = 7;  ///< Figure 7.
 
@@ -16,7 +16,7 @@ void drawMeshFigures(PictureWriter& pictures, FigurePages& pages, Session& sessi
                      const Evaluation& evaluation, const RunControl& control);
 
 /// Figure 7: the seeds of every sampler. Returns the columns sampler, seeds, paper_average_error and
-/// balanced_average_error: the average error with the interpolation of each recipe, as the median over the seed sets.
+/// balanced_average_error. The errors are those of the interpolation of each recipe, as medians over the seed sets.
 [[nodiscard]] CsvTable drawSamplers(PictureWriter& pictures, FigurePages& pages, Session& session, NamedMesh& mesh,
                                     const Evaluation& evaluation, uint32_t seedSetCount, const RunControl& control);
 

@@ -16,10 +16,10 @@ struct CsvTable {
   std::vector<std::vector<std::string>> rows;  ///< One cell per column.
 };
 
-/// The shortest decimal number that reads back as `value`; empty for NaN.
+/// The shortest decimal number whose value as a double is `value`; empty for NaN.
 [[nodiscard]] std::string csvNumber(double value);
 
-/// The folder of the results. Each file is written completely or not at all; failures throw Error{Output}.
+/// The folder of the results. Files are written atomically. Failures throw Error{Output}.
 class OutputFolder {
  public:
   /// Makes the folder if it does not exist.

@@ -10,7 +10,7 @@
 
 namespace asdfvk::bench {
 
-/// From entries per input face (#I) to entries per triangle (#F).
+/// Converts entries per input face (#I) to entries per triangle (#F).
 template <typename T>
 [[nodiscard]] std::vector<T> toTriangles(const Mesh& mesh, const std::vector<T>& inputFaceValues) {
   if (mesh.polygons.isEmpty()) return inputFaceValues;
@@ -20,7 +20,7 @@ template <typename T>
   return values;
 }
 
-/// How the values of a picture are coloured.
+/// Colours of the values of a picture.
 struct FieldStyle {
   std::string title;  ///< Above the colour bar.
   ColourRange range;
@@ -35,7 +35,7 @@ class PictureWriter {
   /// values: #I; NaN is grey.
   void drawField(int figure, const std::string& name, const NamedMesh& mesh, const std::vector<double>& values,
                  const FieldStyle& style, const std::string& caption);
-  /// values: #F, otherwise as above.
+  /// values: #F.
   void drawTriangleField(int figure, const std::string& name, const NamedMesh& mesh, const std::vector<double>& values,
                          const FieldStyle& style, const std::string& caption);
   /// isSeed: #I; seeds are red.

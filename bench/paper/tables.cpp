@@ -3,7 +3,7 @@
 namespace asdfvk::bench {
 namespace {
 
-/// A row per mesh, recipe and share: the given numbers after the columns mesh, recipe, percent and seeds.
+/// A row per mesh, recipe and share: the columns mesh, recipe, percent and seeds, then the given numbers.
 CsvTable shareTable(const std::vector<Evaluation>& evaluations,
                     const std::vector<std::pair<const char*, double ShareResult::*>>& numbers) {
   CsvTable table{{"mesh", "recipe", "percent", "seeds"}, {}};

@@ -8,8 +8,8 @@
 
 namespace asdfvk::bench {
 
-// The CSV files of asdfvk-bench-paper, which plot_paper.py reads. A cell is empty where there is no value. Errors are
-// over the range of the full function, times are in seconds.
+// The CSV files of asdfvk-bench-paper, which plot_paper.py reads. A cell without a value is empty. Errors are divided
+// by the range of the full function. Times are in seconds.
 //
 // run.csv       name, value: version, device, options.
 // meshes.csv    mesh, faces, sdf_min, sdf_max, full_trace_seconds: the full function.

@@ -12,13 +12,13 @@
 /// Computations that several benchmarks share, and their errors.
 namespace asdfvk::bench {
 
-/// backend: of backendNames(). device: of Vulkan; other backends ignore it.
+/// backend: one of backendNames(). device: used by Vulkan only.
 [[nodiscard]] SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device);
 
-/// "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{OptionOutOfRange}.
+/// Reads "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{OptionOutOfRange}.
 [[nodiscard]] SeedCount parseSeedCount(const std::string& text);
 
-/// Options of a recipe with seeds at `percent` of the faces; 100: at all faces.
+/// Options of a recipe with seeds at `percent` of the faces.
 [[nodiscard]] Options recipeOptions(Recipe recipe, double percent, uint64_t randomSeed = 1);
 
 /// Options of the truth: many rays at every face, with hashed cones.
@@ -33,15 +33,15 @@ struct FileRun {
 [[nodiscard]] FileRun runFile(Session& session, const std::filesystem::path& mesh, const Options& options,
                               const std::filesystem::path& output, const RunControl& control);
 
-/// Absolute differences of two fields over the range (max - min) of the first one, as in Table 1 of the ASDF paper:
-/// over all faces with a value in both. Seeds count too; their error is usually 0.
+/// Absolute differences of two fields, divided by the range (max - min) of the first field, as in Table 1 of the ASDF
+/// paper: over all faces with a value in both fields. Includes seeds, whose error is usually 0.
 struct FieldErrors {
   double average = 0, maximum = 0;
-  double robustAverage = 0;                             ///< Over the 1st to the 99th percentile of the first field.
-  double relativeMedian = 0, relativePercentile90 = 0;  ///< Of difference / value of the first field.
+  double robustAverage = 0;                             ///< Divided by the range from the 1st to the 99th percentile.
+  double relativeMedian = 0, relativePercentile90 = 0;  ///< Percentiles of difference / value of the first field.
 };
 
-/// full, approximate: #I, NaN for no value. All 0 when the range is empty.
+/// full, approximate: #I, NaN for no value. All errors are 0 if the range is empty.
 [[nodiscard]] FieldErrors errorsOverRange(std::span<const double> full, std::span<const double> approximate);
 
 /// A mesh with its hierarchy: the input of a tracer.
@@ -54,7 +54,7 @@ struct TraceableMesh {
   TraceableMesh(const TraceableMesh&) = delete;
   TraceableMesh& operator=(const TraceableMesh&) = delete;
 
-  /// Views of this object.
+  /// The scene refers to this object.
   [[nodiscard]] TraceScene scene() const { return {prepared.mesh, prepared.geometry, prepared.representatives, bvh}; }
 };
 

@@ -19,7 +19,7 @@ double medianOfSorted(const std::vector<double>& sorted) {
   return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
 
-/// The text after the colon in the first line that begins with `key`; empty without such a line.
+/// The text after the colon in the first line that begins with `key`; empty if there is none.
 std::string valueIn(const std::string& file, std::string_view key) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {

@@ -11,15 +11,14 @@
 /// Timers, statistics of repeated measurements, and the machine that they depend on.
 namespace asdfvk::bench {
 
-/// Median (mean of the two middle samples for an even count), median absolute deviation from it, minimum and maximum.
-/// All 0 without samples.
+/// All 0 without samples. The median of an even count is the mean of the two middle samples. deviation: median absolute.
 struct Dispersion {
   double median = 0, deviation = 0, min = 0, max = 0;
 };
 
 [[nodiscard]] Dispersion dispersionOf(std::vector<double> samples);
 
-/// a[i] / b[i], up to the end of the shorter one.
+/// The ratios a[i] / b[i], up to the end of the shorter one.
 [[nodiscard]] Dispersion ratioOf(const std::vector<double>& a, const std::vector<double>& b);
 
 /// "0.123 ±0.004": median and median absolute deviation.
@@ -29,14 +28,14 @@ struct Dispersion {
 
 using Json = nlohmann::ordered_json;
 [[nodiscard]] Json toJson(const Dispersion& dispersion);
-/// null without a value.
+/// null if unset.
 [[nodiscard]] Json toJson(const std::optional<Dispersion>& dispersion);
 /// The document and a line feed. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string oneLine(const Json& json);
 
 enum class Clock {
-  ProcessCpu,  ///< CPU seconds of all threads of this process: other load disturbs it less.
-  Wall,        ///< Elapsed seconds: for a GPU, and for threads that wait for each other.
+  ProcessCpu,  ///< CPU seconds of all threads of this process, which other load affects less.
+  Wall,        ///< Elapsed seconds, for GPUs and for threads that wait for each other.
 };
 
 /// Starts at construction.
@@ -58,11 +57,10 @@ class Timer {
 struct Machine {
   std::string processor;
   unsigned threads = 1;    ///< Hardware threads.
-  double loadAverage = 0;  ///< Of the last minute, the benchmark itself included.
+  double loadAverage = 0;  ///< Load of the last minute, including the benchmark.
 };
 
 [[nodiscard]] Machine thisMachine();
-/// One line.
 [[nodiscard]] std::string toText(const Machine& machine);
 
 /// Peak resident memory of a running process so far (VmHWM); 0 after its end.

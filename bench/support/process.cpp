@@ -36,7 +36,7 @@ pid_t spawn(std::string program, std::vector<std::string> arguments, int standar
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, standardOutput, STDOUT_FILENO);
-  // This process blocks the signals that Program::run() waits for.
+  // The child must not block signals, but this process blocks the signals for which Program::run() waits.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -51,7 +51,7 @@ pid_t spawn(std::string program, std::vector<std::string> arguments, int standar
   return process;
 }
 
-// Between two readings of the peak memory; that of wait4() is at least the memory of this process.
+// Interval of readings of the peak memory. wait4() cannot replace them: its peak includes the memory of this process.
 constexpr int kPollMilliseconds = 5;
 
 std::string readAll(int descriptor, pid_t process, double& peakBytes) {

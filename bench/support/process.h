@@ -6,14 +6,14 @@
 
 namespace asdfvk::bench {
 
-/// What a process took from its start to its end.
+/// Resources that a process used from start to end.
 struct ProcessUsage {
   double seconds = 0;
-  double cpuSeconds = 0;  ///< Of all threads, the kernel included.
-  double peakBytes = 0;   ///< Peak resident memory, shared libraries and mapped files included.
+  double cpuSeconds = 0;  ///< All threads, including time in the kernel.
+  double peakBytes = 0;   ///< Peak resident memory, including shared libraries and mapped files.
 };
 
-/// Runs a program and returns its standard output. Throws Error{Cancelled} when its exit code is kCancelledExitCode,
+/// Runs a program and returns its standard output. Throws Error{Cancelled} if its exit code is kCancelledExitCode, and
 /// std::runtime_error for any other exit code than 0.
 [[nodiscard]] std::string outputOf(const std::string& program, const std::vector<std::string>& arguments,
                                    ProcessUsage* usage = nullptr);

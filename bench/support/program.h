@@ -19,7 +19,7 @@ namespace asdfvk::bench {
 /// Exit code of a program that was stopped by a signal.
 inline constexpr int kCancelledExitCode = 130;
 
-/// Allowed values of an option, both ends included.
+/// Allowed values of an option, including both ends.
 template <typename T>
 struct Range {
   T min = std::numeric_limits<T>::lowest(), max = std::numeric_limits<T>::max();
@@ -29,8 +29,8 @@ struct Range {
 
 /// The command line and the error handling of a benchmark. Keeps CLI11, which compiles slowly, out of the benchmarks.
 ///
-/// add() binds an option to a variable, whose initial value is the default and which must outlive the object. A list is
-/// written with commas: "1,2". Names have CLI11's syntax: "--runs", "-o,--output".
+/// add() binds an option to a variable, whose initial value is the default. The variable must outlive the object. A
+/// list is written with commas: "1,2". Names have CLI11's syntax: "--runs", "-o,--output".
 class Program {
  public:
   Program(const std::string& name, const std::string& summary);
@@ -53,9 +53,9 @@ class Program {
   void add(const std::string& name, std::vector<uint64_t>& list, const std::string& text);
   void add(const std::string& name, std::vector<double>& list, const std::string& text);
 
-  /// Parses the command line, runs `body` and prints an exception to standard error. SIGINT and SIGTERM become a stop
-  /// request, so that temporary files are removed; a second signal ends the process. Returns the exit code: 0 done,
-  /// 1 usage, 2 input, 3 device, 4 output, 70 any other failure, 130 cancelled.
+  /// Parses the command line, runs `body` and prints an exception to standard error. SIGINT and SIGTERM request a stop,
+  /// so that temporary files are removed. A second signal ends the process. Returns the exit code: 0 done, 1 usage, 2
+  /// input, 3 device, 4 output, 70 other failures, 130 cancelled.
   [[nodiscard]] int run(int argc, char** argv, const std::function<void(const RunControl&)>& body);
 
  private:
