@@ -1,5 +1,5 @@
 #version 450
-// Replaces shaders/trace_rays.comp. Lengths and hits are a smooth function of the origin; the only cost is writing them.
+// Replaces shaders/trace_rays.comp. Lengths and hits are a smooth function of the origin. Only writing them costs time.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 

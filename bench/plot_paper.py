@@ -81,7 +81,7 @@ def select(rows, **wanted):
 
 
 def save_plot(folder, name, title, labels, series, scale="log", limits=None, categories=None):
-    """Returns NAME.svg; also writes NAME.png. Series: (name, [(x, y)], options of Axes.plot). categories: labels of x."""
+    """Writes NAME.svg and NAME.png. series: (name, [(x, y)], options of Axes.plot). categories: labels of x."""
     figure, axes = plt.subplots(figsize=(5.6, 4), layout="constrained")
     for label, points, style in series:
         points = sorted(point for point in points if not math.isnan(point[1]))

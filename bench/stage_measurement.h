@@ -52,7 +52,7 @@ struct StageMeasurement {
   /// elapsed seconds on other devices. Unset without a row of all faces.
   [[nodiscard]] std::optional<Dispersion> speedUp(const StageRow& row) const;
 
-  /// TimeSpan::Interpolation divided by the trace time of all faces by the same backend. Unset without a row of all faces.
+  /// TimeSpan::Interpolation divided by the trace time of all faces by that backend. Unset without a row of all faces.
   [[nodiscard]] std::optional<Dispersion> overFullTrace(const StageRow& row) const;
 
  private:

@@ -1,4 +1,4 @@
-// How is the time of a computation from file to file distributed over its stages? Runs all backends and shares in turns.
+// How is the time of a computation from file to file distributed over its stages? Runs backends and shares in turns.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

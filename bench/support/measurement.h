@@ -11,7 +11,7 @@
 /// Timers, statistics of repeated measurements, and the machine that they depend on.
 namespace asdfvk::bench {
 
-/// All 0 without samples. The median of an even count is the mean of the two middle samples. deviation: median absolute.
+/// All 0 without samples. The median of an even count is the mean of two samples. deviation: median absolute.
 struct Dispersion {
   double median = 0, deviation = 0, min = 0, max = 0;
 };

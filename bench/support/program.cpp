@@ -35,8 +35,8 @@ CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<T>& lis
   return app.add_option(name, list, text)->delimiter(separator)->allow_extra_args(false)->capture_default_str();
 }
 
-/// Blocks SIGINT and SIGTERM in this thread and all its later threads, and waits for them in a separate thread. The first
-/// signal requests a stop, the second one ends the process. A signal that the parent process ignores stays ignored.
+/// Blocks SIGINT and SIGTERM in this thread and all its later threads, and waits for them in a thread. The first signal
+/// requests a stop, the second one ends the process. A signal that the parent process ignores stays ignored.
 class SignalWaiter {
  public:
   SignalWaiter() {

@@ -52,7 +52,7 @@ def test_import_opens_nothing() -> None:
     threads = len(os.listdir("/proc/self/task")) - threads_of_numpy
     print("vulkan" in maps, threads, len(os.listdir("/proc/self/fd")))
     """
-    # No driver, and no thread except those of NumPy. The descriptors are three standard streams and that of the listing.
+    # No driver, and no thread except those of NumPy. The descriptors are standard streams and that of the listing.
     assert output(code).split() == ["False", "0", "4"]
 
 

@@ -22,7 +22,6 @@ const std::string kMissingValue(1, '\0');
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
-/// Converts a text to a number. Throws std::invalid_argument.
 template <typename T>
 void readNumber(const std::string& text, T& target) {
   const std::optional<T> number = numberIn<T>(text);

@@ -9,7 +9,6 @@
 
 namespace asdfvk {
 
-/// An option or a positional argument.
 struct Argument {
   using Values = std::vector<std::string>;
 
@@ -17,14 +16,12 @@ struct Argument {
   std::string placeholder =
       {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
   std::string text = {};  ///< Text of the help.
-  /// Called with the values of each occurrence of the argument; for a list, called once with all values. A flag and an
-  /// omitted optional value have no values.
+  /// Called with the values of each occurrence, or once with all values of a list. Flags and omitted values: empty.
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;
   size_t valueCount = 1;
-  /// For an option with an optional value: whether the next argument is its value. Null: its value must follow an
-  /// equals sign.
+  /// Whether the next argument is the optional value. Null: an optional value must follow an equals sign.
   std::function<bool(const std::string& next)> takesNext = {};
 
   /// The long name, with dashes.
@@ -41,8 +38,7 @@ struct Argument {
 /// Parser of the arguments of a program, including -h,--help and --version.
 class ArgumentParser {
  public:
-  /// version: the answer to --version; empty: the program has no --version. Argument::receive is called in the order of
-  /// `arguments`.
+  /// version: answer to --version; empty: no --version. Argument::receive is called in the order of `arguments`.
   ArgumentParser(std::string_view name, std::string_view description, std::string_view version,
                  std::vector<Argument> arguments);
 

@@ -85,8 +85,8 @@ void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
   for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 
-/// Runs the jobs. After an OpenFailure, reports a failure of each unfinished job and returns the code of the failure.
-/// Throws the other errors of runJobs().
+/// Runs the jobs. After an OpenFailure, reports a failure for each unfinished job. Throws the other errors of
+/// runJobs().
 ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client,
                       Monitor& monitor, bool hasJson, const std::stop_token& stop) {
   try {

@@ -25,7 +25,6 @@ enum class ExitCode : int {
   Cancelled = kCancelledCode,  ///< SIGINT, SIGTERM or SIGHUP ended the run.
 };
 
-/// Meaning of each code, for the help and the man page.
 inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
     {{ExitCode::Done, "done"},
      {ExitCode::Usage, "invalid command line"},
@@ -46,10 +45,8 @@ inline constexpr const char* kExitCodeOfSeveralMeshes =
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
-/// Whether a mesh that ended with this code has a result.
 [[nodiscard]] bool hasResult(ExitCode ofMesh);
 
-/// Combines the exit codes of several meshes.
 class SharedExitCode {
  public:
   void add(ExitCode ofMesh);

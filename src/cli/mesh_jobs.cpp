@@ -16,7 +16,6 @@
 namespace asdfvk {
 namespace {
 
-/// A copy of the object without its lists, which may be long.
 Json withoutLists(Json object) {
   Json kept;
   for (auto& [key, value] : object.items())
@@ -51,7 +50,6 @@ void fillRecord(MeshRecord& record, const Failure& failure) {
   record.message = failure.message;
 }
 
-/// Opens a session. Throws OpenFailure.
 std::unique_ptr<Session> openSession(const SessionOptions& options) {
   try {
     return std::make_unique<Session>(options);
@@ -60,8 +58,7 @@ std::unique_ptr<Session> openSession(const SessionOptions& options) {
   }
 }
 
-/// Whether a file is read during the computation of the previous mesh. False for large files, because both meshes are
-/// then in memory.
+/// Whether a file is read during the preceding computation. False for large files, because both meshes are in memory.
 bool isReadAhead(const Job& job) {
   constexpr uint64_t kMaxBytes = uint64_t{256} << 20;
   return !job.isStream && job.byteCount > 0 && job.byteCount <= kMaxBytes;

@@ -24,12 +24,10 @@ class JobRecords {
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
   /// Completes the record and, in a batch, writes it beside the output. If the record cannot be written, the mesh fails
-  /// and its output is removed. old: record of an earlier run. If the mesh failed and the earlier output is out of
-  /// date, the earlier output is removed.
+  /// and its output is removed. old: record of an earlier run. A failed mesh loses an outdated output of that run.
   [[nodiscard]] JobResult finish(const Job& job, MeshRecord record, MeshRun run,
                                  const std::optional<MeshRecord>& old) const;
 
-  /// The result of an earlier run, if it is up to date.
   [[nodiscard]] std::optional<JobResult> findFinished(const Job& job) const;
 
   /// The result of a job whose worker process failed.

@@ -49,8 +49,7 @@ const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
 
 constexpr auto kStopPollTime = std::chrono::milliseconds(20);
 
-/// If the output is a FIFO, waits until it has a reader. Keeps the FIFO open, so that the writer does not wait again.
-/// Throws Error{Cancelled}.
+/// Waits for the reader of a FIFO, and keeps the FIFO open, so that the writer need not wait. Throws Error{Cancelled}.
 class AwaitedReader {
  public:
   AwaitedReader(const std::string& output, const std::stop_token& stop) {
@@ -129,7 +128,6 @@ class MeshFiles {
       if (!further.empty()) requireWritablePlace(further);
   }
 
-  /// Calls work(RunControl) with a progress bar.
   template <typename Work>
   auto withProgress(const Work& work) const {
     const Stopwatch watch;
@@ -155,8 +153,7 @@ class MeshFiles {
     asdfvk::writePoints(settings_.outputs.points, result.fields);
   }
 
-  /// Renders a picture of the field, or of the thin places if `field` is null, and writes it atomically. Precondition:
-  /// result.scene is set.
+  /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.
   void writePicture(const Result& result, const Field* field) const {
     const Outputs& outputs = settings_.outputs;
     const AwaitedReader reader(outputs.picture, stop_);

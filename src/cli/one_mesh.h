@@ -29,8 +29,7 @@ struct MeshSettings {
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshSettings& settings);
 [[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
-/// Reads and computes a mesh, writes its result and prints the report or the failure. Throws Error{OptionConflict} if
-/// outputs contradict each other.
+/// Computes a mesh and reports the result or a failure. Throws Error{OptionConflict} if outputs contradict each other.
 [[nodiscard]] ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings,
                                       const std::stop_token& stop);
 
@@ -44,8 +43,7 @@ struct LoadedMesh {
   std::exception_ptr failure;
 };
 
-/// Reads a mesh. A stop request ends the wait for a FIFO or for standard input; LoadedMesh::failure is then
-/// Error{Cancelled}.
+/// Reads a mesh. A stop request ends the wait for a FIFO or for standard input with the failure Error{Cancelled}.
 [[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop);
 
 /// Outcome of a mesh. `json` and `text` are empty or consist of complete lines.
@@ -56,7 +54,6 @@ struct MeshRun {
   std::string json;                ///< Lines of --json.
   std::string text;                ///< Errors; also warnings and the report, except in a batch or with --quiet.
 
-  /// Adds a failure of the mesh `input`, and its lines.
   void add(Failure failed, const std::string& input, bool hasJson);
 };
 

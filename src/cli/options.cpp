@@ -138,9 +138,8 @@ bool estimates(const Options& options) {
   return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
 }
 
-/// Sets the options that --fields, --picture-of and --points imply, such as --measure both for a field of the shape
-/// diameter. Sets the default of --picture-of. Throws Error{OptionConflict} for a field that the other options do not
-/// compute.
+/// Sets the options that --fields, --picture-of and --points imply, such as --measure both, and the default of
+/// --picture-of. Throws Error{OptionConflict} for a field that the other options do not compute.
 void completeFields(CommandLine& line, bool choosesPicture) {
   Options& options = line.computation.options;
   Outputs& outputs = line.outputs;

@@ -12,7 +12,6 @@
 
 namespace asdfvk {
 
-/// The parsed and validated command line.
 struct CommandLine {
   /// Paths of meshes, with -r also of folders; "-" (at most once) for standard input.
   std::vector<std::string> meshes;
@@ -25,7 +24,6 @@ struct CommandLine {
   std::optional<std::string> answer;  ///< Answer to --help or --version. If set, nothing is computed.
 };
 
-/// Rows of options, and the struct that they set.
 struct OptionTable {
   OptionRows rows;
   void* target;

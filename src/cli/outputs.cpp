@@ -67,7 +67,6 @@ bool isFolder(const std::string& output) {
   return output.ends_with('/') || (!output.empty() && fs::is_directory(output, ignored));
 }
 
-/// Whether -o is a folder for results.
 bool takesFolder(const Outputs& outputs, const BatchOptions& batch) {
   return !outputs.path.empty() && (batch.hasTree() || isFolder(outputs.path));
 }
@@ -87,8 +86,7 @@ std::string normalised(const fs::path& path) {
   return fs::absolute(followLinks(path), ignored).lexically_normal().string();
 }
 
-/// Finds files with two uses. Existing files are compared by device and inode, so that links are followed. Missing
-/// files are compared by normalised path.
+/// Finds files with two uses. Existing files are compared by device and inode, missing files by normalised path.
 class FileUses {
  public:
   /// Returns the earlier use of the file. If there is none, adds `use` and returns an empty text.

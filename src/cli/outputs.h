@@ -14,7 +14,6 @@
 
 namespace asdfvk {
 
-/// Options of the files and texts that are written.
 struct Outputs {
   std::string path;                 ///< Path of the result: a file, a directory, "-"; empty: beside each input.
   std::string format;               ///< One of outputFormats(). Empty: the extension of `path`; ply if there is none.
@@ -51,8 +50,7 @@ struct BatchOptions {
   [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
 };
 
-/// Reads a number of bytes, at least 1, such as "500M", "2G", "1.5g" or "4096". Units are powers of 1024. Unset for any
-/// other text.
+/// Reads a number of bytes such as "500M", "1.5g" or "4096", in powers of 1024. Unset for other texts and below 1.
 [[nodiscard]] std::optional<uint64_t> parseByteCount(const std::string& text);
 
 /// Names of the fields to write: Outputs::fields, or by default the fields that the options compute.
@@ -61,19 +59,15 @@ struct BatchOptions {
 /// Name and extension of the format of pages, which src/page writes.
 inline constexpr const char* kPageFormat = "html";
 
-/// resultFormats() and kPageFormat.
 [[nodiscard]] std::vector<std::string> outputFormats();
 
-/// Whether the results are written as pages.
 [[nodiscard]] bool writesPages(const Outputs& outputs);
 
-/// Whether all results are written to one page.
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
 
 /// Returns the path of the result of each input, "-" for standard output. If BatchOptions::hasTree(), results are in a
-/// tree below -o, whose folders need not exist. Throws Error{OptionConflict} if two outputs (results, their records,
-/// log, picture, points) have the same path, if an output is also an input, or if several meshes have the same output
-/// file that is not a page.
+/// tree below -o, whose folders need not exist. Throws Error{OptionConflict} if two outputs (results, records, log,
+/// picture, points) have the same path, if an output is an input, or if several meshes have one output that is no page.
 [[nodiscard]] std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                                    std::span<const InputFile> inputs);
 

@@ -36,7 +36,6 @@ FieldList shownFields(const MeshOutcome& outcome) {
     const bool isShown = std::any_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == &field; });
     if (field.location == FieldLocation::PerFace && field.componentCount == 1 && !isShown) shown.emplace_back(field);
   }
-  // When a page is opened, it shows its first field.
   std::stable_partition(shown.begin(), shown.end(), [](const Field& field) { return field.name == "segment"; });
   return shown;
 }
@@ -54,8 +53,8 @@ std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
                              100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
 }
 
-/// The rows of the report, with capitalised titles and continued rows joined. Omits the list of thin regions, because
-/// the page has its own list. showsTimes: if false, the rows depend on mesh and options only.
+/// The rows of the report except the list of thin regions, with capitalised titles and continued rows joined.
+/// showsTimes: if false, the rows depend on mesh and options only.
 std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome, bool showsTimes) {
   std::vector<std::pair<std::string, std::string>> summary;
   bool isThinRow = false;

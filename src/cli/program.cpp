@@ -22,9 +22,8 @@ namespace {
 /// Bytes of unused memory at the end of the heap that are not returned to the kernel.
 constexpr int kKeptBytes = 128 << 20;
 
-/// Makes the allocator reuse freed memory, including large arrays. Memory that is returned to the kernel costs time,
-/// because the kernel clears each new page. All threads share one heap, so that a thread can reuse memory that another
-/// thread freed.
+/// Makes the allocator reuse freed memory, because the kernel needs time to clear each new page. All threads share one
+/// heap, so that a thread can reuse memory that another thread freed.
 void keepFreedMemory() {
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);

@@ -7,8 +7,7 @@
 
 namespace asdfvk {
 
-/// Runs the program asdf-vk. arguments: without the name of the program. Throws nothing; prints a failure as one line
-/// on standard error.
+/// Runs asdf-vk. arguments: without the name of the program. Throws nothing; prints a failure as one line.
 [[nodiscard]] ExitCode runProgram(const std::vector<std::string>& arguments);
 
 }  // namespace asdfvk

@@ -1,5 +1,4 @@
-// The options of outputs, batches and devices, one row each. describe/computation_options.cpp has the options of
-// computations and sessions.
+// The options of outputs, batches and devices. describe/computation_options.cpp has the other options.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -28,9 +28,8 @@ struct MeshOutcome {
 /// Rows of title and text. A row without a title continues the previous row.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// The rows of the full report. The first rows are those of the thickness, which begin with the verdict, or those of
-/// the short report if the thickness was not measured. Details of values, parts, seeds, device, solver and times
-/// follow. Titles have at most nine characters.
+/// The rows of the full report: thicknessRows(), or the short report if the thickness was not measured; then details of
+/// values, parts, seeds, device, solver and times. Titles have at most nine characters.
 [[nodiscard]] ReportRows reportRows(const Report& report);
 
 /// The report as aligned lines. The first line has the name of the mesh and the verdict or the row "mesh". Further rows
@@ -41,8 +40,7 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// One line: "the check failed: " and the reason.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 
-/// Rows of the verdict, unjudged faces, size, thin regions, sharp edges, greatest section and percentiles.
-/// Precondition: report.thickness is set.
+/// Verdict, unjudged faces, size, thin regions, sharp edges and more. Precondition: report.thickness is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report);
 
 /// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or the least thickness
@@ -79,7 +77,6 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] Page emptyPage();
 
-/// The name of a mesh in a page: its file name.
 [[nodiscard]] std::string nameInPage(const std::string& mesh);
 
 /// Name of a mesh in a page, and whether the page shows times.

@@ -53,7 +53,6 @@ std::string edgeText(const SharpEdge& edge, const ThicknessReport&) {
   return fmt::format("edge of {:.3g} degrees, length {}, {}", edge.angleDegrees, lengthText(edge.length), place);
 }
 
-/// The verdict: "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
 std::string verdictOf(const ThicknessReport& thickness) {
   if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
   switch (*thickness.verdict) {

@@ -6,8 +6,7 @@
 
 namespace asdfvk {
 
-/// Writes the whole text to standard output. Throws Error{OutputNotWritable} with the reason, for example a full disk
-/// or a closed pipe.
+/// Writes the whole text to standard output. Throws Error{OutputNotWritable}, for example for a full disk.
 void writeStandardOutput(std::string_view text);
 
 /// Writes to standard error. Ignores failures, because they cannot be reported.
@@ -29,8 +28,7 @@ void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();
 
-/// A progress bar in one line. It appears after one second and is redrawn at most ten times per second. The destructor
-/// clears the bar.
+/// A progress bar in one line. Appears after one second. Redrawn at most ten times per second. Cleared at destruction.
 class ProgressBar {
  public:
   /// write: writes a text to the terminal. now: returns a time in seconds.
