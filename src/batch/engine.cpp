@@ -21,8 +21,7 @@ namespace {
 
 constexpr int kInternalCode = 70;
 
-/// Whether a stop is requested. Waits up to 0.5 s for a request, because a signal to the process group may reach a
-/// worker before this process.
+/// Whether a stop is requested. Waits up to 0.5 s, because a signal may reach a worker before this process.
 bool isStopping(const std::stop_token& stop) {
   constexpr int kAttempts = 50;
   for (int i = 0; i < kAttempts && !stop.stop_requested(); ++i)

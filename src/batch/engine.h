@@ -32,9 +32,8 @@ inline constexpr uint32_t kMaxWorkersOnGpu = 4;
 
 /// Assigns each pending job to one phase. pending: indices of the jobs. requested: jobs at once; 0: depends on the
 /// sizes of the meshes. With 0, large meshes come first, one after another with all threads. Small meshes follow, with
-/// one worker per thread. If the work per worker would be below kMinMeshesPerWorker or kMinBytesPerWorker, there are
-/// fewer workers. If only one worker remains, all meshes are computed one after another in their order. During a stream
-/// (Job::isStream), no other job is computed.
+/// a worker per thread, but at least kMinMeshesPerWorker and kMinBytesPerWorker per worker. If only one worker remains,
+/// all meshes are computed one after another in their order. During a stream (Job::isStream), no other job is computed.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t> pending,
                                              uint32_t requested, uint32_t threadCount);
 

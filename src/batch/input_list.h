@@ -14,8 +14,7 @@ struct InputFile {
   uint64_t byteCount = 0;  ///< Size of the file; 0 if it is unknown.
 };
 
-/// Fixed time per mesh for opening, preparing and writing, as a number of bytes of a file that take the same time.
-/// Estimated.
+/// Estimated fixed time of a mesh (opening, preparing, writing), as the size of a file that takes the same time.
 inline constexpr uint64_t kBytesPerMesh = 16'384;
 
 struct InputRequest {

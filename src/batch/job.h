@@ -39,8 +39,7 @@ class JobComputer {
  public:
   virtual ~JobComputer() = default;
   [[nodiscard]] virtual ComputerDescription describe() const = 0;
-  /// Computes a job. Failures are returned in the result. next: the following job, whose input may be read ahead; may
-  /// be null.
+  /// Computes a job. Failures are part of the result. next: the following job, whose input may be read ahead, or null.
   [[nodiscard]] virtual JobResult compute(const Job& job, const Job* next) = 0;
   /// Whether this computer cannot compute further jobs because its device failed or a stop was requested.
   [[nodiscard]] virtual bool isSpent() const = 0;

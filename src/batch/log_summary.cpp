@@ -37,8 +37,7 @@ std::string spreadText(const Spread& spread, double factor, const char* unit) {
 /// Column names and texts of a row of the table.
 using Cells = std::vector<std::pair<std::string, std::string>>;
 
-/// The keys of the record that are columns. An object whose values are all null is left out, because the records of
-/// other meshes may have its keys.
+/// The columns of a record. Objects of null values are left out, because another record may have their keys.
 Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");

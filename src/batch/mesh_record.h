@@ -50,8 +50,7 @@ struct MeshRecord {
   std::string message;  ///< Message of the error in one line; empty without a failure.
 };
 
-/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". Alphabetical order is chronological
-/// order.
+/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". Times sort like texts.
 [[nodiscard]] std::string utcTime();
 
 [[nodiscard]] Json toJson(const MeshRecord& record);
@@ -72,8 +71,7 @@ ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount
             options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
-/// write(), so that a killed process leaves at most one incomplete line. The next append() of any process ends the
-/// incomplete line.
+/// write(). A killed process leaves at most one incomplete line, which the next append() of any process ends.
 class RecordLog {
  public:
   /// Throws Error{OutputNotWritable}.

@@ -26,8 +26,7 @@ class MessageChannel {
   bool send(std::string_view message);
   /// Reads the bytes that have arrived, without waiting. False if the other end is closed.
   bool receive();
-  /// Returns the next complete message that was received; unset if there is none. Throws std::runtime_error if the
-  /// bytes are not a message.
+  /// Returns the next complete message, if there is one. Throws std::runtime_error for bytes that are not a message.
   [[nodiscard]] std::optional<std::string> take();
   /// Waits for the next message. Unset if the other end is closed. Throws like take().
   [[nodiscard]] std::optional<std::string> wait();

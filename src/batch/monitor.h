@@ -22,8 +22,7 @@ struct MonitorOptions {
   bool isQuiet = false;        ///< Prints only the reports and messages of jobs.
 };
 
-/// Receives the results of jobs in any order and from any thread. Prints the results in the order of the jobs, appends
-/// them to the log and shows the progress.
+/// Receives results of jobs in any order from any thread. Prints and logs them in the order of the jobs.
 class Monitor {
  public:
   /// Opens the log. Throws Error{OutputNotWritable}. Precondition: `jobs` outlives this object.

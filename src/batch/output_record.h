@@ -8,8 +8,7 @@
 
 namespace asdfvk {
 
-/// Whether a record is written beside the output. False unless the output is a regular file or does not exist:
-/// /dev/null, a FIFO or "-" have no record.
+/// Whether a record is written beside the output: only for regular and for new files, and not for "-".
 [[nodiscard]] bool hasOutputRecord(const std::filesystem::path& output);
 
 /// Path of the record beside an output: "horse.asdf.ply.json".
@@ -24,12 +23,10 @@ namespace asdfvk {
 [[nodiscard]] std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected,
                                                            const std::filesystem::path& output);
 
-/// Removes the record beside the output. Called before the output is written. If the process is killed before it writes
-/// the new record, the output has no record.
+/// Removes the record. Called before the output is written, so that a killed process leaves no outdated record.
 void removeOutputRecord(const std::filesystem::path& output);
 
-/// Removes the output and the record beside it. Removes nothing if the bytes of the output do not have the hash of
-/// `record`.
+/// Removes the output and the record beside it, but nothing if the output does not have the hash of `record`.
 void removeOutput(const MeshRecord& record, const std::filesystem::path& output);
 
 /// Removes the output and record of an earlier run after the mesh failed in this run. old: the record of the earlier

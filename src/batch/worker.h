@@ -14,10 +14,9 @@ struct Greeting {
 };
 ASDFVK_JSON(Greeting, settings, threadCount, threadCountOnGpu)
 
-/// Runs this process as a worker. Computes jobs that arrive on standard input, which is a socket, until the socket is
-/// closed or JobComputer::isSpent(). The process is killed when its parent ends. Redirects standard output to standard
-/// error, so that no text of a library becomes an answer. open: opens the computer; an OpenFailure is sent as the
-/// answer and ends the worker.
+/// Runs this process as a worker. Computes jobs that arrive on standard input, a socket, until the socket is closed or
+/// JobComputer::isSpent(). The process is killed when its parent ends. Redirects standard output to standard error, so
+/// that no library writes answers. open: opens the computer. An OpenFailure is sent as the answer and ends the worker.
 void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)>& open);
 
 }  // namespace asdfvk

@@ -47,11 +47,9 @@ struct JobOutcome {
 struct WorkerPoolClient {
   /// Returns the message that is sent to the worker for a job.
   std::function<std::string(size_t job)> request;
-  /// Called with a worker's answer to the greeting. Returns the greatest number of workers, or 0 if this worker cannot
-  /// compute jobs.
+  /// Called with a worker's answer to the greeting. Returns the greatest number of workers; 0: it cannot compute.
   std::function<uint32_t(const std::string& answer)> ready;
-  /// Called at the end of each job. Returns whether a worker that answered gets further jobs; otherwise the worker is
-  /// replaced.
+  /// Called at the end of each job. Returns whether a worker that answered gets further jobs instead of being replaced.
   std::function<bool(const JobOutcome& outcome)> finished;
 };
 
@@ -59,8 +57,7 @@ struct WorkerPoolClient {
 /// their numbers. A worker that crashes or exceeds a limit is replaced, so that only its current job fails.
 ///
 /// One worker starts first; the others start when it is ready. A worker is given up, which means not replaced, if
-/// client.ready() returns 0 or if three consecutive starts of the worker fail. If no worker was ready before, all
-/// workers are given up.
+/// client.ready() returns 0 or three of its starts fail in a row. All are given up if no worker was ready before.
 ///
 /// After a stop request no job begins, and workers with a job receive SIGTERM. Returns when all jobs have ended, when
 /// all workers are given up, or, after a stop request, when the current jobs have ended. The result is the reason why

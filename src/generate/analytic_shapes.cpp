@@ -69,8 +69,7 @@ class CylinderGrid {
 }  // namespace
 
 GeneratedShape makeCylinder(uint64_t faceCount, double radius, double length) {
-  // The discs have 12 r^2 faces, and each layer of the mantle has 12 r. r gives edges of equal length; the number of
-  // layers gives the face count.
+  // The discs have 12 r^2 faces, a layer of the mantle 12 r. r is chosen for equal edges, the layers for faceCount.
   const double layersPerRing = length / radius * (3 / std::numbers::pi);
   const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
   const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));

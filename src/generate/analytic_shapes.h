@@ -7,8 +7,7 @@
 
 namespace asdfvk {
 
-// Shapes whose diameters are known in closed form, centred at the origin, triangulated evenly. faceCount is
-// approximate.
+// Shapes with diameters in closed form, centred at the origin, triangulated evenly. faceCount is approximate.
 
 /// A geodesic sphere: each face of an icosahedron is divided into n^2 triangles, whose vertices are projected onto the
 /// sphere. n: such that 20 n^2 is about faceCount. Diameter: 2 * radius.

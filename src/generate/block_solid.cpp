@@ -50,8 +50,7 @@ class EdgeSets {
   std::vector<double> longest_;
 };
 
-/// The triangles of divided quads. A vertex is the mean of corners with integer weights, which identify the vertex, so
-/// that neighbouring quads share it.
+/// The triangles of divided quads. Integer weights of corners identify a vertex that neighbouring quads share.
 class QuadDivider {
  public:
   QuadDivider(const std::vector<Vec3d>& corners, const SurfaceDivision& division)

@@ -7,8 +7,7 @@
 namespace asdfvk {
 namespace {
 
-/// The lattice points on the surface of an nx x ny x nz box, without duplicates: the bottom layer, nz - 1 rims, the top
-/// layer.
+/// The lattice points on the surface of an nx x ny x nz box, once each: bottom layer, nz - 1 rims, top layer.
 class BoxGrid {
  public:
   BoxGrid(const Vec3d& size, std::array<uint32_t, 3> cells) : size_(size), nx_(cells[0]), ny_(cells[1]), nz_(cells[2]) {

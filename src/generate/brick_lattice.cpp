@@ -43,8 +43,7 @@ uint64_t keyOf(int32_t x, int32_t y, int32_t z) {
   return bits(x) | bits(y) << 21 | bits(z) << 42;
 }
 
-// If there are fewer lattice points than this, no brick is left out, so that repairs of coarse lattices may add points
-// anywhere.
+// A lattice with fewer points has all bricks, so that repairs of coarse lattices may add points anywhere.
 constexpr double kSmallLattice = 64.0 * 64.0 * 64.0;
 const double kSqrt3 = std::sqrt(3.0);
 
@@ -149,8 +148,7 @@ CellCorners BrickLattice::corners(const Brick& brick) const {
     for (int32_t z = dz * kBrickEdge; z < kBrickEdge + dz; ++z)
       for (int32_t y = dy * kBrickEdge; y < kBrickEdge + dy; ++y)
         for (int32_t x = dx * kBrickEdge; x < kBrickEdge + dx; ++x) {
-          // A brick that was left out is wholly inside or outside of the shape, so that the sign of the field is exact
-          // there.
+          // A missing brick is wholly inside or outside of the shape, so that the sign of the field is exact there.
           corners.at(x, y, z) =
               owner < 0 ? field_.value(position(brick, x, y, z)) < 0
                         : (bricks_[static_cast<size_t>(owner)].inside[static_cast<size_t>(z % kBrickEdge)] >>

@@ -11,10 +11,9 @@
 
 namespace asdfvk {
 
-/// mask: which of the eight corners of a lattice cell are inside (bit i + 2 j + 4 k: corner (i, j, k)). A mask is
-/// well-composed if no two inside corners and no two outside corners touch only across a diagonal of a side or of the
-/// cell. Returns -1 for a well-composed mask. Otherwise returns an outside corner whose addition makes the mask
-/// well-composed or brings it one step closer.
+/// mask: which of the eight corners of a lattice cell are inside (bit i + 2 j + 4 k: corner (i, j, k)). A well-composed
+/// mask has no two inside corners and no two outside corners that touch only across a diagonal of a side or of the
+/// cell. Returns -1 for such a mask, else an outside corner whose addition is a step towards such a mask.
 [[nodiscard]] int32_t cornerToFill(uint32_t mask);
 
 /// Lattice points per brick and axis.
@@ -51,8 +50,7 @@ class CellCorners {
   std::array<bool, (kBrickEdge + 1) * (kBrickEdge + 1) * (kBrickEdge + 1)> flags_{};
 };
 
-/// Points of a cubic lattice inside a shape. Only bricks near the surface are stored: the Lipschitz bound of the field
-/// decides which bricks the surface cannot reach.
+/// Points of a cubic lattice inside a shape. Bricks that the surface cannot reach (Lipschitz bound) are not stored.
 /// ///
 /// The set of inside points is made well-composed (see cornerToFill(); Latecki, 1997). This is necessary and sufficient
 /// for the boundary of the voxels of the points to be a closed 2-manifold at any resolution. All radii are raised to at

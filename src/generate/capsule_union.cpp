@@ -16,9 +16,8 @@ void forEachBit(uint64_t bits, Use use) {
   for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
 }
 
-// Cubic smooth minimum of a and b. It is below min(a, b), by at most blend / 6, if |a - b| < blend; else equal to
-// min(a, b). It has two continuous derivatives. `share` is the derivative with respect to b; the derivative with
-// respect to a is 1 - share.
+// Cubic smooth minimum of a and b, with two continuous derivatives: below min(a, b) by at most blend / 6 if |a - b| <
+// blend, else equal to min(a, b). `share` is the derivative with respect to b; that with respect to a is 1 - share.
 struct SmoothMinimum {
   double value, share;
 };

@@ -10,16 +10,14 @@ namespace asdfvk {
 // Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up. With about
 // 2000 faces or more the surfaces are topological spheres. With fewer faces neighbouring limbs may touch.
 
-/// Four legs. Parts: 0 torso, 1 neck, 2 head, 3 tail, 4 and 5 front legs, 6 and 7 hind legs (left, right), 8 and 9
-/// ears.
+/// Parts: 0 torso, 1 neck, 2 head, 3 tail, 4 and 5 front legs, 6 and 7 hind legs (left, right), 8 and 9 ears.
 [[nodiscard]] CapsuleUnion animalField();
 /// Parts: 0 palm, 1 thumb, 2 to 5 fingers from the index on, 6 forearm.
 [[nodiscard]] CapsuleUnion handField();
-/// A jointed human figure. Parts: 0 torso, 1 neck, 2 head. Then pairs, left and right: 3, 4 upper arm; 5, 6 forearm; 7,
-/// 8 hand; 9, 10 thigh; 11, 12 shin; 13, 14 foot.
+/// A human figure. Parts: 0 torso, 1 neck, 2 head. Left and right: 3, 4 upper arm; 5, 6 forearm; 7, 8 hand; 9, 10
+/// thigh; 11, 12 shin; 13, 14 foot.
 [[nodiscard]] CapsuleUnion figureField();
-/// A tree of tubes, like vessels or a neuron: 31 branches in five levels. Each branch is a part; the parts are numbered
-/// in depth-first order from the root.
+/// A tree of tubes: 31 branches in five levels. Each branch is a part; depth-first numbers from the root.
 [[nodiscard]] CapsuleUnion treeField();
 
 [[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount);

@@ -40,8 +40,7 @@ struct Icosahedron {
             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}}};
 }
 
-/// The vertices of an icosahedron whose edges are divided into n parts: first the corners, then the vertices on edges,
-/// then the vertices inside of its sides.
+/// The vertices of an icosahedron with edges in n parts: corners, then those on edges, then those inside of sides.
 class GeodesicGrid {
  public:
   GeodesicGrid(uint32_t n, double radius) : n_(n), radius_(radius) {

@@ -8,8 +8,7 @@
 
 namespace asdfvk {
 
-/// A lattice whose surface crosses about `quadCount` lattice edges: within 2 % if possible, otherwise the best of the
-/// tested spacings.
+/// A lattice with about `quadCount` edges that the surface crosses: within 2 %, or the best of the tested spacings.
 [[nodiscard]] BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount);
 
 /// The surface of a smooth union of capsules as a closed manifold of about `faceCount` well-shaped triangles, with the

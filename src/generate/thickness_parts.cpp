@@ -11,9 +11,8 @@
 #include "core/text.h"
 
 // The least thickness of a part is the diameter of the smallest ball between two of its planar walls. For parallel
-// walls this diameter is the distance of the walls. For walls that diverge from the edge of one wall, it is the
-// distance of this edge from the other wall. For walls that diverge symmetrically from a top of width c, each at the
-// angle h to the middle plane, it is c / cos(h).
+// walls this is their distance. For walls that diverge from the edge of one wall, it is the distance of this edge from
+// the other wall. For walls at the angle h to a middle plane that diverge from a top of width c, it is c / cos(h).
 
 namespace asdfvk {
 namespace {
@@ -180,9 +179,8 @@ ThicknessPart makeBracket(uint32_t sideCount) {
   return soundPart(std::move(solid), kWall);
 }
 
-/// A plate with a hole of radius 5 near an edge. sideCount: number of sides of the hole, a multiple of 4. The ligament
-/// is between the edge of the plate and the nearest part of the hole. This part is a corner of the hole if sideCount is
-/// a multiple of 8, otherwise the middle of a side.
+/// A plate with a hole of radius 5 near an edge. sideCount: number of sides of the hole, a multiple of 4. At the
+/// ligament the hole has a corner if sideCount is a multiple of 8, otherwise the middle of a side.
 ThicknessPart makeLigament(uint32_t sideCount) {
   constexpr double kRadius = 5, kLigament = 0.6, kThickness = 4;
   const double nearest = kRadius * (sideCount % 8 == 0 ? 1 : apothemFactor(sideCount));

@@ -13,8 +13,7 @@ namespace asdfvk {
 struct ThicknessPart {
   BlockSolid solid;
   double leastThickness = 0;  ///< Minimum over all points of the surface; 0 with a sharp edge or tip.
-  /// Minimum outside of sharp regions; infinite if the whole surface is a sharp region. A sharp region is thinner than
-  /// this minimum and connected to a sharp edge or tip.
+  /// Minimum outside of sharp regions, or infinite. A sharp region is thinner, and connected to a sharp edge or tip.
   double leastWall = std::numeric_limits<double>::infinity();
   double sharpAngleDegrees = 0;  ///< Inner angle of the sharp edges or of the tip; 0 without a sharp edge or tip.
   double sharpLength = 0;        ///< Sum of the lengths of all sharp edges.

@@ -18,8 +18,7 @@ constexpr uint32_t kNone = 0xffffffff;
 
 constexpr double kGridSize = 65535;
 
-/// Number of lowest bits of a float32 that a page drops. The relative error is at most 2^-15, so that the four digits
-/// that a page shows are correct except for rounding.
+/// Lowest bits of a float32 that a page drops. The relative error of 2^-15 allows the four digits that a page shows.
 constexpr int kDroppedBits = 9;
 
 /// Coordinates as whole numbers of steps from the lower corner of a box.
@@ -66,8 +65,7 @@ std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
 struct Layout {
   std::vector<uint32_t> faces;
   std::vector<uint32_t> vertices;  ///< Vertices of faces, in the order of their first use.
-  /// For each corner: index of its vertex in `vertices` minus the count of preceding vertices; 0 for a new vertex, else
-  /// negative.
+  /// For each corner: index of its vertex in `vertices` minus the count of preceding vertices; 0 for a new vertex.
   std::vector<int32_t> corners;
 
   explicit Layout(const TriangleMesh& mesh) : faces(walkedFaces(mesh)) {

@@ -15,8 +15,7 @@ namespace asdfvk {
 
 /// Encodes the triangles and fields of a mesh into arrays. Returns a description with the keys `faceCount` to `fields`
 /// of docs/page-format.md. box: contains the vertices of all faces; coordinates are stored in a grid of this box.
-/// Preconditions: every index of a face is below the vertex count; each field has one component and an entry per input
-/// face.
+/// Preconditions: all indices are below the vertex count; fields have one component and an entry per input face.
 [[nodiscard]] nlohmann::ordered_json encodeMesh(const TriangleMesh& mesh,
                                                 std::span<const std::reference_wrapper<const Field>> fields,
                                                 PageArrays& arrays, const Box3d& box);

@@ -74,8 +74,7 @@ class Page {
   PageArrays arrays_;
 };
 
-/// Returns the segments in ascending order of their labels. areas, barycentres: #F. labels, values: #I; faces with the
-/// label kNoSegment belong to no segment.
+/// Returns the segments, ascending by label. areas, barycentres: #F. labels, values: #I. Leaves out kNoSegment.
 [[nodiscard]] std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const double> areas,
                                                     std::span<const Vec3d> barycentres,
                                                     std::span<const uint32_t> labels, std::span<const double> values);

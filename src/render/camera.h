@@ -28,9 +28,8 @@ struct View {
 
 [[nodiscard]] Vec3d directionOf(Up up);
 
-/// Stability of the points on a floor if the given direction is up: the area of the convex hull of the lowest points,
-/// divided by the area of the bounding box seen from above. Negative (unstable) if the mean of the points is outside of
-/// the hull; 0 if the hull has no area.
+/// Stability of the points on a floor: the area of the convex hull of the lowest points, divided by the area of the
+/// bounding box seen from above. Negative (unstable) if the mean of the points is outside of the hull.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
 /// A direction in which the points are stable: Y is tested first, then Z. Y if no direction is stable. Static stability
@@ -55,8 +54,7 @@ struct Camera {
   }
 };
 
-/// The camera of `view` in which the points fill `area`, centred. Without points, or if all points coincide, the area
-/// spans one unit of length.
+/// The camera of `view` in which the points fill `area`, centred. Without an extent, the area spans one unit of length.
 [[nodiscard]] Camera frameCamera(std::span<const Vec3d> points, const View& view, const PixelArea& area);
 
 }  // namespace asdfvk

@@ -14,9 +14,8 @@ struct Tick {
   std::string label;
 };
 
-/// Ascending ticks within the range: 3 to 6 multiples of 1, 2, 2.5 or 5 times a power of ten. Labels have the fewest
-/// digits that distinguish the ticks. If the range is a point, or if its labels need more than 9 digits, the ticks are
-/// the ends of the range with rounded labels.
+/// Ascending ticks within the range: 3 to 6 multiples of 1, 2, 2.5 or 5 times a power of ten, with the fewest digits
+/// that distinguish them. If the range is a point or needs more than 9 digits, the ticks are its rounded ends.
 [[nodiscard]] std::vector<Tick> ticksWithin(const ColourRange& range);
 
 /// A colour bar in a column at the right side of a picture.

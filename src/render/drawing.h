@@ -8,8 +8,7 @@
 
 namespace asdfvk {
 
-/// A point in font units: x to the right of the left side of the glyph, y up from the baseline. Capitals are kCapHeight
-/// high.
+/// A point in font units: x from the left side of the glyph, y up from the baseline. Capitals are kCapHeight high.
 struct FontPoint {
   double x = 0, y = 0;
 };
@@ -27,8 +26,7 @@ struct Glyph {
 /// Distance from the left side of a glyph to the left side of the next glyph.
 [[nodiscard]] double advanceOf(char character);
 
-// Antialiased drawing on a finished image. Coordinates are in pixels from the top left corner of the image. Parts
-// outside of the image are clipped.
+// Antialiased drawing. Coordinates are in pixels from the top left corner. Parts outside of the image are clipped.
 
 /// Width of a text, in pixels. capHeight: height of capitals, in pixels.
 [[nodiscard]] double textWidth(std::string_view text, double capHeight);

@@ -32,8 +32,7 @@ struct SamplePlace {
   double x = 0, y = 0;
 };
 
-/// Barycentric coordinates of `place` in a projected triangle. The sum is 1; outside of the triangle one or two are
-/// negative. Precondition: the triangle has an area.
+/// Barycentric coordinates of `place`. Some are negative outside of the triangle. Precondition: it has an area.
 [[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners,
                                                         const SamplePlace& place) {
   const auto& [a, b, c] = corners;
@@ -76,8 +75,7 @@ class SampleRows {
   std::vector<uint32_t> indices_;
 };
 
-/// Whether the sample of `surface` is nearer to the viewer than `mesh`, or at the same depth up to rounding. False
-/// without a sample of `surface`.
+/// Whether `surface` has a sample that is not behind that of `mesh`, up to rounding.
 [[nodiscard]] inline bool isAtSurface(const SampleRows& mesh, const SampleRows& surface, int column, int row) {
   constexpr float kSlack = 1e-5F;  // In normalised units.
   return surface.indexAt(column, row) != kNoSample &&

@@ -56,8 +56,7 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
   for (int i = 0; i < skyCount; ++i) {
     const double height = 1 - 2 * (i + 0.5) / skyCount;
     const Vec3d d = spiralPoint(i, std::sqrt(1 - height * height), height);
-    // With the factor 4, a white surface in a sky of radiance 1 has the light 1, because the mean of max(0, cosine)
-    // over the sphere is 1/4.
+    // Factor 4: the mean of max(0, cosine) over the sphere is 1/4, so that radiance 1 lights a white surface by 1.
     addSource(camera.right * d.x + camera.toViewer * d.y + camera.up * d.z,
               kSky * 4 / skyCount * (kGroundShare + (1 - kGroundShare) * (0.5 + 0.5 * height)), kSkyReach);
   }

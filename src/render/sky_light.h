@@ -9,16 +9,13 @@
 namespace asdfvk {
 
 /// Light of a sky and of a lamp, with soft shadows from a depth map per direction of light (Williams 1978, Casting
-/// Curved Shadows on Curved Surfaces). Sky and lamp move with the camera. The lamp is behind the viewer, above and to
-/// the left.
+/// Curved Shadows on Curved Surfaces). Both move with the camera; the lamp is behind the viewer, above and to the left.
 class SkyLight {
  public:
-  /// pictureSide: the longer side of the picture, in pixels. Precondition: the scene has a face that rays can hit.
-  /// Throws Error{Cancelled}.
+  /// pictureSide: longer side in pixels. Precondition: the scene has a face that rays can hit. Throws Error{Cancelled}.
   SkyLight(const TraceScene& scene, const Camera& camera, int pictureSide, const RunControl& control);
 
-  /// Linear light that a white diffuse surface at a point in normalised coordinates reflects to the viewer. normal: a
-  /// unit vector towards the viewer.
+  /// Linear light that a white diffuse surface reflects to the viewer. point: normalised. normal: a unit vector.
   [[nodiscard]] double at(const Vec3d& point, const Vec3d& normal) const;
 
  private:

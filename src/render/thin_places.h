@@ -26,9 +26,8 @@ struct ThinPlaces {
   bool isFailure = false;
 };
 
-/// Returns `view` with the best of twelve pairs of azimuth and elevation. The best pair has the greatest sum, over the
-/// regions, of the square root of their visible area. regions: the region of each triangle of the surface. Returns
-/// `view` unchanged if no pair shows a region.
+/// Returns `view` with the best of twelve pairs of azimuth and elevation: the pair with the greatest sum, over regions,
+/// of the square root of the visible area. regions: region of each triangle. Unchanged if no pair shows a region.
 [[nodiscard]] View bestViewOf(const TraceScene& scene, Surface surface, std::span<const uint32_t> regions,
                               const View& view);
 

@@ -1,5 +1,4 @@
-// Camera with parallel projection that turns around an upright axis. At azimuth 0 and elevation 0 the broad side of the
-// mesh is in front, as in pictures of `--picture`.
+// Camera with parallel projection that turns around an upright axis. Azimuth 0 and elevation 0: view of the broad side.
 import { add, clamp, cross, dot, scaled, subtract } from './vectors.js';
 
 export const kViews = {

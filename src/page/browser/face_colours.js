@@ -1,9 +1,8 @@
 // Packed colours of the faces of a mesh. Alpha 0 marks the rest: faces that are not highlighted.
 import { colourOfPart, kAlarmColour, kFlagColours, packedColour, tableIndex } from './colour_maps.js';
 
-// layer: {kind}, for numbers {kind, low, high, table}. style: {none, below, part}. If `below` {values, limit} is set,
-// faces with a value below the limit have the alarm colour, and other faces are the rest. If `part` {labels, label} is
-// set, faces with another label are the rest.
+// layer: {kind}; for numbers {kind, low, high, table}. style: {none, below, part}. `below` {values, limit}: faces
+// below the limit have the alarm colour, others are the rest. `part` {labels, label}: other parts are the rest.
 export function colourFaces(values, layer, style) {
   const none = packedColour(style.none), colours = new Uint32Array(values.length);
   if (style.below) {

@@ -1,5 +1,4 @@
-// The fields of all meshes of the page as layers. look() computes how a state shows a layer: values per mesh, range,
-// colours, histogram.
+// The fields of all meshes as layers. look() computes values per mesh, range, colours and histogram for a state.
 import { colourTable } from './colour_maps.js';
 import { facesBelow, histogramOf, rangeOf } from './statistics.js';
 

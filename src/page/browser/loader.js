@@ -1,5 +1,4 @@
-// Decompresses the script of the page and inserts it. The content-security policy has the hashes of the script and of
-// this loader.
+// Decompresses and inserts the script of the page. The content-security policy has the hashes of both scripts.
 (async () => {
   const packed = Uint8Array.from(atob(document.getElementById('script').textContent), (letter) => letter.charCodeAt(0));
   const script = document.createElement('script');

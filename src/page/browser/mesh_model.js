@@ -1,5 +1,4 @@
-// A decoded mesh: triangles and fields. Arrays per face are in the order of the page. faceIds has the number of each
-// face in the file.
+// A decoded mesh: triangles and fields. Arrays per face are in the order of the page; faceIds: numbers in the file.
 import { Triangles } from './triangles.js';
 
 export class MeshModel extends Triangles {

@@ -26,8 +26,7 @@ export function ringOf(pane) {
   return canvasPixel(pane, a.map((value, axis) => (value + b[axis] + c[axis]) / 3));
 }
 
-// Markers {x, y, text, isLeft} at the thinnest places of the regions in a pane. `text` is empty if it would cover
-// another text.
+// Markers {x, y, text, isLeft} at the thinnest places of the regions in a pane. No text covers another one.
 export function markersOf(pane, viewer) {
   if (!viewer.thin?.isGiven) return [];
   const model = viewer.models[pane.index], markers = [];

@@ -1,5 +1,4 @@
-// Draws with WebGL 2: meshes with a flat colour per face; a highlighted surface or highlighted faces in a grey or
-// translucent mesh; edges; outlines.
+// Draws with WebGL 2: meshes with flat colours, highlighted faces in a grey or translucent mesh, edges, outlines.
 
 const kSampleCount = 4, kCoarseFaceCount = 20000;
 const kRestGrey = [0.725, 0.737, 0.76];
@@ -203,16 +202,14 @@ export class Renderer {
       gl.disable(gl.BLEND);
     }
     if (!highlighted) return;
-    // Moves the highlighted faces in front of the mesh. Otherwise the mesh would cover some of them, because all
-    // coordinates are rounded to the grid of the page.
+    // Moves the highlighted faces in front of the mesh, because all coordinates are rounded to the grid of the page.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(-1, -1024);
     this.drawFaces(highlighted, pane, frame);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  // opacity: draws the whole mesh in the colour of the rest with this opacity; null: draws highlighted faces in their
-  // colours.
+  // opacity: draws the whole mesh in the colour of the rest; null: draws highlighted faces in their colours.
   drawFaces(mesh, pane, frame, opacity = null) {
     const { gl } = this, isSmooth = frame.shading === 'smooth';
     const defines = isSmooth ? ['SMOOTH'] : [];

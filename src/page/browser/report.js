@@ -1,5 +1,4 @@
-// Thin regions, summary, warnings and parts as tables and lists. Needs no WebGL. With a viewer, a click on a row flies
-// to its place.
+// Thin regions, summary, warnings and parts as tables and lists. With a viewer, a click on a row flies to its place.
 import { made } from './controls.js';
 import { formatCount, formatShare, formatValue } from './format.js';
 

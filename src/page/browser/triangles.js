@@ -39,9 +39,8 @@ export class Triangles {
     this.totalArea = total;
   }
 
-  // Vertices and triangles for drawing with flat attributes. Vertex k is the provoking corner of face k, and has the
-  // attributes of face k. isFirst: the provoking corner is the first one, else the last. sources: for each vertex, the
-  // vertex of the mesh that it copies.
+  // Vertices and triangles for flat attributes. Vertex k is the provoking corner of face k, and has its attributes.
+  // isFirst: the provoking corner is the first one, else the last. sources: the copied vertex for each vertex.
   drawnVertices(isFirst) {
     const { positions, indices, faceCount } = this;
     const copyOf = new Uint32Array(positions.length / 3).fill(kNoFace);
@@ -124,8 +123,7 @@ export class Triangles {
   }
 
   // A copy with about `count` triangles, by vertex clustering (Rossignac and Borrel 1993): the vertices in a cell of a
-  // grid become one vertex, and triangles with two corners in one cell vanish. sourceFaces: the original face of each
-  // triangle of the copy.
+  // grid become one vertex, and triangles with two corners in one cell vanish. sourceFaces: the original faces.
   reduced(count) {
     const { positions, indices } = this, vertexCount = positions.length / 3;
     const farthest = positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);

@@ -12,8 +12,7 @@ const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thi
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
 const kRestMilliseconds = 180;  // Time without motion before a frame in full quality.
 const kSlowMilliseconds = 36, kSlowCount = 3;
-// Levels of detail while the view moves, for ever slower devices: share of the resolution, and whether a coarse copy is
-// drawn.
+// Levels of detail during motion, for ever slower devices: share of the resolution; whether a coarse copy is drawn.
 const kLevels = [[1, false], [1, true], [0.7, true], [0.5, true], [0.35, true]];
 const kFlightMilliseconds = 350;
 
@@ -86,8 +85,7 @@ export class Viewer {
     return { x, y, z, zoom: clamp(0.9 * Math.min(...zooms), 0.5, 20) };
   }
 
-  // Extent [low, high] of the meshes along right or up, in radii of their frames. For large meshes, from a sample of
-  // the vertices.
+  // Extent [low, high] of the meshes along right or up, in radii of their frames. Large meshes are sampled.
   shadow(indices, name, state) {
     let low = Infinity, high = -Infinity;
     indices.forEach((index) => {
