@@ -6,7 +6,6 @@
 
 #include "trace/cone_tracer.h"
 
-/// Other libraries that asdf-vk is compared with. Both are optional at build time.
 namespace asdfvk::bench {
 
 /// Embree traces the rays of cones and only adds their lengths: the reference speed of tracers.

@@ -1,5 +1,4 @@
-// Writes CGAL's result for a mesh: a line per face with its value from 0 to 1 and its segment. Other programs, such as
-// cgal_module.py, compare with this output.
+// Writes CGAL's result for a mesh, for comparisons: a line per face with its value from 0 to 1 and its segment.
 #include <fmt/format.h>
 
 #include <string>

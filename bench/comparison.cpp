@@ -41,7 +41,6 @@ std::map<std::string, std::unique_ptr<Backend>> openBackends(const std::string& 
   return backends;
 }
 
-/// A mesh and the tracers and sessions that are compared on it.
 class MeshComparison {
  public:
   MeshComparison(std::string path, const std::string& device)
@@ -54,7 +53,6 @@ class MeshComparison {
   [[nodiscard]] const Mesh& mesh() const { return mesh_.mesh; }
   [[nodiscard]] std::string deviceOf(const std::string& backend) const { return backends_.at(backend)->deviceName(); }
 
-  /// Runs every task once.
   void measure(SeedComparison& comparison, uint32_t round, const RunControl& control) {
     const std::vector<uint32_t> seeds = chooseSeeds(comparison.seeds);
     comparison.rayCount = seeds.size() * cone_.directions.size();

@@ -23,7 +23,6 @@ using Seconds = std::vector<double>;
 
 inline const std::string kEmbreeFast = "Embree, fast", kEmbreeRobust = "Embree, robust";
 
-/// Times with one choice of seeds.
 struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;

@@ -98,7 +98,6 @@ class TrafficCounter {
   TrafficCounter& operator=(const TrafficCounter&) = delete;
 
   [[nodiscard]] static double waitSeconds() { return traffic_.waitSeconds; }
-  /// The traffic since the last call.
   [[nodiscard]] static Traffic take() { return std::exchange(traffic_, {}); }
 
  private:
@@ -183,7 +182,6 @@ class ConstantLengths {
   static inline PFN_vkCreateShaderModule create_ = nullptr;
 };
 
-/// A Vulkan backend whose kernels trace nothing.
 class ConstantBackend final : public Backend {
  public:
   explicit ConstantBackend(const std::string& device) : opened_(openDevice(instance_, {.selector = device})) {}
@@ -225,7 +223,6 @@ class ConstantBackend final : public Backend {
   std::unique_ptr<VulkanPredictionKernels> predictionKernels_;
 };
 
-/// Measures ConeTracer::trace() alone.
 std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Arguments& arguments,
                           const RunControl& control) {
   const TraceableMesh mesh(source);
@@ -262,7 +259,6 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
   return text;
 }
 
-/// Measures the whole computation in memory.
 std::string measurePipeline(SessionState& session, const Mesh& mesh, const Arguments& arguments,
                             const RunControl& control) {
   std::string text = "\nwhole computation, median seconds of the host by stage, without waiting for the device\n";

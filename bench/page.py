@@ -3,8 +3,8 @@
 
     bench/page.py PAGE.html... [--seconds 4] [--screenshot FILE.png [--state KEY=VALUE&...]]
 
-First frame: time from the address to the first drawn frame. Frames per second: during rotation by an arrow key.
---screenshot writes a picture of the first page instead. --state is the part of its address after #.
+First frame: seconds from the address to the first frame. Frames per second: during rotation by an arrow key.
+--screenshot writes a picture of the first page instead; --state is the part of its address after #.
 """
 
 import argparse

@@ -93,7 +93,6 @@ class ArrayImporter : public OpenMesh::IO::BaseImporter {
   std::vector<Face> faces;
 };
 
-/// Writes a height field of about `faceCount` triangles with float32 coordinates.
 void writeSheet(const std::filesystem::path& path, uint32_t faceCount) {
   uint32_t side = 1;
   while (2 * uint64_t{side} * side < faceCount) ++side;

@@ -20,7 +20,6 @@ using namespace asdfvk::bench;
 constexpr std::array<double, 3> kEstimatedPercents{5, 10, 20};
 constexpr double kMaxError = 0.01, kMaxRelativeError = 0.05;
 
-/// Estimated error divided by actual error.
 struct EstimateRatios {
   double average = 0, robustAverage = 0, relativeMedian = 0, relativePercentile90 = 0;
 };
@@ -57,7 +56,6 @@ struct MeshRow {
   double overTrace = 0;             ///< Balanced at 10 %: time of sample, predict and solve, divided by that of trace.
 };
 
-/// onlyEstimates: measures only the estimates.
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,
                 const RunControl& control) {
   MeshRow row;
@@ -130,7 +128,6 @@ double geometricMeanOf(std::vector<double> values) {
 
 double maximumOf(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
-/// "mean 0.912, maximum 1.034"
 std::string meanAndMaximum(const std::vector<double>& values, int decimals) {
   return fmt::format("mean {:.{}f}, maximum {:.{}f}", meanOf(values), decimals, maximumOf(values), decimals);
 }

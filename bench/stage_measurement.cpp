@@ -16,7 +16,6 @@ std::vector<double> samplesOf(const StageRow& row, const Quantity& quantity) {
   return samples;
 }
 
-/// The quantity of every process.
 std::vector<double> samplesOf(const StageRow& row, double ProcessUsage::*quantity) {
   std::vector<double> samples;
   for (const ProcessUsage& process : row.processes) samples.push_back(process.*quantity);

@@ -44,8 +44,7 @@ struct StageMeasurement {
   std::string mesh;
   std::vector<StageRow> rows = {};
 
-  /// Time of the reference divided by the time of `row`, by round. Unset if `row` is not a row of Vulkan, or if the
-  /// reference has no row with the same seeds.
+  /// Time of the reference divided by that of `row`, by round. Unset for other backends, or without such a reference.
   [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
 
   /// Time of the process of all faces divided by that of `row` by the same backend, by round: CPU seconds on a CPU,
@@ -59,7 +58,6 @@ struct StageMeasurement {
   [[nodiscard]] const StageRow* find(const std::string& seeds, const std::string& backend) const;
 };
 
-/// Keeps the devices open for further meshes.
 class StageBench {
  public:
   /// Throws Error{Usage} for an invalid request.

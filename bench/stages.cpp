@@ -75,7 +75,6 @@ std::string speedUpsText(const StageMeasurement& measurement) {
   return text.empty() ? text : text + "\n";
 }
 
-/// A heading, a Markdown table with one line per row, and ratios.
 std::string toTable(const StageMeasurement& measurement, const Machine& machine) {
   std::vector<std::string> titles{"seeds", "backend"};
   for (const Stage stage : allStages()) titles.emplace_back(nameOf(stage));

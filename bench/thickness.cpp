@@ -1,6 +1,5 @@
 // Is the wall thickness right, and how long does the check of all faces take? Compares the backends with brute force
-// over all pairs of triangles in double, and parts with their known least thickness. Compares the time of a check with
-// the time of the shape diameter of all faces.
+// over all pairs of triangles in double, parts with their known least thickness, and times with the shape diameter.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 

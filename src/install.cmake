@@ -1,6 +1,5 @@
-# Programs with their man pages and a completion, libraries, headers, CMake package and pkg-config files, in the folders
-# of GNUInstallDirs. Components: program, development, c (the shared library of the interface in C without what is for
-# linking), and python (python/CMakeLists.txt).
+# Programs with man pages and completion, libraries, headers, CMake package and pkg-config files, in the folders of
+# GNUInstallDirs. Components: program, development, c (the shared library for C without headers), python.
 include(CMakePackageConfigHelpers)
 
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/asdf-vk)
@@ -42,7 +41,7 @@ configure_package_config_file(asdf-vk-config.cmake.in ${PROJECT_BINARY_DIR}/asdf
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/asdf-vk-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/asdf-vk-config.cmake ${PROJECT_BINARY_DIR}/asdf-vk-config-version.cmake
         DESTINATION ${packageFolder} COMPONENT development)
-# Relative to the file itself, so that `cmake --install --prefix` may change the prefix.
+# Relative to the file itself, because `cmake --install --prefix` may change the prefix.
 set(pkgConfigFolder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 set(ASDFVK_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
 if(NOT IS_ABSOLUTE "${pkgConfigFolder}")

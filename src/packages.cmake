@@ -1,6 +1,6 @@
-# Debian packages of Debian 12 by CPack: asdf-vk, libasdf-vk-dev, libasdf-vk-c1 (with the ABI of the interface in C), and
-# python3-asdf-vk where the Python module is built.
-# A package is an install component. Used by the preset `packages` and scripts/test-packages:
+# Debian 12 packages by CPack: asdf-vk, libasdf-vk-dev, libasdf-vk-c1 (with the ABI of the interface in C), and
+# python3-asdf-vk if the Python module is built. A package is an install component. scripts/test-packages runs these
+# commands:
 #   cmake --preset packages && cmake --build --preset packages && cpack --preset packages
 include(GNUInstallDirs)
 set(components program development c)
@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${CPACK_PACKAGE_CONTACT}")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 
-# The Vulkan loader is opened at run time: the programs work without it, on the CPU.
+# The programs open the Vulkan loader at run time. Without the loader, they work on the CPU.
 set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # The first line of a description is the summary.
 set(description
@@ -43,7 +43,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "shape diameter function of triangle meshes by Vulkan compute
 ${description}This package has the programs asdf-vk and asdf-vk-generate.")
 
-# What asdf-vk-config.cmake finds. The static library is bound to the symbols of one major version of fmt.
+# Dependencies of asdf-vk-config.cmake. The static library is bound to the symbols of one major version of fmt.
 string(REGEX MATCH "^[0-9]+" fmtMajor "${fmt_VERSION}")
 math(EXPR fmtNext "${fmtMajor} + 1")
 set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev (>= 2021), zlib1g-dev")
@@ -65,7 +65,7 @@ set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs ${P
 set(CPACK_DEBIAN_C_DESCRIPTION "shape diameter function of triangle meshes - library for C
 ${description}This package has the shared library of the interface in C.")
 
-# The module is bound to the minor version of Python it is built for.
+# The module is bound to the minor version of the Python for which it is built.
 if(TARGET asdfvk-python)
   math(EXPR pythonNext "${Python_VERSION_MINOR} + 1")
 endif()
@@ -78,8 +78,8 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION "shape diameter function of triangle meshes 
 ${description}This package has the Python module asdf_vk, and cgal_Segmentation_Module for
 programs that call that extension of CGAL.")
 
-# Files for /usr/share/doc of each package, and maintainer scripts. The changelog has the version of the project;
-# NEWS is CHANGELOG.md.
+# Files for /usr/share/doc of each package, and maintainer scripts. The changelog has only the version; NEWS is
+# CHANGELOG.md.
 set(folder ${PROJECT_BINARY_DIR}/debian)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/LICENSE
              ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
@@ -125,11 +125,11 @@ writeGzip("asdf-vk (${PROJECT_VERSION}) unstable; urgency=medium
 
 file(WRITE ${folder}/shlibs "libasdf-vk-c ${abi} libasdf-vk-c${abi} (>= ${PROJECT_VERSION})\n")
 file(WRITE ${folder}/triggers "activate-noawait ldconfig\n")
-# CPack adds maintainer scripts, which call ldconfig once more.
+# Maintainer scripts of CPack already call ldconfig.
 file(WRITE ${folder}/libasdf-vk-c${abi} "libasdf-vk-c${abi}: maintscript-calls-ldconfig\n")
 install(FILES ${folder}/libasdf-vk-c${abi} DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides COMPONENT c)
 
-# Removes the bytecode with the package.
+# Removes the bytecode together with the package.
 file(WRITE ${folder}/postinst "#!/bin/sh
 set -e
 if [ \"$1\" = configure ] && command -v py3compile >/dev/null; then

@@ -26,7 +26,6 @@ struct NamedMesh {
 /// Reads the meshes and names them by their files. Throws Error{Input}.
 [[nodiscard]] std::vector<NamedMesh> readMeshes(const std::vector<std::string>& paths);
 
-/// An animal, a hand and a figure with about `faceCount` faces each.
 [[nodiscard]] std::vector<NamedMesh> generateMeshes(uint64_t faceCount);
 
 struct EvaluationOptions {

@@ -10,7 +10,6 @@
 
 namespace asdfvk::bench {
 
-/// A table with named columns.
 struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  ///< One cell per column.
@@ -22,7 +21,6 @@ struct CsvTable {
 /// The folder of the results. Files are written atomically. Failures throw Error{Output}.
 class OutputFolder {
  public:
-  /// Makes the folder if it does not exist.
   explicit OutputFolder(std::filesystem::path path);
 
   /// RFC 4180 with line feeds; the first line holds the names of the columns.

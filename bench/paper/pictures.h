@@ -20,7 +20,6 @@ template <typename T>
   return values;
 }
 
-/// Colours of the values of a picture.
 struct FieldStyle {
   std::string title;  ///< Above the colour bar.
   ColourRange range;

@@ -9,7 +9,6 @@
 #include "pipeline/prepared_mesh.h"
 #include "trace/cone_tracer.h"
 
-/// Computations that several benchmarks share, and their errors.
 namespace asdfvk::bench {
 
 /// backend: one of backendNames(). device: used by Vulkan only.
@@ -44,7 +43,6 @@ struct FieldErrors {
 /// full, approximate: #I, NaN for no value. All errors are 0 if the range is empty.
 [[nodiscard]] FieldErrors errorsOverRange(std::span<const double> full, std::span<const double> approximate);
 
-/// A mesh with its hierarchy: the input of a tracer.
 struct TraceableMesh {
   Mesh mesh;
   PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
@@ -54,7 +52,6 @@ struct TraceableMesh {
   TraceableMesh(const TraceableMesh&) = delete;
   TraceableMesh& operator=(const TraceableMesh&) = delete;
 
-  /// The scene refers to this object.
   [[nodiscard]] TraceScene scene() const { return {prepared.mesh, prepared.geometry, prepared.representatives, bvh}; }
 };
 

@@ -8,7 +8,6 @@
 
 #include "core/stopwatch.h"
 
-/// Timers, statistics of repeated measurements, and the machine that they depend on.
 namespace asdfvk::bench {
 
 /// All 0 without samples. The median of an even count is the mean of two samples. deviation: median absolute.
@@ -38,7 +37,6 @@ enum class Clock {
   Wall,        ///< Elapsed seconds, for GPUs and for threads that wait for each other.
 };
 
-/// Starts at construction.
 class Timer {
  public:
   explicit Timer(Clock clock) : clock_(clock) {}

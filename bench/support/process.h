@@ -6,15 +6,13 @@
 
 namespace asdfvk::bench {
 
-/// Resources that a process used from start to end.
 struct ProcessUsage {
   double seconds = 0;
   double cpuSeconds = 0;  ///< All threads, including time in the kernel.
   double peakBytes = 0;   ///< Peak resident memory, including shared libraries and mapped files.
 };
 
-/// Runs a program and returns its standard output. Throws Error{Cancelled} if its exit code is kCancelledExitCode, and
-/// std::runtime_error for any other exit code than 0.
+/// Returns the standard output. Throws Error{Cancelled} for kCancelledExitCode, std::runtime_error for other failures.
 [[nodiscard]] std::string outputOf(const std::string& program, const std::vector<std::string>& arguments,
                                    ProcessUsage* usage = nullptr);
 

@@ -16,7 +16,6 @@ class App;
 
 namespace asdfvk::bench {
 
-/// Exit code of a program that was stopped by a signal.
 inline constexpr int kCancelledExitCode = 130;
 
 /// Allowed values of an option, including both ends.

@@ -33,8 +33,7 @@ template <typename T>
   return array;
 }
 
-/// The fields of two dictionaries from names to arrays of doubles, bytes or uint32, (items,) or (items, components).
-/// Throws like entriesOf().
+/// The fields of two dictionaries from names to arrays of doubles, bytes or uint32. Throws like entriesOf().
 [[nodiscard]] std::vector<Field> fieldsOf(const pybind11::dict& perFace, const pybind11::dict& perVertex);
 
 /// The numbers as float32. Throws like requireSingles().

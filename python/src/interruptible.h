@@ -18,8 +18,7 @@ void runInterruptibly(const std::function<void(const RunControl&)>& work, const 
 /// no thread can return to Python, because destructors of libraries then release what `work` uses.
 void stopAtExit();
 
-/// Throws Error{ForkedProcess} in a process that was forked after the first call. Such a process has no threads or
-/// devices of its parent.
+/// Throws Error{ForkedProcess} in a process without threads and devices, because it was forked after the first call.
 void requireSameProcess();
 
 /// Whether requireSameProcess() would throw.

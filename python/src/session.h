@@ -41,8 +41,7 @@ class SharedSession {
 
   /// Runs `work` when no other thread uses the session; see runInterruptibly().
   void run(const std::function<void(Session&, const RunControl&)>& work, const pybind11::object& progress);
-  /// Destroys a scene of this session. While another thread uses the session, the scene is destroyed before the next
-  /// use.
+  /// Destroys a scene of this session. If another thread uses the session, this happens before the next use.
   void release(std::unique_ptr<Scene> scene);
 
  private:

@@ -37,8 +37,7 @@ void describe(Field& field) {
     }
 }
 
-/// The fields of one component, the segments first. Throws Error{OptionConflict} if there is none or if the size of one
-/// does not fit, and the errors of requireSingles().
+/// The fields of one component, segments first. Throws Error{OptionConflict} for no field or one of a wrong size.
 std::vector<Field> shownFields(const py::dict& perFace, uint64_t faceCount) {
   std::vector<Field> fields = fieldsOf(perFace, {});
   std::erase_if(fields, [](const Field& field) { return field.componentCount != 1; });

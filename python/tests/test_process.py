@@ -104,8 +104,7 @@ def test_the_interpreter_goes_on_while_rays_are_traced() -> None:
 
 def test_calls_keep_the_memory() -> None:
     # In a fresh process, because the heap of a test run with threads grows and shrinks by itself. A leak grows in every
-    # block of calls; memory that a library allocates once or twice does not. TBB loses memory only if processors are
-    # busy.
+    # block of calls; a single allocation of a library does not. TBB leaks only if processors are busy.
     code = """
     def resident_bytes():
         return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -45,7 +45,6 @@ struct EngineOptions {
   uint64_t memoryBytes = 0;                                         ///< Memory limit of a worker; 0: no limit.
 };
 
-/// Functions and settings that the front end provides.
 struct EngineClient {
   /// Returns the result of an earlier run if it is up to date. Must be thread-safe.
   std::function<std::optional<JobResult>(const Job&)> findFinished;

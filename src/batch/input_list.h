@@ -6,7 +6,6 @@
 
 namespace asdfvk {
 
-/// A mesh of a batch.
 struct InputFile {
   /// Path of the file: an argument, a path below a folder argument, or a line of the list. "-" for standard input.
   std::string path;
@@ -33,7 +32,6 @@ struct InputRequest {
 /// Error{UnreadableInput} for a folder or list that cannot be read.
 [[nodiscard]] std::vector<InputFile> listInputs(const InputRequest& request);
 
-/// One of `count` parts of a batch.
 struct Shard {
   uint32_t index = 1;  ///< 1 to count.
   uint32_t count = 1;

@@ -23,7 +23,6 @@ struct JobResult {
   std::string messages;  ///< Text for standard error.
 };
 
-/// Description of a JobComputer for the monitor.
 struct ComputerDescription {
   std::string backend;
   std::string deviceLines;
@@ -45,7 +44,6 @@ class JobComputer {
   [[nodiscard]] virtual bool isSpent() const = 0;
 };
 
-/// Failure to open a computer.
 struct OpenFailure : std::runtime_error {
   OpenFailure(int exitCode, std::string errorName, const std::string& message)
       : std::runtime_error(message), code(exitCode), name(std::move(errorName)) {}

@@ -49,7 +49,6 @@ Json rowOf(const MeshRecord& mesh) {
   return row;
 }
 
-/// The text of a value in a cell, quoted if necessary.
 std::string cellText(const Json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return value.dump();

@@ -29,7 +29,6 @@ struct FailureGroup {
 
 ASDFVK_JSON(FailureGroup, status, code, error, count, exampleInput, exampleMessage)
 
-/// Meshes that have the same warning.
 struct WarningGroup {
   std::string code;
   uint64_t count = 0;
@@ -59,7 +58,6 @@ struct LogSummary {
 
 /// The summary in aligned lines.
 [[nodiscard]] std::string textOf(const LogSummary& summary);
-/// The summary as a JSON document.
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
 /// A table in CSV (RFC 4180): a row of column names, then a row per mesh. The columns are the keys of the records,
 /// without options and hashes. A key of an object has the name of the object as prefix: "sdf.median". Objects that no

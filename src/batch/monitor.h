@@ -37,7 +37,6 @@ class Monitor {
   /// Prints the device lines of the first computer.
   void announce(const ComputerDescription& computer);
 
-  /// Prints a warning, unless MonitorOptions::isQuiet.
   void note(const std::string& message);
 
   /// Adds the result of a job. Throws Error{OutputNotWritable} if the log or standard output cannot be written.
@@ -46,9 +45,7 @@ class Monitor {
   /// Prints the remaining texts and the summary. Preconditions: all results were added; this is the first call.
   void finish();
 
-  /// Exit codes of the added results, in the order of add().
   [[nodiscard]] const std::vector<int>& codes() const { return codes_; }
-  /// Jobs without a result, ascending.
   [[nodiscard]] std::vector<size_t> unfinishedJobs() const;
   /// Whether jobs were dropped or have no result.
   [[nodiscard]] bool hasUnfinished() const;

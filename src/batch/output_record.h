@@ -14,7 +14,6 @@ namespace asdfvk {
 /// Path of the record beside an output: "horse.asdf.ply.json".
 [[nodiscard]] std::filesystem::path outputRecordPath(const std::filesystem::path& output);
 
-/// Reads the record beside the output; unset if there is none.
 [[nodiscard]] std::optional<MeshRecord> readOutputRecord(const std::filesystem::path& output);
 
 /// Returns the record beside the output if the output is up to date; else unset. The record must have no failure and

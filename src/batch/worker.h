@@ -7,7 +7,6 @@
 
 namespace asdfvk {
 
-/// The first message to a worker.
 struct Greeting {
   Json settings;  ///< EngineClient::workerSettings.
   uint32_t threadCount = 1, threadCountOnGpu = 1;

@@ -43,9 +43,7 @@ struct JobOutcome {
   pid_t worker = 0;
 };
 
-/// Functions that the caller of runOnWorkers() provides.
 struct WorkerPoolClient {
-  /// Returns the message that is sent to the worker for a job.
   std::function<std::string(size_t job)> request;
   /// Called with a worker's answer to the greeting. Returns the greatest number of workers; 0: it cannot compute.
   std::function<uint32_t(const std::string& answer)> ready;

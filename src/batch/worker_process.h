@@ -15,7 +15,6 @@ struct ProcessEnd {
   int signal = 0;    ///< The signal that ended the process; 0 if the process exited.
   int exitCode = 0;  ///< Exit code; 0 if a signal ended the process.
 };
-/// The end of a process as a text: "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
 [[nodiscard]] std::string textOf(const ProcessEnd& end);
 
 /// A child process that exchanges messages with this process. One socket is its standard input and its standard output.

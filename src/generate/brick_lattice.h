@@ -16,7 +16,6 @@ namespace asdfvk {
 /// cell. Returns -1 for such a mask, else an outside corner whose addition is a step towards such a mask.
 [[nodiscard]] int32_t cornerToFill(uint32_t mask);
 
-/// Lattice points per brick and axis.
 inline constexpr int32_t kBrickEdge = 8;
 inline constexpr size_t kBricksPerTask = 16;
 

@@ -47,7 +47,6 @@ class CapsuleUnion {
   /// A box that contains the surface, blends included.
   [[nodiscard]] const Box3d& bounds() const { return bounds_; }
 
-  /// A copy with all radii raised to at least `radius`.
   [[nodiscard]] CapsuleUnion withRadiiAtLeast(double radius) const;
 
  private:

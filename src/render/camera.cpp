@@ -42,7 +42,6 @@ std::vector<FloorPoint> convexHull(std::vector<FloorPoint> points) {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-/// A camera with the three directions of the view.
 Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
   const Vec3d up = directionOf(upwards);
   const size_t axis = static_cast<size_t>(upwards) % 3;

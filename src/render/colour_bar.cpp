@@ -67,7 +67,6 @@ double labelWidth(const ColourBar& bar) {
   return widest;
 }
 
-/// Width of bar, ticks and labels.
 double bodyWidth(const ColourBar& bar) {
   return (kBarWidth + kTickLength + kLabelGap) * bar.capHeight + labelWidth(bar);
 }

@@ -28,7 +28,6 @@ struct ColourBar {
 /// Width of the column, in pixels.
 [[nodiscard]] double columnWidth(const ColourBar& bar, double pictureWidth);
 
-/// Draws the bar, centred within `column`.
 void drawColourBar(Image& image, const ColourBar& bar, const PixelArea& column);
 
 }  // namespace asdfvk

@@ -13,7 +13,6 @@ namespace {
 
 constexpr size_t kMaxSmoothedValence = 64;
 
-/// Angle of a face at its corner k, in radians.
 double angleAt(const TriangleMesh& mesh, uint32_t face, size_t k) {
   const Face& corners = mesh.faces[face];
   const Vec3d& apex = mesh.vertices[corners[k]];

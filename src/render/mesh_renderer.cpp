@@ -44,7 +44,6 @@ class MeshRenderer {
   [[nodiscard]] int rowCount() const { return kSamples * image_.height(); }
 
  private:
-  /// A point of a pixel for which the light was computed.
   struct LitPoint {
     Vec3d position, normal;
     double light = 0;

@@ -46,7 +46,6 @@ void drawLegend(Image& image, const Picture& picture, const PixelArea& area, dou
              picture.thinPlaces->isFailure ? kAlarm : kPass);
 }
 
-/// Renders the mesh and its thin places, with callouts in columns at both sides of `area`.
 void drawMesh(Image& image, const Picture& picture, PixelArea area, const ColourRange& range, double capHeight,
               const RunControl& control) {
   const double width = picture.thinPlaces ? calloutWidth(picture.thinPlaces->callouts, capHeight) : 0;

@@ -15,7 +15,6 @@
 namespace asdfvk {
 namespace {
 
-/// Copies the entry of each input face to its triangles.
 template <typename T>
 std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
   if (mesh.polygons.isEmpty()) return ofInputFaces;
@@ -40,7 +39,6 @@ std::string legendOf(const ThicknessReport& thickness) {
   if (thickness.regions.empty())
     return fmt::format("{}nowhere {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "",
                        limit, value.empty() ? "" : ": least " + value);
-  // Walls come before sharp edges and tips.
   const ThinRegion &first = thickness.regions.front(), &last = thickness.regions.back();
   const std::string least = first.isSharp ? "0 at a sharp edge" : lengthText(first.min, thickness.thinnerThan);
   return fmt::format("{} (pale: behind a wall): {}, least {}{}", limit, counted(thickness.regions.size(), "place"),

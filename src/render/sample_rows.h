@@ -59,7 +59,6 @@ class SampleRows {
 
   void draw(uint32_t index, const std::array<Projected, 3>& corners);
 
-  /// The index of the triangle, or kNoSample.
   [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
   /// Minus infinity if there is no triangle.
   [[nodiscard]] float depthAt(int column, int row) const { return depths_[indexOf(column, row)]; }
@@ -92,7 +91,6 @@ void drawSurface(SampleRows& rows, const ProjectedSurface& surface);
 /// The vertices of the faces that rays can hit, in normalised coordinates; each vertex once.
 [[nodiscard]] std::vector<Vec3d> verticesOfHitFaces(const TraceScene& scene);
 
-/// The faces of a scene that rays can hit, on a grid of samples.
 class ProjectedFaces {
  public:
   /// The scene must outlive this object.
@@ -102,7 +100,6 @@ class ProjectedFaces {
     const auto& [a, b, c] = scene_.mesh.faces[face];
     return {vertices_[a], vertices_[b], vertices_[c]};
   }
-  /// Draws the faces with their indices.
   void drawOn(SampleRows& rows) const {
     for (const uint32_t face : scene_.bvh.primitiveFaces) rows.draw(face, cornersOf(face));
   }

@@ -18,7 +18,6 @@ struct Callout {
   std::string text;
 };
 
-/// The thin places of a mesh, for a picture of a grey body.
 struct ThinPlaces {
   Surface surface;
   std::vector<Callout> callouts;

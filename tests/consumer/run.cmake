@@ -1,4 +1,4 @@
-# Configures, builds and runs the consumer in FOLDER, from a current directory of its own.
+# Configures, builds and runs the consumer in FOLDER, from a separate current directory.
 #   -DMODE=installed   installs BUILD into FOLDER/prefix first
 #   -DMODE=configured     adds SOURCE as a subdirectory, and configures only
 #   -DMODE=subdirectory   the same, built and run

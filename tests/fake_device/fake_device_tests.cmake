@@ -1,5 +1,5 @@
-# Tests on the fake devices, fake-DEVICE-FOLDER with the label `fake`: the cases below, of those that use a device. With
-# `ctest -C devices` also fake-DEVICE-FOLDER-all with the label `fake-all`: all cases, which takes minutes.
+# Tests on the fake devices: fake-DEVICE-FOLDER with the label `fake` has the cases below that use a device. `ctest -C
+# devices` adds fake-DEVICE-FOLDER-all with the label `fake-all`: all cases, which takes minutes.
 set(casesOf_vk "*")
 set(casesOf_trace "turned cones*" "all tracers agree on cones*" "hits of cones that the reference redoes*"
     "hits do not depend on where a chunk ends" "rays without a hit are misses*"
@@ -12,11 +12,11 @@ set(casesOf_pipeline "a tenth of the faces casts*" "two runs give the same bits"
     "a warning reports that the CPU finished*" "the device and the reference agree*"
     "a session computes by both definitions*" "a stop request*" "a point has the same value alone*"
     "a region of all faces*")
-# The cases of the prediction are those of the files of its kernels.
+# Test cases of the prediction are selected by the files of its kernels.
 set(casesOf_predict "*")
 set(filesOf_predict "*vulkan*")
 
-# A pattern that no test case matches is an error: the case was renamed.
+# Fails for a pattern without a test case, which may have been renamed.
 function(asdfvk_require_cases folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
   set(all "")

@@ -1,4 +1,4 @@
-# Runs a consumer of the shared library in FOLDER on a generated mesh, and compares its values with those of the program.
+# Runs a consumer of the shared library in FOLDER on a generated mesh, and compares its values with the program's.
 #   -DCONSUMER=FILE   a program, or Consumer.cs, which is compiled and run by mono
 #   -DLIBRARY=FILE -DPROGRAM=FILE -DGENERATE=FILE
 function(run)
