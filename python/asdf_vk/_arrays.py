@@ -78,7 +78,6 @@ def pairs_array(points: Any, normals: Any) -> tuple[NDArray[np.float64], NDArray
 
 
 def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
-    """Returns (count,) float64."""
     array = as_array(value, name, "fiu", "real numbers")
     if array.shape != (count,):
         raise error_of("arraySize", f"{name} has the shape {array.shape}, not ({count},)")

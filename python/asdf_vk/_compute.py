@@ -27,7 +27,6 @@ def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progres
 
 
 def method_of(method: Any) -> str:
-    """Returns the value of the option `segment` for a method."""
     if method is not None and (not isinstance(method, str) or method not in ("parts", "cgal")):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
     return method or "parts"

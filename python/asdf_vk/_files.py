@@ -1,5 +1,3 @@
-"""Mesh and result files."""
-
 from __future__ import annotations
 
 import os

@@ -1,5 +1,3 @@
-"""The result of a computation."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass, field

@@ -100,7 +100,6 @@ class Computation(threading.Thread):
 
 
 def linear(colours):
-    """Converts sRGB to linear colours."""
     return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
 
 
@@ -161,7 +160,6 @@ def select_faces(mesh, selected) -> None:
 
 
 def set_materials(mesh, segments) -> None:
-    """Replaces the materials of the mesh by a material per part."""
     mesh.materials.clear()
     for part in range(int(segments.max()) + 1):
         name = f"asdf-vk part {part}"
@@ -226,8 +224,6 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
 
 
 class Options:
-    """Properties of the operator and of the panel."""
-
     limit: FloatProperty(name="Limit", description="Least allowed thickness; 0: none", min=0, unit="LENGTH", precision=4)
     allow_sharp_edges: BoolProperty(name="Allow sharp edges", description="Thin places at a sharp edge do not count")
     parts: IntProperty(name="Parts", description="Number of parts; 0: automatic", min=0, max=100)
@@ -305,7 +301,6 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):
-        """Cancels the computation when Blender ends."""
         self.computation.is_cancelled = True
 
     def modal(self, context, event):

@@ -184,7 +184,6 @@ def add_place(document, region, limit: float):
 
 
 def show_place(place) -> None:
-    """Selects a place and moves the view to it."""
     import FreeCADGui
 
     FreeCADGui.Selection.clearSelection()
@@ -268,7 +267,6 @@ class Panel:
 
 
 def show_panel():
-    """Opens the panel for the selected object."""
     import FreeCADGui
 
     selection = FreeCADGui.Selection.getSelection()

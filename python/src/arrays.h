@@ -13,7 +13,6 @@
 
 namespace asdfvk::python {
 
-/// Whether the object is a bool of Python or NumPy.
 [[nodiscard]] bool isFlag(const pybind11::handle& object);
 
 /// The entries of a C-contiguous array of T, in place. Throws Error{ArrayType} for any other array.
@@ -43,7 +42,6 @@ template <typename T>
 /// `single` is set and the field has one component; otherwise double. uint32 becomes int32: 0xffffffff becomes -1.
 [[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
 
-/// An array that owns the entries.
 template <typename T>
 [[nodiscard]] pybind11::array_t<T> asArray(std::vector<T>&& entries, std::vector<pybind11::ssize_t> shape = {}) {
   if (shape.empty()) shape.push_back(static_cast<pybind11::ssize_t>(entries.size()));

@@ -79,7 +79,6 @@ void writePointsOf(const std::filesystem::path& path, const py::dict& perFace) {
   writePoints(path, fields);
 }
 
-/// The arrays of a mesh, for pickle.
 py::tuple stateOf(const Mesh& mesh) {
   const auto bytesOf = [](const auto& entries) {
     return py::bytes(reinterpret_cast<const char*>(entries.data()), entries.size() * sizeof(entries[0]));

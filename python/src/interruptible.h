@@ -21,7 +21,6 @@ void stopAtExit();
 /// Throws Error{ForkedProcess} in a process without threads and devices, because it was forked after the first call.
 void requireSameProcess();
 
-/// Whether requireSameProcess() would throw.
 [[nodiscard]] bool isForkedProcess();
 
 }  // namespace asdfvk::python

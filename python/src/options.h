@@ -15,7 +15,6 @@ namespace asdfvk::python {
 [[nodiscard]] Options optionsOf(const pybind11::dict& values);
 [[nodiscard]] SessionSettings sessionOf(const pybind11::dict& values);
 
-/// The keys of optionsOf().
 [[nodiscard]] std::vector<std::string> optionNames();
 
 }  // namespace asdfvk::python

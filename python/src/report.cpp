@@ -14,7 +14,6 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Converts "faceCount" to "face_count".
 std::string snakeCase(const std::string& key) {
   std::string text;
   for (const unsigned char c : key) {

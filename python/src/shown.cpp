@@ -116,7 +116,6 @@ void addLayer(Page& page, const Result& result, Layer& layer, const RunControl& 
   page.add(result.scene->scene.mesh, fields, std::move(layer.texts));
 }
 
-/// layers: pairs of fields and texts.
 void writePage(const std::filesystem::path& path, const py::object& mesh,
                const std::vector<std::pair<py::dict, py::dict>>& layers) {
   requireSameProcess();

@@ -20,7 +20,6 @@ def _path_of(variable: str) -> Path:
 
 @pytest.fixture(scope="session")
 def program() -> Path:
-    """The program asdf-vk."""
     return _path_of("ASDF_VK_PROGRAM")
 
 

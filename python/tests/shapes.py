@@ -1,5 +1,3 @@
-"""Meshes of the tests."""
-
 from __future__ import annotations
 
 from typing import Any

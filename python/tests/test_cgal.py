@@ -1,5 +1,3 @@
-"""asdf_vk.compat.cgal and cgal_Segmentation_Module."""
-
 from __future__ import annotations
 
 import math

@@ -1,5 +1,3 @@
-"""Distances and radii at points."""
-
 from __future__ import annotations
 
 from typing import Any

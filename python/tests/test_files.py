@@ -1,5 +1,3 @@
-"""Reading and writing."""
-
 from __future__ import annotations
 
 import base64

@@ -1,5 +1,3 @@
-"""Pages and pictures."""
-
 from __future__ import annotations
 
 import base64

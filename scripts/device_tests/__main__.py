@@ -33,8 +33,6 @@ REAL = (
 
 
 class Row:
-    """A line of the table, and the failed checks."""
-
     def __init__(self, implementation: Implementation, version: str) -> None:
         self.implementation = implementation
         self.version = version

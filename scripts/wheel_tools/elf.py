@@ -64,7 +64,6 @@ def dotted(version: Version) -> str:
 
 
 def highest(libraries: Iterable[Elf]) -> dict[str, Version]:
-    """Returns the highest needed version of each name."""
     versions: dict[str, Version] = {}
     for library in libraries:
         for name, version in library.versions.items():

@@ -58,11 +58,10 @@ struct EngineClient {
   Json recordOptions;  ///< MeshRecord::options for all jobs.
 };
 
-/// Computes the jobs in the phases of planJobs(). Phases with several jobs at once use worker processes, other phases
-/// this process. Adds each result to the monitor. Replaces a computer whose device failed.
-///
-/// A stop request drops the current jobs; no further job begins. Throws OpenFailure if no device can be opened for the
-/// remaining jobs. Also throws the errors of the monitor.
+/// Computes the jobs in the phases of planJobs(): in worker processes if a phase has several jobs at once, otherwise in
+/// this process. Adds each result to the monitor. Replaces a computer whose device failed. A stop request drops the
+/// current jobs, and no further job begins. Throws OpenFailure if no device can be opened for the remaining jobs, and
+/// the errors of the monitor.
 void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
              const std::stop_token& stop);
 

@@ -104,8 +104,7 @@ ThicknessPart makeOpenBox(double outerSlope, double innerSlope, double wall, dou
   return soundPart(std::move(solid), std::min(floor, wall / std::sqrt(1 + outerSlope * outerSlope)));
 }
 
-/// The section of a solid of revolution is a regular polygon with `sideCount` sides. The factor is the distance of a
-/// side from the axis, divided by the distance of a corner.
+/// Apothem of a regular polygon with `sideCount` sides, divided by the distance of its corners from the axis.
 double apothemFactor(uint32_t sideCount) { return std::cos(std::numbers::pi / sideCount); }
 
 /// The position function of a solid of revolution. radiusAt(i, k): radius at point (i, k) of the profile lattice.

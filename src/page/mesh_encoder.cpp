@@ -39,8 +39,7 @@ struct Grid {
   }
 };
 
-/// All faces in the order of a depth-first walk over shared edges. Neighbouring faces are then close to each other in
-/// the arrays, so that the differences in the arrays are small.
+/// All faces in the order of a depth-first walk over shared edges, so that the differences in the arrays are small.
 std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
   const DualGraph graph = buildDualGraph(mesh);
   std::vector<uint32_t> faces, stack;

@@ -4,8 +4,7 @@
 
 namespace asdfvk {
 
-/// Opens a file in the browser of the desktop (xdg-open). Does not wait for the browser. Throws
-/// Error{OutputNotWritable} if xdg-open cannot be started.
+/// Opens a file with xdg-open, and does not wait. Throws Error{OutputNotWritable} if xdg-open cannot be started.
 void openInBrowser(const std::string& path);
 
 }  // namespace asdfvk

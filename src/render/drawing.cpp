@@ -17,9 +17,8 @@ namespace {
 constexpr char kFirst = '!', kLast = '~';
 constexpr double kGap = 3.6, kSpaceAdvance = 7;
 
-/// A glyph as text. `m x y` begins a stroke at a point. `l x y` adds a line. `a cx cy rx ry from to` adds a line to an
-/// elliptic arc, and the arc between two angles in degrees (ascending: counter-clockwise). `n` begins a stroke at the
-/// start of the next arc.
+/// A glyph as text: `m x y` begins a stroke, `l x y` adds a line. `a cx cy rx ry from to` adds a line to an elliptic
+/// arc, and the arc between two angles in degrees (ascending: counter-clockwise). `n` begins a stroke at the next arc.
 struct GlyphText {
   double width;
   const char* strokes;

@@ -112,7 +112,6 @@ def _values(
     disk: NDArray[np.float64],
     of_faces: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Returns the values of cones with the given starts and axes, both (k, 3)."""
     values = np.full(len(starts), np.nan)
     with np.errstate(invalid="ignore"):
         frames = _frames(axes)

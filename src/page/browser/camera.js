@@ -41,10 +41,9 @@ export function boxCorners(size) {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => size.map((length, axis) => (i >> axis & 1 ? 0.5 : -0.5) * length));
 }
 
-// Camera of a pane. The pane shows a mesh within a frame {centre, radius, size}. The target is the point at the centre
-// of the pane. The state has the offset of the target from the centre of the frame: x along side, y along up, z along
-// front, in radii of the frame. Meshes with different upright axes therefore move alike. With zoom 1 a sphere with the
-// radius of the frame fits the shorter side of the pane.
+// Camera of a pane, which shows a mesh within a frame {centre, radius, size}. The target is the centre of the pane. The
+// state has the offset of the target from the centre of the frame along side (x), up (y) and front (z), in radii of the
+// frame. With zoom 1 a sphere with the radius of the frame fits the shorter side of the pane.
 export class PaneCamera {
   constructor(state, axes, frame, width, height) {
     Object.assign(this, axes);

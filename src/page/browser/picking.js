@@ -22,9 +22,9 @@ function forEachHit(model, point, direction, visit) {
   }
 }
 
-// The visible face {face, point} nearest to the viewer on the line through `point` towards the viewer; null if there is
-// none. colours: faces with alpha 0 are invisible; may be null. plane: [x, y, z, w], points on its negative side are
-// invisible; may be null. facing: true excludes back faces.
+// The visible face {face, point} nearest to the viewer on the line through `point`; null if there is none. colours (or
+// null): faces with alpha 0 are invisible. plane (or null): [x, y, z, w]; its negative side is invisible. facing: no
+// back faces.
 export function pickFace(model, colours, point, toViewer, plane, facing) {
   let best = -Infinity, found = -1;
   const at = (distance) => add(point, scaled(toViewer, distance));
