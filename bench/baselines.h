@@ -8,7 +8,7 @@
 
 namespace asdfvk::bench {
 
-/// Embree traces the rays of cones and only adds their lengths: the reference speed of tracers.
+/// Embree traces the rays of the cones, and the lengths are added. This speed is the reference for tracers.
 class EmbreeBaseline {
  public:
   virtual ~EmbreeBaseline() = default;

@@ -103,7 +103,7 @@ class MeshComparison {
     return watch.seconds();
   }
 
-  /// Random faces in the order of the hierarchy, the fastest order for every tracer and that of asdf-vk.
+  /// Random faces in the order of the hierarchy. This order is the fastest for every tracer; asdf-vk also uses it.
   std::vector<uint32_t> chooseSeeds(const std::string& count) const {
     const std::vector<uint32_t>& candidates = mesh_.prepared.traceableFaces;
     const std::vector<uint32_t> chosen = randomPermutationSeeds(
@@ -125,7 +125,7 @@ class MeshComparison {
   std::map<std::string, std::unique_ptr<Session>> sessions_;
 };
 
-/// The index of the part that contains the round, for equal parts.
+/// The index of the part that contains the round, if the rounds are divided into equal parts.
 size_t partOf(size_t round, size_t roundCount, size_t partCount) { return round * partCount / roundCount; }
 
 bool isFirstOfPart(size_t round, size_t roundCount, size_t partCount) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Embree 3 or 4, depending on CMake. No other file depends on the version.
+// Embree 3 or 4, the version that CMake found. No other file depends on the version.
 #if ASDFVK_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else

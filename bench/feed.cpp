@@ -110,7 +110,7 @@ class TrafficCounter {
   static inline std::set<VkBuffer> ofHost_;
 };
 
-/// Time by stage for which the host waits for the device. A wait between two stages counts for the first stage.
+/// For each stage, the time for which the host waits for the device. A wait after a stage counts for this stage.
 class StageWaits {
  public:
   void begin(Stage stage) {
@@ -127,8 +127,8 @@ class StageWaits {
   Stage current_ = Stage::Geometry;
 };
 
-/// During its lifetime, submissions end at once without running their commands. New mapped memory is filled with a
-/// length, so that values are valid; hits are not valid.
+/// During its lifetime, submissions end at once without running their commands. Mapped memory is filled with a length,
+/// so that values are valid, but not hits.
 class IdleDevice {
  public:
   IdleDevice() {

@@ -54,7 +54,7 @@ Model readModel(const fs::path& folder, uint32_t id) {
     if (!fs::exists(path)) break;
     model.humans.push_back(readLabels(path));
     if (model.humans.back().size() != model.mesh.inputFaceCount())
-      throw Error(ErrorCode::UnreadableInput, fmt::format("{} has not one number per face", path.string()));
+      throw Error(ErrorCode::UnreadableInput, fmt::format("{} does not have one number per face", path.string()));
   }
   if (model.humans.empty()) throw Error(ErrorCode::UnreadableInput, fmt::format("model {} has no segmentation", id));
   return model;

@@ -47,10 +47,10 @@ Options checkOptions(double limit, bool allowsSharpEdges = false) {
   return options;
 }
 
-/// Both fields at some faces by brute force, and the cap of each face.
+/// Both fields at some faces by brute force, and the GreatestSection of the solid of each face, which limits them.
 struct Truth {
   struct Section {
-    double diameter, bound;  // The cap, and its upper bound.
+    double diameter, bound;  // As in GreatestSection.
   };
   std::vector<uint32_t> faces;
   std::vector<Section> sections;
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
   program.addOptionalMeshes(arguments.meshes, "none");
   program.add("--backends", arguments.backends, "Backends");
   program.add("--runs", arguments.runs, "Runs per measurement of time; 0: none");
-  program.add("--faces", arguments.faces, "Faces per mesh that brute force judges, at least; 0: none",
+  program.add("--faces", arguments.faces, "Least number of faces per mesh that brute force judges; 0: none",
               Range<uint32_t>{0, 100000});
   program.add("--parts", arguments.parts, "Parts of known least thickness, coarse and refined");
   program.add("--edge", arguments.longestEdge, "Longest edge of the refined parts", Range<double>{0.05, 100});

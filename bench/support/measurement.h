@@ -10,7 +10,7 @@
 
 namespace asdfvk::bench {
 
-/// All 0 without samples. The median of an even count is the mean of two samples. deviation: median absolute.
+/// All 0 without samples. Median of an even count: mean of two samples. deviation: median absolute deviation.
 struct Dispersion {
   double median = 0, deviation = 0, min = 0, max = 0;
 };

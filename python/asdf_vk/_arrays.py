@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import _core
 from ._errors import error_of
 
-# A mesh as the extension takes it: its class Mesh, or vertices and faces.
+# An argument of the extension: a Mesh, or vertices and faces.
 MeshArgument = Union["_core.Mesh", "tuple[NDArray[Any], NDArray[np.uint32]]"]
 
 _MAX_ROW_COUNT = 2**32 - 1  # Indices have 32 bits.

@@ -28,7 +28,7 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Sets the label and the unit of a field that has the name of a field of results.
+/// Sets label and unit of a field whose name is that of a field of a result.
 void describe(Field& field) {
   for (const FieldRow& row : fieldRows())
     if (row.name == field.name && static_cast<size_t>(row.type) == field.values.index()) {

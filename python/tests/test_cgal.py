@@ -25,7 +25,7 @@ STEPS: list[Callable[..., Any]] = [
 
 
 def torus(rows: int, columns: int) -> Arrays:
-    """A tube of varying radius around a circle; 2 rows columns faces."""
+    """A tube of varying radius around a circle; 2 * rows * columns faces."""
     u, v = np.meshgrid(
         2 * np.pi * np.arange(rows) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij"
     )

@@ -58,7 +58,7 @@ def test_one_ray_by_numpy() -> None:
     chosen = np.arange(0, len(faces), 37)
     points, normals = (array[chosen] for array in barycentres_and_normals(vertices, faces))
     theirs = first_hits(vertices, faces, points, -normals)
-    # A ray along the axis alone, which drops no hit by the direction of the face that it hits.
+    # One ray along the axis. With false_hit_angle=0, no hit is dropped because of the direction of its face.
     ours = asdf_vk.Scene(vertices, faces).at(points, normals, false_hit_angle=0, **AXIS_ONLY)
     np.testing.assert_array_equal(np.isfinite(ours), np.isfinite(theirs))
     close = np.isclose(ours, theirs, atol=1e-3)

@@ -130,7 +130,7 @@ class Drivers:
         devices = self._surroundings.devices({})
         if any(device["usable"] and device["kind"] != "CPU" for device in devices):
             return [Implementation("gpu", "GPU of this machine")]
-        self.missing.append("GPU: no usable device of this machine is one")
+        self.missing.append("GPU: this machine has no usable GPU")
         return []
 
     def _lavapipe(self) -> list[Implementation]:
@@ -178,7 +178,7 @@ class Drivers:
         return [Implementation("newer-mesa", f"lavapipe of Mesa {newest.version}", environment)]
 
     def _fakes(self) -> list[Implementation]:
-        """Fake devices on lavapipe, which the programs of tests/fake_device make."""
+        """Returns the fake devices that the programs of tests/fake_device make from lavapipe."""
         folder = self._surroundings.build / "tests/fake_device"
         wrappers = sorted(file for file in folder.glob("*") if _is_program(file))
         if not wrappers or not list(folder.glob("*.so")):

@@ -72,7 +72,7 @@ def highest(libraries: Iterable[Elf]) -> dict[str, Version]:
 
 
 def least_glibc(versions: dict[str, Version]) -> Version:
-    """Returns the version of the manylinux tag that allows these versions."""
+    """Returns the least glibc version of a manylinux tag that allows these versions."""
     others = {name: version for name, version in versions.items() if name != "GLIBC"}
     for glibc, limits in _LIMITS.items():
         if all(version <= limits[name] for name, version in others.items()):

@@ -50,7 +50,7 @@ struct MeshRecord {
   std::string message;  ///< Message of the error in one line; empty without a failure.
 };
 
-/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". Times sort like texts.
+/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". Text order is time order.
 [[nodiscard]] std::string utcTime();
 
 [[nodiscard]] Json toJson(const MeshRecord& record);

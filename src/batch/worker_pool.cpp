@@ -17,7 +17,7 @@ namespace asdfvk {
 namespace {
 
 constexpr int kPollMilliseconds = 100;
-/// A mesh may fill 2 GB of memory per second, which is 20 MB in this time.
+/// In this time, a mesh may fill 20 MB of memory (2 GB per second).
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
 /// A worker is replaced if it keeps more than this share of the memory for jobs after a job, so that the next job does

@@ -50,7 +50,7 @@ struct BatchOptions {
   [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
 };
 
-/// Reads a number of bytes such as "500M", "1.5g" or "4096", in powers of 1024. Unset for other texts and below 1.
+/// Reads a number of bytes, at least 1, such as "500M", "1.5g" or "4096", in powers of 1024. Unset for other texts.
 [[nodiscard]] std::optional<uint64_t> parseByteCount(const std::string& text);
 
 /// Names of the fields to write: Outputs::fields, or by default the fields that the options compute.

@@ -62,7 +62,7 @@ class BrickLattice {
   [[nodiscard]] const std::vector<Brick>& bricks() const { return bricks_; }
   [[nodiscard]] Vec3d position(const Brick& brick, double x, double y, double z) const;
   [[nodiscard]] CellCorners corners(const Brick& brick) const;
-  /// The brick at these brick coordinates, or -1.
+  /// Index of the brick at these brick coordinates; -1 if it is not stored.
   [[nodiscard]] int64_t find(int32_t x, int32_t y, int32_t z) const;
   /// Number of lattice edges that the surface crosses, which is the number of quads of the surface.
   [[nodiscard]] uint64_t crossedEdgeCount() const;

@@ -118,7 +118,7 @@ class SurfaceNets {
       forEachCell(i, [&](int32_t x, int32_t y, int32_t z) {
         shape_.mesh.vertices[vertex] = lattice_.position(brick, x + 0.5, y + 0.5, z + 0.5);
         const uint32_t mask = signs.mask(x, y, z);
-        // The corners of a cell's lower and upper side across each axis.
+        // For each axis, the corners of the lower and of the upper side of a cell.
         constexpr std::array<uint32_t, 6> kSides{0x55, 0xaa, 0x33, 0xcc, 0x0f, 0xf0};
         for (size_t side = 0; side < 6; ++side) {
           const uint32_t onSide = mask & kSides[side];

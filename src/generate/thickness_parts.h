@@ -13,7 +13,8 @@ namespace asdfvk {
 struct ThicknessPart {
   BlockSolid solid;
   double leastThickness = 0;  ///< Minimum over all points of the surface; 0 with a sharp edge or tip.
-  /// Minimum outside of sharp regions, or infinite. A sharp region is thinner, and connected to a sharp edge or tip.
+  /// Minimum outside of sharp regions; infinite if the whole surface is sharp. A sharp region is connected to a sharp
+  /// edge or tip, and thinner than this minimum.
   double leastWall = std::numeric_limits<double>::infinity();
   double sharpAngleDegrees = 0;  ///< Inner angle of the sharp edges or of the tip; 0 without a sharp edge or tip.
   double sharpLength = 0;        ///< Sum of the lengths of all sharp edges.

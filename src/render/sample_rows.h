@@ -32,7 +32,7 @@ struct SamplePlace {
   double x = 0, y = 0;
 };
 
-/// Barycentric coordinates of `place`. Some are negative outside of the triangle. Precondition: it has an area.
+/// Barycentric coordinates of `place` in a triangle with an area. Outside of the triangle, some are negative.
 [[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners,
                                                         const SamplePlace& place) {
   const auto& [a, b, c] = corners;

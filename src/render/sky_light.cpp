@@ -56,7 +56,7 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
   for (int i = 0; i < skyCount; ++i) {
     const double height = 1 - 2 * (i + 0.5) / skyCount;
     const Vec3d d = spiralPoint(i, std::sqrt(1 - height * height), height);
-    // Factor 4: the mean of max(0, cosine) over the sphere is 1/4, so that radiance 1 lights a white surface by 1.
+    // The mean of max(0, cosine) over the sphere is 1/4. With the factor 4, radiance 1 gives a white surface light 1.
     addSource(camera.right * d.x + camera.toViewer * d.y + camera.up * d.z,
               kSky * 4 / skyCount * (kGroundShare + (1 - kGroundShare) * (0.5 + 0.5 * height)), kSkyReach);
   }

@@ -16,7 +16,7 @@ set(casesOf_pipeline "a tenth of the faces casts*" "two runs give the same bits"
 set(casesOf_predict "*")
 set(filesOf_predict "*vulkan*")
 
-# Fails for a pattern without a test case, which may have been renamed.
+# Fails if no test case matches a pattern, because the case may have been renamed.
 function(asdfvk_require_cases folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
   set(all "")

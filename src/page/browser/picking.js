@@ -1,4 +1,4 @@
-// Intersects lines with all triangles, which is exact at any zoom. Pixels read back from the graphics card are not.
+// Intersects lines with all triangles: exact at any zoom, unlike pixels that are read back from the graphics card.
 import { add, dot, scaled } from './vectors.js';
 
 /** Calls visit(face, distance, facing) for each triangle that the line hits. facing: positive if the front is hit. */

@@ -192,7 +192,7 @@ export class Viewer {
     this.fly(time);
     const isMoving = Boolean(this.hasMoved);
     this.hasMoved = false;
-    // On a slow device the next frame is late, however long the interval between two inputs is.
+    // The delay of the next frame measures the speed of the device; the interval between two inputs does not.
     if (isMoving) requestAnimationFrame((next) => this.adapt(next - time));
     // The first frame is drawn without antialiasing, so that it appears early.
     const { dataset } = document.documentElement, isFirst = !dataset.frames;
