@@ -21,7 +21,7 @@ constexpr std::array kTolerances{1e-9, 1e-5, 1e-4};  ///< Shares of the range of
 struct Agreement {
   std::array<double, kTolerances.size()> shares{};
   double largest = 0;          ///< Largest difference, as a share of the range.
-  uint64_t oneSidedCount = 0;  ///< Faces to which only one of both gives a value.
+  uint64_t oneSidedCount = 0;  ///< Faces with a value of asdf-vk only, or of CGAL only.
 };
 
 Agreement agreementOf(const std::vector<double>& values, const std::vector<double>& expected) {

@@ -3,9 +3,9 @@
 
     bench/known_shapes.py [--faces 1310720] [--backend auto] [--build build/develop]
 
--- --faces: greatest size; a smaller one leaves the animal out if it is larger. Needs python3-numpy. Exact values are
--- those of a sphere, a slab and a cylinder without facets and ends, by the definition of docs/method.md in a few lines
--- of NumPy. The animal is compared with the reference.
+--faces: greatest number of faces. The animal is left out if it has more faces. Needs python3-numpy. Exact values are
+those of a sphere, a slab and a cylinder without facets and ends, by the definition of docs/method.md in a few lines of
+NumPy. The animal is compared with the reference.
 """
 from __future__ import annotations
 

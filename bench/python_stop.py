@@ -36,7 +36,7 @@ def delay(call: Callable[[], Any], after: float) -> float | None:
         call()
         timer.cancel()
         timer.join()
-        time.sleep(0.01)  # A signal from the end of the call arrives here.
+        time.sleep(0.01)  # A signal that was sent at the end of the call arrives here.
     except KeyboardInterrupt:
         return time.perf_counter() - sent
     return None

@@ -26,7 +26,7 @@ struct StageRow {
   std::string seeds, backend;
   bool runsOnCpu = false;
   std::vector<FileRun> runs = {};
-  std::vector<ProcessUsage> processes = {};  ///< asdf-vk from file to file, with opening the device.
+  std::vector<ProcessUsage> processes = {};  ///< asdf-vk from file to file, including opening the device.
 
   [[nodiscard]] Dispersion seconds(Stage stage) const;
   [[nodiscard]] Dispersion share(Stage stage) const;  ///< Share of the total.
@@ -44,7 +44,7 @@ struct StageMeasurement {
   std::string mesh;
   std::vector<StageRow> rows = {};
 
-  /// Time of the reference divided by that of `row`, by round. Unset for other backends, or without such a reference.
+  /// Time of the reference divided by that of `row`, by round. Unset for other backends and without a reference.
   [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
 
   /// Time of the process of all faces divided by that of `row` by the same backend, by round: CPU seconds on a CPU,

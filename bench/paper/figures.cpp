@@ -60,7 +60,7 @@ void drawErrors(PictureWriter& pictures, const NamedMesh& mesh, const Evaluation
 Options samplerOptions(const std::string& sampler, Recipe recipe, uint64_t randomSeed) {
   Options options = recipeOptions(recipe, kSamplerPercent, randomSeed);
   options.sampler = sampler;
-  options.estimatesError = false;  // Held-out faces would be random seeds of the result for every sampler.
+  options.estimatesError = false;  // The held-out faces of an estimate would be random seeds.
   return options;
 }
 

@@ -7,7 +7,7 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Its destructor blocks an unwinding thread for ever. A catch in the handler of an exception would end the process.
+/// The destructor blocks an unwinding thread for ever. A catch clause within another handler would end the process.
 class UnwindingStop {
  public:
   UnwindingStop() = default;

@@ -54,8 +54,8 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
-/// Threads that run tasks: the greatest number of simultaneous tasks so far. Threads are kept until the end of the
-/// process, because TBB 2021.8 leaks about 10 KB when a thread ends that used it while the processors were busy.
+/// Threads that run tasks, as many as there were tasks at the same time. Threads are kept until the process ends,
+/// because TBB 2021.8 leaks about 10 KB at the end of a thread that used it while the processors were busy.
 class Workers {
  public:
   /// `task` may be destroyed after its future is ready.

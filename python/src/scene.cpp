@@ -30,7 +30,7 @@ std::unique_ptr<ComputedFields> computed(SharedSession& session, const py::objec
   return std::make_unique<ComputedFields>(std::move(*result));
 }
 
-/// A scene, and the session and the arrays of the mesh that it refers to.
+/// A scene with the session and the arrays to which the scene refers.
 class SharedScene {
  public:
   SharedScene(std::shared_ptr<SharedSession> session, const py::object& mesh, const py::dict& options,

@@ -48,7 +48,7 @@ class SharedSession {
   std::unique_ptr<Session> session_;
   uint32_t threadCount_;
   std::timed_mutex mutex_;
-  /// Guards `released_`. May be locked before a try to lock `mutex_`, but not during a wait for it.
+  /// Guards `released_`. May be locked during a try to lock `mutex_`, but not during a wait for `mutex_`.
   std::mutex releasedMutex_;
   std::vector<std::unique_ptr<Scene>> released_;  ///< Destroyed before the session.
 };

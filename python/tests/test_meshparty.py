@@ -76,7 +76,7 @@ def test_normals_are_computed_where_the_mesh_has_none(reference: asdf_vk.Session
     np.testing.assert_allclose(
         meshparty.shape_diameter_function(inds, Plain, session=reference),
         meshparty.shape_diameter_function(inds, mesh, session=reference), rtol=1e-6)
-    many = np.tile(inds, 4000)  # More rays than one part.
+    many = np.tile(inds, 4000)  # More rays than are traced at once.
     found = meshparty.shape_diameter_function(many, Plain, 30, session=reference)
     np.testing.assert_array_equal(found, np.tile(found[:12], 4000))
 

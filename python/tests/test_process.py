@@ -25,7 +25,7 @@ import numpy as np
 threads_of_numpy = len(os.listdir("/proc/self/task"))
 import asdf_vk
 from shapes import cube, dumbbell, sphere
-signal.signal(signal.SIGINT, signal.default_int_handler)  # Ignored in jobs in the background of a shell.
+signal.signal(signal.SIGINT, signal.default_int_handler)  # Background jobs of a shell ignore SIGINT.
 """
 
 

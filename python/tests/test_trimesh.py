@@ -31,7 +31,7 @@ def two_cubes() -> Trimesh:
     return Trimesh(joined((vertices, faces), (vertices + [1.5, 0, 0], faces)))
 
 
-TOP: NDArray[Any] = np.array([[0.3, 0.4, 1], [0.6, 0.2, 1]])  # Of the cube.
+TOP: NDArray[Any] = np.array([[0.3, 0.4, 1], [0.6, 0.2, 1]])  # Points of the upper side of the cube.
 
 
 def test_the_signature_is_that_of_trimesh() -> None:

@@ -1,4 +1,4 @@
-"""Makes ten meshes: closed ones by asdf-vk-generate, and from these open ones and ones of several components.
+"""Makes ten meshes: closed meshes by asdf-vk-generate, and from them open meshes and meshes of several components.
 
 usage: make_meshes.py GENERATOR FOLDER
 """

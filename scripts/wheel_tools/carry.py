@@ -1,4 +1,4 @@
-"""Copies libraries that the module needs and that a system may lack into a package."""
+"""Copies libraries into a package: those that its module needs and that a system may lack."""
 
 from __future__ import annotations
 

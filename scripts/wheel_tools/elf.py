@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 Version = tuple[int, ...]
 
-# Libraries of every manylinux system (PEP 600) that are needed here; the wheel contains none of them. With its own
-# copies of libstdc++ and libgcc_s, an exception could not pass from one module to another.
+# Libraries that the module may need and that every manylinux system (PEP 600) has. The wheel has none of them, because
+# an exception could not pass from one module to another with different copies of libstdc++ and libgcc_s.
 SYSTEM_LIBRARIES = frozenset({
     "libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2",
     "ld-linux-aarch64.so.1", "libstdc++.so.6", "libgcc_s.so.1", "libatomic.so.1", "libz.so.1",

@@ -16,7 +16,7 @@ struct Argument {
   std::string placeholder =
       {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
   std::string text = {};  ///< Text of the help.
-  /// Called with the values of each occurrence, or once with all values of a list. Flags and omitted values: empty.
+  /// Called with the values of each occurrence, or once with all values of a list. Empty: a flag, or an omitted value.
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;

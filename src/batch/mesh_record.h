@@ -27,7 +27,7 @@ inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses
                                                                                   {MeshStatus::Dropped, "dropped"}}};
 [[nodiscard]] const char* nameOf(MeshStatus status);
 
-/// Record of a mesh of a batch. It is a line of the log and the content of the file beside the output.
+/// Record of a mesh of a batch: a line of the log, and the content of the file beside the output.
 struct MeshRecord {
   std::string input;
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.

@@ -20,8 +20,8 @@ constexpr int kPollMilliseconds = 100;
 /// In this time, a mesh may fill 20 MB of memory (2 GB per second).
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
-/// A worker is replaced if it keeps more than this share of the memory for jobs after a job, so that the next job does
-/// not fail because of earlier jobs. The memory for jobs is the limit minus the memory of a ready worker.
+/// A worker is replaced after a job if it still uses more than this share of the memory for jobs, which is the limit
+/// minus the memory of a ready worker. Otherwise the next job could fail because of earlier jobs.
 constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
@@ -60,7 +60,7 @@ class WorkerPool {
            std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
   }
 
-  /// Only one process may run until a worker is ready. Then the result of client_.ready() is the greatest number.
+  /// Only one process may run until a worker is ready. Then client_.ready() determines the number.
   [[nodiscard]] bool mayStart(const Worker& worker) const {
     if (worker.isGivenUp) return false;
     const auto startedCount = static_cast<uint32_t>(

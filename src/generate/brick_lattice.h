@@ -50,7 +50,7 @@ class CellCorners {
 };
 
 /// Points of a cubic lattice inside a shape. Bricks that the surface cannot reach (Lipschitz bound) are not stored.
-/// ///
+///
 /// The set of inside points is made well-composed (see cornerToFill(); Latecki, 1997). This is necessary and sufficient
 /// for the boundary of the voxels of the points to be a closed 2-manifold at any resolution. All radii are raised to at
 /// least half the diagonal of a cell, so that parts thinner than a cell stay connected.

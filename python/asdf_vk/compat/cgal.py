@@ -9,9 +9,9 @@ contain none of its code. Differences:
 
 - A missing value is NaN in results; CGAL has -1. Both are accepted in arguments.
 - All clusters are expanded by default, as in some versions of CGAL; expansion="first" is the rule of CGAL 5.5.1.
-- Meshes need not be manifold. Two faces of equal orientation are neighbours across an edge that no other face has. At
-  an edge of more faces, faces are separated like CGAL's readers do, which split vertices. These readers also reverse
-  faces of such meshes.
+- Meshes need not be manifold. Two faces of equal orientation are neighbours across an edge that no other face has. An
+  edge of more faces is divided into several edges, as if CGAL's readers had split its vertices. CGAL's readers also
+  reverse faces of such meshes.
 - It is an error (InputError) if there are fewer different values than clusters (code "tooFewValues"), or if no face has
   a value (code "noValues"). CGAL then crashes or does not end.
 - None stands for the default of each keyword.

@@ -251,7 +251,7 @@ export class Viewer {
     return face < 0 ? null : { index, face, id };
   }
 
-  /** The selected face in mesh `index`, if both are results of the same mesh; else -1. */
+  /** The face of mesh `index` that corresponds to the selected face; -1 if the meshes are not comparable. */
   faceIn(index, selected) {
     if (index === selected.index) return selected.face;
     return this.layers.areComparable(index, selected.index) ? this.layers.sameFace(selected.index, selected.face, index) : -1;
