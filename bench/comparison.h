@@ -18,7 +18,7 @@ struct ComparisonRequest {
   uint32_t cgalRunCount = 3;  ///< At most one per round. CGAL is about a hundred times slower.
 };
 
-/// One entry per round. The entries i of all tasks are from the same round.
+/// One entry per round. Entry i of every task is from the same round.
 using Seconds = std::vector<double>;
 
 inline const std::string kEmbreeFast = "Embree, fast", kEmbreeRobust = "Embree, robust";

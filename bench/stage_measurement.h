@@ -21,7 +21,7 @@ struct StageRequest {
   uint32_t runCount = 5;
 };
 
-/// The runs of one backend with one choice of seeds. The runs i of all rows are from the same round.
+/// The runs of one backend with one choice of seeds. Run i of every row was made in the same round.
 struct StageRow {
   std::string seeds, backend;
   bool runsOnCpu = false;

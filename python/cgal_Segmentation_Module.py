@@ -32,7 +32,7 @@ __all__ = ["cgal_segmentation", "cgal_segmentation_arrays"]
 
 DONE, CANNOT_OPEN, CANNOT_PARSE, EMPTY, NOT_TRIANGLES = 1, 2, 3, 4, 6
 
-_COUNTS_LIMIT = 1 << 16  # Bytes within which an OFF file must have its counts.
+_COUNTS_LIMIT = 1 << 16  # An OFF file must have its counts within this number of bytes.
 
 
 def cgal_segmentation(

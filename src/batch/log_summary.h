@@ -56,7 +56,6 @@ struct LogSummary {
 
 [[nodiscard]] LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineCount);
 
-/// The summary in aligned lines.
 [[nodiscard]] std::string textOf(const LogSummary& summary);
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
 /// A table in CSV (RFC 4180): a row of column names, then a row per mesh. The columns are the keys of the records,

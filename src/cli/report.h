@@ -15,7 +15,6 @@
 
 namespace asdfvk {
 
-/// A computed mesh with its settings, for the reports.
 struct MeshOutcome {
   const std::string& mesh;    ///< Path of the mesh, as on the command line.
   const std::string& output;  ///< Path of the result; "-" for standard output.

@@ -14,8 +14,8 @@ namespace asdfvk {
 [[nodiscard]] CapsuleUnion animalField();
 /// Parts: 0 palm, 1 thumb, 2 to 5 fingers from the index on, 6 forearm.
 [[nodiscard]] CapsuleUnion handField();
-/// A human figure. Parts: 0 torso, 1 neck, 2 head. Left and right: 3, 4 upper arm; 5, 6 forearm; 7, 8 hand; 9, 10
-/// thigh; 11, 12 shin; 13, 14 foot.
+/// Parts: 0 torso, 1 neck, 2 head. Left and right: 3, 4 upper arm; 5, 6 forearm; 7, 8 hand; 9, 10 thigh; 11, 12 shin;
+/// 13, 14 foot.
 [[nodiscard]] CapsuleUnion figureField();
 /// A tree of tubes: 31 branches in five levels. Each branch is a part; depth-first numbers from the root.
 [[nodiscard]] CapsuleUnion treeField();

@@ -47,7 +47,7 @@ export function regionRadius(surface, regions, region, point) {
 
 // Direction to the viewer from which the fewest faces hide one end of a wall. ends: the two points of the region.
 // outward: unit vector from the second end to the first. All candidates are oblique, so that the wall is visible beside
-// its surface. Closeness to `preferred` counts less than one face. least: closer hits do not count.
+// its surface. Among equal candidates, the one closest to `preferred` is chosen. least: closer hits do not count.
 export function directionOfLeastCover(model, ends, outward, preferred, least) {
   const side = unit(cross(outward, Math.abs(outward[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]), [0, 0, 1]);
   const other = cross(outward, side);
