@@ -1,5 +1,5 @@
 # Programs with man pages and completion, libraries, headers, CMake package and pkg-config files, in the folders of
-# GNUInstallDirs. Components: program, development, c (the shared library for C without headers), python.
+# GNUInstallDirs. Components: program, development, c (the shared library for C without files for linking), python.
 include(CMakePackageConfigHelpers)
 
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/asdf-vk)

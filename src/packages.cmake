@@ -78,8 +78,7 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION "shape diameter function of triangle meshes 
 ${description}This package has the Python module asdf_vk, and cgal_Segmentation_Module for
 programs that call that extension of CGAL.")
 
-# Files for /usr/share/doc of each package, and maintainer scripts. The changelog has only the version; NEWS is
-# CHANGELOG.md.
+# Files for /usr/share/doc, and maintainer scripts. The changelog has the version of the project; NEWS is CHANGELOG.md.
 set(folder ${PROJECT_BINARY_DIR}/debian)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/LICENSE
              ${PROJECT_SOURCE_DIR}/CHANGELOG.md)

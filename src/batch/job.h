@@ -13,7 +13,7 @@ namespace asdfvk {
 struct Job {
   std::string input, output;  ///< Paths; "-" for the standard streams.
   uint64_t byteCount = 0;     ///< Size of the input file; 0 if it is unknown.
-  bool isStream = false;      ///< Whether the input is no regular file, so that only this process can read it.
+  bool isStream = false;      ///< Whether the input is no regular file. A worker may be unable to read such a file.
 };
 
 /// The result of a job. The texts are empty or consist of complete lines.
