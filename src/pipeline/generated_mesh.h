@@ -24,7 +24,7 @@ struct GeneratedMesh {
   Mesh mesh;
   StageSeconds seconds;
   StageClock clock{seconds};
-  PreparedScene scene{mesh, Orientation::Keep, {}, clock, {}};
+  PreparedScene scene{mesh, Orientation::Keep, clock, {}};
 };
 
 }  // namespace asdfvk

@@ -15,8 +15,8 @@ struct PreparedScene {
 
   /// Throws the errors of prepareMesh(), and Error{Cancelled} between the stages.
   /// bvhOptions: see bvhOptionsFor().
-  PreparedScene(const MeshView& mesh, Orientation orientation, const BvhOptions& bvhOptions, StageClock& clock,
-                const RunControl& control)
+  PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control,
+                const BvhOptions& bvhOptions = {})
       : prepared((control.checkpoint(0), prepareMesh(mesh, orientation, clock))) {
     control.checkpoint(0);
     {

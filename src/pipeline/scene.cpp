@@ -111,7 +111,7 @@ struct Scene::State {
   State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
       : session(theSession), orientation(theOrientation) {
     StageClock clock(preparation, control.stageBegan);
-    scene = std::make_shared<PreparedScene>(mesh, orientation, bvhOptionsFor(*session.named.backend), clock, control);
+    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control, bvhOptionsFor(*session.named.backend));
   }
 
   /// Tracers of the backend that the session has now.

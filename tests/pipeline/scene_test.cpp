@@ -339,7 +339,7 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
   const Mesh mesh = shapes::sphere(2);
   StageSeconds seconds;
   StageClock clock(seconds);
-  const PreparedScene scene(mesh, Orientation::Keep, {}, clock, {});
+  const PreparedScene scene(mesh, Orientation::Keep, clock, {});
   CountingBackend backend;
   KeptTracers tracers(backend, scene.view(), 2);
   ConeOptions narrow, narrower;
