@@ -23,22 +23,22 @@ class PatchGrower {
  public:
   PatchGrower(const DualGraph& graph, const FaceGeometry& geometry, const PatchLimits& limits, FacePatches& patches)
       : graph_(graph), geometry_(geometry), limits_(limits), patches_(patches) {
-    patches.centreOf.assign(graph.faceCount(), kNoPatch);
-    patches.sizeOf.assign(graph.faceCount(), 0);
+    patches.patchOf.assign(graph.faceCount(), kNoPatch);
     members_.reserve(graph.faceCount());
   }
 
   void grow(uint32_t centre, bool mayGrow) {
     const size_t begin = members_.size();
     begins_.push_back(begin);
+    const auto patch = static_cast<uint32_t>(patches_.centres.size());
     patches_.centres.push_back(centre);
-    add(centre, centre);
+    add(centre, patch);
     size_t next = begin;
     for (uint32_t arc = 0; mayGrow && arc < limits_.arcCount; ++arc)
       for (const size_t end = members_.size(); next < end; ++next)
         for (const uint32_t neighbour : graph_.neighboursOf(members_[next]))
-          if (patches_.centreOf[neighbour] == kNoPatch && isWithinLimits(centre, neighbour)) add(neighbour, centre);
-    patches_.sizeOf[centre] = static_cast<uint32_t>(members_.size() - begin);
+          if (patches_.patchOf[neighbour] == kNoPatch && isWithinLimits(centre, neighbour)) add(neighbour, patch);
+    patches_.sizes.push_back(static_cast<uint32_t>(members_.size() - begin));
   }
 
   /// The faces of a patch.
@@ -48,8 +48,8 @@ class PatchGrower {
   }
 
  private:
-  void add(uint32_t face, uint32_t centre) {
-    patches_.centreOf[face] = centre;
+  void add(uint32_t face, uint32_t patch) {
+    patches_.patchOf[face] = patch;
     members_.push_back(face);
   }
   [[nodiscard]] bool isWithinLimits(uint32_t centre, uint32_t face) const {
@@ -69,29 +69,29 @@ class PatchGrower {
 
 /// Sets patches.graph.
 void connect(const DualGraph& graph, const PatchGrower& grower, FacePatches& patches) {
-  constexpr size_t kBlockSize = 4096;
-  const size_t patchCount = patches.centres.size();
+  constexpr uint32_t kBlockSize = 4096;
+  const auto patchCount = static_cast<uint32_t>(patches.centres.size());
   std::vector<std::vector<uint32_t>> blocks((patchCount + kBlockSize - 1) / kBlockSize);
   std::vector<uint32_t>& offsets = patches.graph.offsets;
-  offsets.assign(graph.faceCount() + size_t{1}, 0);
+  offsets.assign(patchCount + size_t{1}, 0);
   forEachTask(blocks.size(), [&](size_t block) {
     std::vector<uint32_t>& rows = blocks[block];
-    for (size_t patch = block * kBlockSize; patch < std::min((block + 1) * kBlockSize, patchCount); ++patch) {
-      const uint32_t centre = patches.centres[patch];
+    for (auto patch = static_cast<uint32_t>(block) * kBlockSize;
+         patch < std::min((static_cast<uint32_t>(block) + 1) * kBlockSize, patchCount); ++patch) {
       const auto begin = static_cast<std::ptrdiff_t>(rows.size());
       for (const uint32_t face : grower.membersOf(patch))
         for (const uint32_t neighbour : graph.neighboursOf(face))
-          if (patches.centreOf[neighbour] != centre) rows.push_back(patches.centreOf[neighbour]);
+          if (patches.patchOf[neighbour] != patch) rows.push_back(patches.patchOf[neighbour]);
       std::sort(rows.begin() + begin, rows.end());
       rows.erase(std::unique(rows.begin() + begin, rows.end()), rows.end());
-      offsets[centre + 1] = static_cast<uint32_t>(rows.size() - static_cast<size_t>(begin));
+      offsets[patch + 1] = static_cast<uint32_t>(rows.size() - static_cast<size_t>(begin));
     }
   });
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   patches.graph.neighbours.resize(offsets.back());
   forEachTask(blocks.size(), [&](size_t block) {
     std::copy(blocks[block].begin(), blocks[block].end(),
-              patches.graph.neighbours.begin() + offsets[patches.centres[block * kBlockSize]]);
+              patches.graph.neighbours.begin() + offsets[block * kBlockSize]);
   });
 }
 
@@ -103,16 +103,18 @@ FacePatches buildFacePatches(const DualGraph& graph, const FaceGeometry& geometr
   FacePatches patches;
   PatchGrower grower(graph, geometry, limits, patches);
   for (uint32_t face = 0; face < graph.faceCount(); ++face)
-    if (patches.centreOf[face] == kNoPatch) grower.grow(face, mayGrow[face] != 0);
+    if (patches.patchOf[face] == kNoPatch) grower.grow(face, mayGrow[face] != 0);
   connect(graph, grower, patches);
   return patches;
 }
 
 void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, const FacePatches& patches,
                        std::vector<double>& values) {
-  const double bend = inRadians(kBentAngleDegrees),
-               perVersine = 2 / (bend * bend);  // angle^2 = 2 (1 - cosine), nearly.
-  forEachInParallel(values.size(), [&](uint32_t face) { values[face] = values[patches.centreOf[face]]; });
+  // The square of a small angle is 2 (1 - cosine).
+  const double perVersine = 2 / (inRadians(kBentAngleDegrees) * inRadians(kBentAngleDegrees));
+  forEachInParallel(values.size(), [&](uint32_t face) {
+    if (!patches.isCentre(face)) values[face] = values[patches.centreOf(face)];
+  });
   std::vector<double> next = values;
   for (int iteration = 0; iteration < kIterationCount; ++iteration, std::swap(values, next))
     forEachInParallel(values.size(), [&](uint32_t face) {

@@ -12,12 +12,13 @@ namespace asdfvk {
 /// A partition of the faces into small, almost flat patches, each with one of its faces as its centre. An interpolation
 /// on fine meshes computes the values of the centres only; spreadFromCentres() then gives the other faces their values.
 struct FacePatches {
-  std::vector<uint32_t> centres;   ///< Ascending.
-  std::vector<uint32_t> centreOf;  ///< #F: the centre of the patch of a face.
-  std::vector<uint32_t> sizeOf;    ///< #F: the number of faces of the patch with this centre; 0 for other faces.
-  DualGraph graph;                 ///< #F nodes. There is an arc between two centres if their patches share an edge.
+  std::vector<uint32_t> centres;  ///< #P: a face per patch, ascending.
+  std::vector<uint32_t> sizes;    ///< #P: number of faces.
+  std::vector<uint32_t> patchOf;  ///< #F
+  DualGraph graph;                ///< #P nodes. There is an arc between two patches that share an edge.
 
-  [[nodiscard]] bool isCentre(uint32_t face) const { return centreOf[face] == face; }
+  [[nodiscard]] uint32_t centreOf(uint32_t face) const { return centres[patchOf[face]]; }
+  [[nodiscard]] bool isCentre(uint32_t face) const { return centreOf(face) == face; }
 };
 
 /// Limits of a patch, measured from its centre.

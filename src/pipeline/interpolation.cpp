@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "estimate/local_interpolation.h"
 #include "mesh/curvature.h"
+#include "pipeline/patched_mesh.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
@@ -129,6 +130,30 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
   return problem;
 }
 
+/// Solves the equation of the patches, which has no rows for the other faces. problem: of all faces.
+SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vector<double>& values,
+                                           const RunControl& control) {
+  const FacePatches& patches = domain_.patched->patches();
+  const auto atCentres = [&]<typename T>(std::span<const T> perFace) {
+    std::vector<T> perPatch(perFace.empty() ? 0 : patches.centres.size());
+    forEachInParallel(perPatch.size(), [&](size_t patch) { perPatch[patch] = perFace[patches.centres[patch]]; });
+    return perPatch;
+  };
+  const std::vector<double> constraints = atCentres(problem.constraints), guide = atCentres(problem.guide);
+  const std::vector<uint32_t> componentOf = atCentres(problem.componentOf);
+  std::vector<double> solved;
+  const SolverReport report = solver_.solve(patches.graph, weights(),
+                                            {.constraints = constraints,
+                                             .firstGuess = atCentres(std::span(std::as_const(problem.firstGuess))),
+                                             .guide = guide,
+                                             .divergence = atCentres(std::span(std::as_const(problem.divergence))),
+                                             .componentOf = componentOf},
+                                            solved, control);
+  values.assign(problem.constraints.begin(), problem.constraints.end());
+  for (size_t patch = 0; patch < solved.size(); ++patch) values[patches.centres[patch]] = solved[patch];
+  return report;
+}
+
 /// values: receives the constraints and the solution, #F; empty before the call.
 SolverReport Interpolation::solveEquation(std::span<const double> constraints, std::span<const double> predicted,
                                           const std::vector<ComponentValues>& traced, std::vector<double>& values,
@@ -140,7 +165,9 @@ SolverReport Interpolation::solveEquation(std::span<const double> constraints, s
     values.assign(constraints.begin(), constraints.end());
     return {.name = "none"};
   }
-  return solver_.solve(domain_.graph, weights(), problemOf(constraints, predicted, traced), values, control);
+  GraphProblem problem = problemOf(constraints, predicted, traced);
+  if (domain_.patched != nullptr) return solveOnCentres(problem, values, control);
+  return solver_.solve(domain_.graph, weights(), std::move(problem), values, control);
 }
 
 }  // namespace asdfvk

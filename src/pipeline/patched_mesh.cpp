@@ -30,12 +30,26 @@ std::vector<uint8_t> facesOfLargeComponents(const Components& components) {
   return isLarge;
 }
 
+/// The graph of the patches with faces as nodes. Only centres have arcs.
+DualGraph onCentres(const FacePatches& patches) {
+  DualGraph graph;
+  graph.offsets.reserve(patches.patchOf.size() + 1);
+  for (uint32_t patch = 0; patch < patches.centres.size(); ++patch)
+    graph.offsets.resize(patches.centres[patch] + size_t{1}, patches.graph.offsets[patch]);
+  graph.offsets.resize(patches.patchOf.size() + 1, patches.graph.offsets.back());
+  graph.neighbours.resize(patches.graph.neighbours.size());
+  forEachInParallel(graph.neighbours.size(),
+                    [&](size_t arc) { graph.neighbours[arc] = patches.centres[patches.graph.neighbours[arc]]; });
+  return graph;
+}
+
 }  // namespace
 
 PatchedMesh::PatchedMesh(const PreparedMesh& prepared)
     : prepared_(prepared),
       patches_(buildFacePatches(prepared.graph, prepared.geometry, facesOfLargeComponents(prepared.components),
                                 {kMaxArcCount, kMaxLength * length(prepared.geometry.bounds.size())})),
+      graph_(onCentres(patches_)),
       componentOf_(prepared.mesh.faces.size(), static_cast<uint32_t>(prepared.components.components.size())) {
   for (const uint32_t centre : patches_.centres) componentOf_[centre] = prepared.components.componentOf[centre];
   std::copy_if(prepared.traceableFaces.begin(), prepared.traceableFaces.end(), std::back_inserter(traceableFaces_),

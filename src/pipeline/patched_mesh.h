@@ -15,7 +15,7 @@ class PatchedMesh {
   explicit PatchedMesh(const PreparedMesh& prepared);
 
   [[nodiscard]] FaceDomain domain() const {
-    return {patches_.graph, componentOf_, prepared_.components.components.size() + 1, traceableFaces_, {}, this};
+    return {graph_, componentOf_, prepared_.components.components.size() + 1, traceableFaces_, {}, this};
   }
   [[nodiscard]] const FacePatches& patches() const { return patches_; }
   /// Replaces the values of the faces that are not centres, see spreadFromCentres().
@@ -26,6 +26,7 @@ class PatchedMesh {
  private:
   const PreparedMesh& prepared_;
   FacePatches patches_;
+  DualGraph graph_;  // The graph of the patches, with their centres as nodes.
   std::vector<uint32_t> componentOf_, traceableFaces_;
 };
 

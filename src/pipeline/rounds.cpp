@@ -184,7 +184,7 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double>
     const auto scope = clock_.time(Stage::Solve);
     patched->spread(result_.values);
     for (size_t face = 0; face < indicator.size(); ++face)
-      indicator[face] = indicator[patched->patches().centreOf[face]];
+      indicator[face] = indicator[patched->patches().centreOf(face)];
   }
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
@@ -287,11 +287,12 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
         candidates.push_back(face);
     const uint64_t sampleSeed = heldOutSeed(options_.randomSeed, heldOut_.faces.size());
     if (const PatchedMesh* const patched = computation_.domain.patched) {  // A centre represents its patch.
-      const std::vector<uint32_t>& sizeOf = patched->patches().sizeOf;
+      const FacePatches& patches = patched->patches();
+      const auto sizeOf = [&](uint32_t centre) { return patches.sizes[patches.patchOf[centre]]; };
       std::vector<double> ofPatch(indicator.begin(), indicator.end());
-      for (const uint32_t centre : candidates) ofPatch[centre] *= sizeOf[centre];
+      for (const uint32_t centre : candidates) ofPatch[centre] *= sizeOf(centre);
       heldOut = sampleHeldOut(candidates, ofPatch, shares.heldOut, sampleSeed);
-      for (size_t i = 0; i < heldOut.faces.size(); ++i) heldOut.weights[i] *= sizeOf[heldOut.faces[i]];
+      for (size_t i = 0; i < heldOut.faces.size(); ++i) heldOut.weights[i] *= sizeOf(heldOut.faces[i]);
     } else {
       heldOut = sampleHeldOut(candidates, indicator, shares.heldOut, sampleSeed);
     }
