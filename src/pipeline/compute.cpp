@@ -11,8 +11,8 @@
 #include "core/parallel.h"
 #include "describe/fields.h"
 #include "estimate/reference_check.h"
+#include "pipeline/aggregated_mesh.h"
 #include "pipeline/input_face_values.h"
-#include "pipeline/patched_mesh.h"
 #include "pipeline/rounds.h"
 #include "pipeline/seed_choice.h"
 #include "pipeline/seed_tracing.h"
@@ -125,24 +125,24 @@ std::vector<double> finalValues(const FaceDomain& domain, const std::vector<doub
                            smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
 }
 
-/// Calls runRounds(), on fine meshes for the centres of patches only.
-RoundsResult runRoundsOnPatches(const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
-                                const RunControl& control) {
+/// Calls runRounds(), on fine meshes for the centres of aggregates only.
+RoundsResult runRoundsOnAggregates(const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
+                                   const RunControl& control) {
   const auto run = [&](const Computation& on) {
     return runRounds(
         on, [&] { return std::make_unique<SeedTracing>(on, tracers, releasedBvh); }, control);
   };
   const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
-  const bool mayPatch = computation.predicts() && options.seeds.kind != SeedCount::Kind::All &&
-                        !options.rounds.areSet() && domain.inputFaces.empty() && !domain.traceableFaces.empty();
-  if (!mayPatch) return run(computation);
+  const bool mayAggregate = computation.predicts() && options.seeds.kind != SeedCount::Kind::All &&
+                            !options.rounds.areSet() && domain.inputFaces.empty() && !domain.traceableFaces.empty();
+  if (!mayAggregate) return run(computation);
   const uint64_t seedCount = resolveSeedCount(options, domain.traceableFaces.size());
-  const std::unique_ptr<const PatchedMesh> patched = [&] {
+  const std::unique_ptr<const AggregatedMesh> aggregated = [&] {
     const auto scope = clock.time(Stage::Sample);
-    return patchesFor(prepared, seedCount);
+    return aggregatesFor(prepared, seedCount);
   }();
-  if (!patched) return run(computation);
-  const FaceDomain centres = patched->domain();
+  if (!aggregated) return run(computation);
+  const FaceDomain centres = aggregated->domain();
   Options counted = options;  // A share would be a share of the centres.
   counted.seeds = SeedCount::ofCount(seedCount);
   return run({counted, prepared, centres, scene, cone, backend, solvers, clock, warnings});
@@ -154,7 +154,7 @@ void measureDiameter(Result& result, const Computation& computation, KeptTracers
   const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
   Report& report = result.report;
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  RoundsResult rounds = runRoundsOnPatches(computation, tracers, releasedBvh, control.part(0, roundsEnd));
+  RoundsResult rounds = runRoundsOnAggregates(computation, tracers, releasedBvh, control.part(0, roundsEnd));
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);

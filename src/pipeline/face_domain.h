@@ -11,18 +11,18 @@
 
 namespace asdfvk {
 
-class PatchedMesh;
+class AggregatedMesh;
 
-/// The faces that get values, and how they are connected: the whole mesh, a region of it, or the centres of patches.
+/// The faces that get values, and how they are connected: the whole mesh, a region of it, or the centres of aggregates.
 /// Views only.
 struct FaceDomain {
   const DualGraph& graph;  ///< #F nodes; arcs between faces of the domain only.
   /// #F: components of `graph`. All faces outside of the domain are one further component.
   std::span<const uint32_t> componentOf;
   size_t componentCount = 0;
-  std::span<const uint32_t> traceableFaces;  ///< Faces of the domain that can cast rays, ascending.
-  std::span<const uint8_t> inputFaces;       ///< #I, nonzero = in the domain; empty: all are.
-  const PatchedMesh* patched = nullptr;      ///< Set if the faces of the domain are the centres of patches.
+  std::span<const uint32_t> traceableFaces;    ///< Faces of the domain that can cast rays, ascending.
+  std::span<const uint8_t> inputFaces;         ///< #I, nonzero = in the domain; empty: all are.
+  const AggregatedMesh* aggregated = nullptr;  ///< Set if the faces of the domain are the centres of aggregates.
 
   [[nodiscard]] bool contains(uint64_t inputFace) const { return inputFaces.empty() || inputFaces[inputFace] != 0; }
 };

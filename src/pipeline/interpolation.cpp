@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "estimate/local_interpolation.h"
 #include "mesh/curvature.h"
-#include "pipeline/patched_mesh.h"
+#include "pipeline/aggregated_mesh.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
@@ -130,19 +130,20 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
   return problem;
 }
 
-/// Solves the equation of the patches, which has no rows for the other faces. problem: of all faces.
+/// Solves the equation of the aggregates, which has no rows for the other faces. problem: of all faces.
 SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vector<double>& values,
                                            const RunControl& control) {
-  const FacePatches& patches = domain_.patched->patches();
+  const FaceAggregates& aggregates = domain_.aggregated->aggregates();
   const auto atCentres = [&]<typename T>(std::span<const T> perFace) {
-    std::vector<T> perPatch(perFace.empty() ? 0 : patches.centres.size());
-    forEachInParallel(perPatch.size(), [&](size_t patch) { perPatch[patch] = perFace[patches.centres[patch]]; });
-    return perPatch;
+    std::vector<T> perAggregate(perFace.empty() ? 0 : aggregates.centres.size());
+    forEachInParallel(perAggregate.size(),
+                      [&](size_t aggregate) { perAggregate[aggregate] = perFace[aggregates.centres[aggregate]]; });
+    return perAggregate;
   };
   const std::vector<double> constraints = atCentres(problem.constraints), guide = atCentres(problem.guide);
   const std::vector<uint32_t> componentOf = atCentres(problem.componentOf);
   std::vector<double> solved;
-  const SolverReport report = solver_.solve(patches.graph, weights(),
+  const SolverReport report = solver_.solve(aggregates.graph, weights(),
                                             {.constraints = constraints,
                                              .firstGuess = atCentres(std::span(std::as_const(problem.firstGuess))),
                                              .guide = guide,
@@ -150,7 +151,8 @@ SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vec
                                              .componentOf = componentOf},
                                             solved, control);
   values.assign(problem.constraints.begin(), problem.constraints.end());
-  for (size_t patch = 0; patch < solved.size(); ++patch) values[patches.centres[patch]] = solved[patch];
+  for (size_t aggregate = 0; aggregate < solved.size(); ++aggregate)
+    values[aggregates.centres[aggregate]] = solved[aggregate];
   return report;
 }
 
@@ -166,7 +168,7 @@ SolverReport Interpolation::solveEquation(std::span<const double> constraints, s
     return {.name = "none"};
   }
   GraphProblem problem = problemOf(constraints, predicted, traced);
-  if (domain_.patched != nullptr) return solveOnCentres(problem, values, control);
+  if (domain_.aggregated != nullptr) return solveOnCentres(problem, values, control);
   return solver_.solve(domain_.graph, weights(), std::move(problem), values, control);
 }
 

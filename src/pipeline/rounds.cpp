@@ -10,7 +10,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
-#include "pipeline/patched_mesh.h"
+#include "pipeline/aggregated_mesh.h"
 #include "pipeline/seed_choice.h"
 
 namespace asdfvk {
@@ -180,11 +180,11 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double>
     prediction_.exchange(replaced);
   }
   interpolation_.pool(prediction_.last().values, result_.values);
-  if (const PatchedMesh* const patched = computation_.domain.patched) {
+  if (const AggregatedMesh* const aggregated = computation_.domain.aggregated) {
     const auto scope = clock_.time(Stage::Solve);
-    patched->spread(result_.values);
+    aggregated->spread(result_.values);
     for (size_t face = 0; face < indicator.size(); ++face)
-      indicator[face] = indicator[patched->patches().centreOf(face)];
+      indicator[face] = indicator[aggregated->aggregates().centreOf(face)];
   }
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
@@ -286,12 +286,13 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
       else if (!traced_.isSeed[face])
         candidates.push_back(face);
     const uint64_t sampleSeed = heldOutSeed(options_.randomSeed, heldOut_.faces.size());
-    if (const PatchedMesh* const patched = computation_.domain.patched) {  // A centre represents its patch.
-      const FacePatches& patches = patched->patches();
-      const auto sizeOf = [&](uint32_t centre) { return patches.sizes[patches.patchOf[centre]]; };
-      std::vector<double> ofPatch(indicator.begin(), indicator.end());
-      for (const uint32_t centre : candidates) ofPatch[centre] *= sizeOf(centre);
-      heldOut = sampleHeldOut(candidates, ofPatch, shares.heldOut, sampleSeed);
+    if (const AggregatedMesh* const aggregated =
+            computation_.domain.aggregated) {  // A centre represents its aggregate.
+      const FaceAggregates& aggregates = aggregated->aggregates();
+      const auto sizeOf = [&](uint32_t centre) { return aggregates.sizes[aggregates.aggregateOf[centre]]; };
+      std::vector<double> ofAggregate(indicator.begin(), indicator.end());
+      for (const uint32_t centre : candidates) ofAggregate[centre] *= sizeOf(centre);
+      heldOut = sampleHeldOut(candidates, ofAggregate, shares.heldOut, sampleSeed);
       for (size_t i = 0; i < heldOut.faces.size(); ++i) heldOut.weights[i] *= sizeOf(heldOut.faces[i]);
     } else {
       heldOut = sampleHeldOut(candidates, indicator, shares.heldOut, sampleSeed);

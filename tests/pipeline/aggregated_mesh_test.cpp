@@ -1,4 +1,4 @@
-#include "pipeline/patched_mesh.h"
+#include "pipeline/aggregated_mesh.h"
 
 #include <doctest/doctest.h>
 
@@ -25,15 +25,15 @@ Options seedsOf(double share) {
   return options;
 }
 
-/// Whether patchesFor() finds patches that are useful.
-bool hasPatches(const Mesh& mesh, double share) {
+/// Whether aggregatesFor() finds aggregates that are useful.
+bool hasAggregatees(const Mesh& mesh, double share) {
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const auto seedCount = static_cast<uint64_t>(share * static_cast<double>(mesh.faces.size()));
-  return patchesFor(prepared, seedCount) != nullptr;
+  return aggregatesFor(prepared, seedCount) != nullptr;
 }
 
-/// The result without patches: a region of all faces but one has none.
-Result withoutPatches(Scene& scene, size_t faceCount, const Options& options) {
+/// The result without aggregates: a region of all faces but one has none.
+Result withoutAggregatees(Scene& scene, size_t faceCount, const Options& options) {
   std::vector<uint8_t> region(faceCount, 1);
   region.back() = 0;
   return scene.compute(options, region);
@@ -41,19 +41,19 @@ Result withoutPatches(Scene& scene, size_t faceCount, const Options& options) {
 
 }  // namespace
 
-TEST_CASE("fine meshes have patches, others do not") {
+TEST_CASE("fine meshes have aggregates, others do not") {
   const Mesh fine = makeAnimal(kFineFaceCount).mesh;
   REQUIRE(fine.faces.size() > 140'000);
-  CHECK(hasPatches(fine, 0.1));
-  CHECK(hasPatches(fine, 0.01));
-  CHECK_FALSE(hasPatches(fine, 0.2));  // Too many seeds.
-  CHECK_FALSE(hasPatches(makeAnimal(60'000).mesh, 0.01));
-  Mesh spheres;  // Components of 80 faces, whose faces are their own patches.
+  CHECK(hasAggregatees(fine, 0.1));
+  CHECK(hasAggregatees(fine, 0.01));
+  CHECK_FALSE(hasAggregatees(fine, 0.2));  // Too many seeds.
+  CHECK_FALSE(hasAggregatees(makeAnimal(60'000).mesh, 0.01));
+  Mesh spheres;  // Components of 80 faces, whose faces are their own aggregates.
   for (int i = 0; i < 1700; ++i) spheres = shapes::joined(std::move(spheres), makeSphere(80, 1).mesh, {3.0 * i, 0, 0});
-  CHECK_FALSE(hasPatches(spheres, 0.01));
+  CHECK_FALSE(hasAggregatees(spheres, 0.01));
 }
 
-TEST_CASE("values by patches are nearly as good as without, and their errors are estimated" *
+TEST_CASE("values by aggregates are nearly as good as without, and their errors are estimated" *
           doctest::test_suite("slow")) {
   const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
   Scene scene(cpuSession(), mesh);
@@ -63,27 +63,27 @@ TEST_CASE("values by patches are nearly as good as without, and their errors are
   for (const double share : {0.1, 0.02}) {
     CAPTURE(share);
     const Options options = seedsOf(share);
-    const Result patched = scene.compute(options);
+    const Result aggregated = scene.compute(options);
     const auto seedCount = static_cast<uint64_t>(std::round(share * static_cast<double>(mesh.faces.size())));
-    CHECK(patched.report.seedCount == seedCount);
-    CHECK(static_cast<uint64_t>(std::count(patched.seed().begin(), patched.seed().end(), 1)) == seedCount);
+    CHECK(aggregated.report.seedCount == seedCount);
+    CHECK(static_cast<uint64_t>(std::count(aggregated.seed().begin(), aggregated.seed().end(), 1)) == seedCount);
     for (size_t face = 0; face < truth.size(); ++face)
-      if (patched.seed()[face]) CHECK(patched.sdf()[face] == truth[face]);
-    std::vector<double> plain = withoutPatches(scene, mesh.faces.size(), options).sdf();
+      if (aggregated.seed()[face]) CHECK(aggregated.sdf()[face] == truth[face]);
+    std::vector<double> plain = withoutAggregatees(scene, mesh.faces.size(), options).sdf();
     plain.back() = truth.back();
-    const double error = averageError(patched.sdf(), truth), plainError = averageError(plain, truth);
+    const double error = averageError(aggregated.sdf(), truth), plainError = averageError(plain, truth);
     CHECK(error != plainError);
     CHECK(error < 1.1 * plainError);
-    REQUIRE(patched.report.estimatedError);
+    REQUIRE(aggregated.report.estimatedError);
     // The estimate is over the range of the traced values, which may lack the extremes of the function.
-    CHECK(patched.report.estimatedError->relativeMedian ==
-          doctest::Approx(test::relativeErrorAt(0.5, patched.sdf(), truth)).epsilon(0.25));
-    const std::vector<double>& expected = *requireField(patched.fields, "error").reals();
-    for (size_t face = 0; face < truth.size(); ++face) CHECK((expected[face] == 0) == (patched.seed()[face] != 0));
+    CHECK(aggregated.report.estimatedError->relativeMedian ==
+          doctest::Approx(test::relativeErrorAt(0.5, aggregated.sdf(), truth)).epsilon(0.25));
+    const std::vector<double>& expected = *requireField(aggregated.fields, "error").reals();
+    for (size_t face = 0; face < truth.size(); ++face) CHECK((expected[face] == 0) == (aggregated.seed()[face] != 0));
   }
 }
 
-TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling uses predictions of patches" *
+TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling uses predictions of aggregates" *
           doctest::test_suite("slow")) {
   const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
   Options options = seedsOf(0.02);

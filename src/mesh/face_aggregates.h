@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+
+namespace asdfvk {
+
+/// A partition of the faces into small, almost flat aggregates: groups of neighbours around a centre, which is one of
+/// the faces. On fine meshes only the values of the centres are interpolated from the seeds. spreadFromCentres() then
+/// computes the values of the other faces.
+struct FaceAggregates {
+  std::vector<uint32_t> centres;      ///< #A: a face of each aggregate, ascending.
+  std::vector<uint32_t> sizes;        ///< #A: number of faces.
+  std::vector<uint32_t> aggregateOf;  ///< #F
+  DualGraph graph;                    ///< #A nodes. There is an arc between two aggregates that share an edge.
+
+  [[nodiscard]] uint32_t centreOf(uint32_t face) const { return centres[aggregateOf[face]]; }
+  [[nodiscard]] bool isCentre(uint32_t face) const { return centreOf(face) == face; }
+};
+
+/// Limits of an aggregate, measured from its centre.
+struct AggregateLimits {
+  uint32_t arcCount = 0;  ///< Greatest number of arcs to a face.
+  double length = 0;      ///< Greatest distance to the barycentre of a face.
+};
+
+/// mayGrow: #F; a face with 0 is an aggregate of its own. Linear time.
+[[nodiscard]] FaceAggregates buildFaceAggregates(const DualGraph& graph, const FaceGeometry& geometry,
+                                                 std::span<const uint8_t> mayGrow, const AggregateLimits& limits);
+
+/// Sets the values of all faces that are not centres: Jacobi iterations of the harmonic interpolation on `graph`, which
+/// start from the value of the centre. Arcs over bent edges have small weights. values: #F, NaN = no value.
+void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, const FaceAggregates& aggregates,
+                       std::vector<double>& values);
+
+}  // namespace asdfvk

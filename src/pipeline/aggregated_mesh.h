@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mesh/face_aggregates.h"
+#include "pipeline/face_domain.h"
+
+namespace asdfvk {
+
+/// The aggregates of a whole mesh, and the domain of their centres. The mesh must outlive this object.
+class AggregatedMesh {
+ public:
+  explicit AggregatedMesh(const PreparedMesh& prepared);
+
+  [[nodiscard]] FaceDomain domain() const {
+    return {graph_, componentOf_, prepared_.components.components.size() + 1, traceableFaces_, {}, this};
+  }
+  [[nodiscard]] const FaceAggregates& aggregates() const { return aggregates_; }
+  /// Replaces the values of the faces that are not centres, see spreadFromCentres().
+  void spread(std::vector<double>& values) const {
+    spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, values);
+  }
+
+ private:
+  const PreparedMesh& prepared_;
+  FaceAggregates aggregates_;
+  DualGraph graph_;  // The graph of the aggregates, with their centres as nodes.
+  std::vector<uint32_t> componentOf_, traceableFaces_;
+};
+
+/// The aggregates for an interpolation from this number of seeds. None if they would not save time, or if the mesh is
+/// so coarse that values differ much within an aggregate.
+[[nodiscard]] std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount);
+
+}  // namespace asdfvk
