@@ -26,14 +26,14 @@ Options seedsOf(double share) {
 }
 
 /// Whether aggregatesFor() finds aggregates that are useful.
-bool hasAggregatees(const Mesh& mesh, double share) {
+bool hasAggregates(const Mesh& mesh, double share) {
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const auto seedCount = static_cast<uint64_t>(share * static_cast<double>(mesh.faces.size()));
   return aggregatesFor(prepared, seedCount) != nullptr;
 }
 
 /// The result without aggregates: a region of all faces but one has none.
-Result withoutAggregatees(Scene& scene, size_t faceCount, const Options& options) {
+Result withoutAggregates(Scene& scene, size_t faceCount, const Options& options) {
   std::vector<uint8_t> region(faceCount, 1);
   region.back() = 0;
   return scene.compute(options, region);
@@ -44,13 +44,13 @@ Result withoutAggregatees(Scene& scene, size_t faceCount, const Options& options
 TEST_CASE("fine meshes have aggregates, others do not") {
   const Mesh fine = makeAnimal(kFineFaceCount).mesh;
   REQUIRE(fine.faces.size() > 140'000);
-  CHECK(hasAggregatees(fine, 0.1));
-  CHECK(hasAggregatees(fine, 0.01));
-  CHECK_FALSE(hasAggregatees(fine, 0.2));  // Too many seeds.
-  CHECK_FALSE(hasAggregatees(makeAnimal(60'000).mesh, 0.01));
+  CHECK(hasAggregates(fine, 0.1));
+  CHECK(hasAggregates(fine, 0.01));
+  CHECK_FALSE(hasAggregates(fine, 0.2));  // Too many seeds.
+  CHECK_FALSE(hasAggregates(makeAnimal(60'000).mesh, 0.01));
   Mesh spheres;  // Components of 80 faces, whose faces are their own aggregates.
   for (int i = 0; i < 1700; ++i) spheres = shapes::joined(std::move(spheres), makeSphere(80, 1).mesh, {3.0 * i, 0, 0});
-  CHECK_FALSE(hasAggregatees(spheres, 0.01));
+  CHECK_FALSE(hasAggregates(spheres, 0.01));
 }
 
 TEST_CASE("values by aggregates are nearly as good as without, and their errors are estimated" *
@@ -69,7 +69,7 @@ TEST_CASE("values by aggregates are nearly as good as without, and their errors 
     CHECK(static_cast<uint64_t>(std::count(aggregated.seed().begin(), aggregated.seed().end(), 1)) == seedCount);
     for (size_t face = 0; face < truth.size(); ++face)
       if (aggregated.seed()[face]) CHECK(aggregated.sdf()[face] == truth[face]);
-    std::vector<double> plain = withoutAggregatees(scene, mesh.faces.size(), options).sdf();
+    std::vector<double> plain = withoutAggregates(scene, mesh.faces.size(), options).sdf();
     plain.back() = truth.back();
     const double error = averageError(aggregated.sdf(), truth), plainError = averageError(plain, truth);
     CHECK(error != plainError);
