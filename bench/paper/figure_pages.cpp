@@ -14,7 +14,8 @@ void FigurePages::add(int figure, const NamedMesh& mesh, const Result& result, c
   for (const char* name : {"sdf", "seed", "error"})
     if (const Field* field = result.field(name)) fields.emplace_back(*field);
   PageTexts texts{.name = mesh.name, .label = label};
-  texts.summary = {{"Faces", groupDigits(result.report.faceCount)}, {"Seeds", groupDigits(result.report.seedCount)}};
+  texts.report.summary = {{"Faces", groupDigits(result.report.faceCount)},
+                          {"Seeds", groupDigits(result.report.seedCount)}};
   const auto page = pages_.try_emplace(figure, fmt::format("asdf-vk {}", ASDFVK_VERSION)).first;
   page->second.add(mesh.scene->scene.mesh, fields, std::move(texts));
 }

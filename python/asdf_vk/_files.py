@@ -10,7 +10,6 @@ from ._arrays import field_array, float_points, mesh_argument, polygon_arrays, v
 from ._errors import error_of
 from ._info import Info
 from ._session import flag_of
-from ._shown import texts_of
 
 Mesh = _core.Mesh
 
@@ -73,7 +72,11 @@ def write(
     if vertex_fields and kind in ("html", "png"):
         raise error_of("optionConflict", "pages and pictures show fields per face; drop vertex_fields")
     if kind == "html":
-        _core.write_page(target, argument, _layers_of(results, labels, target, argument))
+        name = "mesh" if target == "-" else os.path.splitext(os.path.basename(target))[0]
+        name = os.fsencode(name).decode(errors="replace")  # Names of files may be no UTF-8.
+        reports = (result._shown if isinstance(result, Info) else None for result in results)
+        layers = zip(map(_arrays_of, results), _labels_of(results, labels, name), reports)
+        _core.write_page(target, argument, name, list(layers))
         return
     if labels is not None:
         raise error_of("optionConflict", "labels name the results of a page (.html); drop them")
@@ -91,13 +94,9 @@ def write(
     _core.write(target, argument, per_face, per_vertex, format, flag_of(ascii, "ascii"))
 
 
-def _layers_of(
-    results: list[Mapping[str, ArrayLike] | Info], labels: Sequence[str] | None, path: str, mesh: Any
-) -> list[tuple[dict[str, NDArray[Any]], dict[str, object]]]:
-    name = "mesh" if path == "-" else os.path.splitext(os.path.basename(path))[0]
-    name = os.fsencode(name).decode(errors="replace")  # Names of files may be no UTF-8.
+def _labels_of(results: list[Any], labels: Sequence[str] | None, name: str) -> Sequence[str]:
     if labels is None:
-        labels = [f"{name}, result {i + 1}" for i in range(len(results))] if len(results) > 1 else [name]
+        return [f"{name}, result {i + 1}" for i in range(len(results))] if len(results) > 1 else [name]
     if (
         not isinstance(labels, Sequence)
         or isinstance(labels, str)
@@ -105,11 +104,7 @@ def _layers_of(
         or not all(isinstance(label, str) and label.isprintable() for label in labels)
     ):
         raise error_of("optionConflict", f"labels={labels!r} are not {len(results)} printable strings, one per result")
-    face_count = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
-    return [
-        (_arrays_of(result), texts_of(result if isinstance(result, Info) else None, name, label, face_count))
-        for result, label in zip(results, labels)
-    ]
+    return labels
 
 
 def write_points(

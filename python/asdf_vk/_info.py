@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import html
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -8,7 +9,6 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._report import Report
-from ._shown import table_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,10 +21,12 @@ class Info(Report):
     """Fields per vertex, with per="vertex"."""
     reversed_faces: NDArray[np.int64] = field(repr=False)
     """Indices of the faces whose orientation was reversed, ascending."""
+    _shown: _core.ShownReport = field(repr=False)
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
-        return table_of(self)
+        rows = (f"<tr><th>{title}</th><td>{html.escape(text)}</td></tr>" for title, text in self._shown.summary)
+        return f"<table>{''.join(rows)}</table>"
 
     @property
     def seed(self) -> NDArray[np.uint8]:
@@ -48,4 +50,5 @@ def info_of(computed: _core.ComputedFields) -> Info:
         fields=arrays(False),
         vertex_fields=arrays(True),
         reversed_faces=computed.reversed_faces(),
+        _shown=_core.ShownReport(computed),
     )

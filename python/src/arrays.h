@@ -3,8 +3,11 @@
 #include <pybind11/numpy.h>
 
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,6 +44,21 @@ template <typename T>
 /// A copy of a field as an array, (items,) or (items, components). Real numbers become float32, by singles(), if
 /// `single` is set and the field has one component; otherwise double. uint32 becomes int32: 0xffffffff becomes -1.
 [[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
+
+/// The entries as bytes, for pickle.
+template <typename T>
+[[nodiscard]] pybind11::bytes bytesOf(const std::vector<T>& entries) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return {reinterpret_cast<const char*>(entries.data()), entries.size() * sizeof(T)};
+}
+
+/// The inverse of bytesOf().
+template <typename T>
+void readBytes(const pybind11::object& object, std::vector<T>& entries) {
+  const auto bytes = object.cast<std::string_view>();
+  entries.resize(bytes.size() / sizeof(T));
+  std::memcpy(entries.data(), bytes.data(), entries.size() * sizeof(T));
+}
 
 template <typename T>
 [[nodiscard]] pybind11::array_t<T> asArray(std::vector<T>&& entries, std::vector<pybind11::ssize_t> shape = {}) {

@@ -6,9 +6,8 @@ namespace asdfvk::python {
 
 void bindFiles(pybind11::module_& module);
 
-/// Adds write_picture(path, mesh, fields, name) and write_page(path, mesh, layers). name: name of the field; empty: the
-/// first field. layers: pairs of fields and of texts with the keys name, label, summary, error_sentence, warnings,
-/// defects.
+/// Adds ShownReport(computed_fields), write_picture(path, mesh, fields, name) and write_page(path, mesh, name, layers).
+/// name: of the field, empty: the first field; of the mesh. layers: tuples of fields, label, and a ShownReport or None.
 void bindShown(pybind11::module_& module);
 
 void bindScenes(pybind11::module_& module);

@@ -4,10 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cstring>
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
@@ -80,9 +78,6 @@ void writePointsOf(const std::filesystem::path& path, const py::dict& perFace) {
 }
 
 py::tuple stateOf(const Mesh& mesh) {
-  const auto bytesOf = [](const auto& entries) {
-    return py::bytes(reinterpret_cast<const char*>(entries.data()), entries.size() * sizeof(entries[0]));
-  };
   const Polygons& polygons = mesh.polygons;
   return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
                         bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf), mesh.unit, mesh.statedPartCount,
@@ -91,18 +86,12 @@ py::tuple stateOf(const Mesh& mesh) {
 
 Mesh meshOf(const py::tuple& state) {
   if (state.size() != 8) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have eight members");
-  size_t i = 0;
-  const auto read = [&](auto& entries) {
-    const auto bytes = state[i++].cast<std::string_view>();
-    entries.resize(bytes.size() / sizeof(entries[0]));
-    std::memcpy(entries.data(), bytes.data(), entries.size() * sizeof(entries[0]));
-  };
   Mesh mesh;
-  read(mesh.vertices);
-  read(mesh.faces);
-  read(mesh.polygons.firstCorner);
-  read(mesh.polygons.corners);
-  read(mesh.polygons.inputFaceOf);
+  readBytes(state[0], mesh.vertices);
+  readBytes(state[1], mesh.faces);
+  readBytes(state[2], mesh.polygons.firstCorner);
+  readBytes(state[3], mesh.polygons.corners);
+  readBytes(state[4], mesh.polygons.inputFaceOf);
   mesh.unit = state[5].cast<std::string>();
   mesh.statedPartCount = state[6].cast<uint32_t>();
   mesh.skipped = state[7].cast<std::vector<std::string>>();

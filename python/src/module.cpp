@@ -91,8 +91,8 @@ PYBIND11_MODULE(_core, module) {
   });
   module.def("devices", devices);
   bindFiles(module);
-  bindShown(module);
   bindScenes(module);
+  bindShown(module);
   bindCgal(module);
   Py_AtExit(stopAtExit);
 }

@@ -24,10 +24,10 @@ namespace {
 
 /// Runs `compute` on the session when no other thread uses it.
 template <typename Compute>
-std::unique_ptr<ComputedFields> computed(SharedSession& session, const py::object& progress, const Compute& compute) {
-  std::optional<Result> result;
+Result computed(SharedSession& session, const py::object& progress, const Compute& compute) {
+  Result result;
   session.run([&](Session& idle, const RunControl& control) { result = compute(idle, control); }, progress);
-  return std::make_unique<ComputedFields>(std::move(*result));
+  return result;
 }
 
 /// A scene with the session and the arrays to which the scene refers.
@@ -55,8 +55,7 @@ class SharedScene {
   SharedScene(const SharedScene&) = delete;
   SharedScene& operator=(const SharedScene&) = delete;
 
-  [[nodiscard]] std::unique_ptr<ComputedFields> compute(const py::dict& options, const py::object& region,
-                                                        const py::object& progress) {
+  [[nodiscard]] Result compute(const py::dict& options, const py::object& region, const py::object& progress) {
     const Options parsed = optionsOf(options);
     std::span<const uint8_t> mask;
     if (!region.is_none()) mask = entriesOf<uint8_t>(region.cast<py::array>());
@@ -127,27 +126,28 @@ class SharedScene {
 }  // namespace
 
 void bindScenes(py::module_& module) {
-  py::class_<ComputedFields>(module, "ComputedFields")
+  // An array is made when it is read.
+  py::class_<Result>(module, "ComputedFields")
       .def("names",
-           [](const ComputedFields& self, bool perVertex) {
+           [](const Result& self, bool perVertex) {
              std::vector<std::string> names;
-             for (const Field& field : self.fields())
+             for (const Field& field : self.fields)
                if ((field.location == FieldLocation::PerVertex) == perVertex) names.push_back(field.name);
              return names;
            })
       .def(
           "array",
-          [](const ComputedFields& self, const std::string& name, bool perVertex, bool single) {
+          [](const Result& self, const std::string& name, bool perVertex, bool single) {
             const Field* field =
-                findField(self.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
+                findField(self.fields, name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
             if (field == nullptr) throw Error(ErrorCode::UnknownField, "the result has no field '" + name + "'");
             return arrayOf(*field, single);
           },
           py::arg("name"), py::arg("per_vertex") = false, py::arg("single") = true)
-      .def("warnings", [](const ComputedFields& self) { return warningsOf(self.report()); })
-      .def("report", [](const ComputedFields& self) { return reportOf(self.report()); })
-      .def("reversed_faces", [](const ComputedFields& self) {
-        const std::vector<uint64_t>& faces = self.reversedFaces();
+      .def("warnings", [](const Result& self) { return warningsOf(self.report); })
+      .def("report", [](const Result& self) { return reportOf(self.report); })
+      .def("reversed_faces", [](const Result& self) {
+        const std::vector<uint64_t>& faces = self.reversedFaces;
         return asArray(std::vector<int64_t>(faces.begin(), faces.end()));
       });
 

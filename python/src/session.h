@@ -14,19 +14,6 @@
 
 namespace asdfvk::python {
 
-/// The fields and the report of a computation. An array is made when it is read.
-class ComputedFields {
- public:
-  explicit ComputedFields(Result&& result) : result_(std::move(result)) {}
-
-  [[nodiscard]] const std::vector<Field>& fields() const { return result_.fields; }
-  [[nodiscard]] const Report& report() const { return result_.report; }
-  [[nodiscard]] const std::vector<uint64_t>& reversedFaces() const { return result_.reversedFaces; }
-
- private:
-  Result result_;
-};
-
 /// A session for Python. Any number of threads may call it; one computation runs at a time.
 class SharedSession {
  public:

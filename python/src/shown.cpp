@@ -5,22 +5,25 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/session.h"
-#include "asdf_vk/version.h"
 #include "bindings.h"
-#include "core/atomic_file.h"
+#include "core/json.h"
+#include "core/text.h"
 #include "describe/fields.h"
 #include "interruptible.h"
 #include "page/page.h"
 #include "pipeline/prepared_scene.h"
 #include "render/png.h"
 #include "render/result_picture.h"
+#include "report.h"
 #include "trace/scene_data.h"
 
 namespace py = pybind11;
@@ -80,57 +83,68 @@ void writePicture(const std::filesystem::path& path, const py::object& mesh, con
       py::none());
 }
 
-struct Layer {
-  std::vector<Field> fields;
-  PageTexts texts;
+/// What pages show of the report of a computation.
+struct ShownReport {
+  ReportTexts texts;
+  ThicknessReport thickness;  ///< Without a limit if the thickness was not measured.
+  ThinSurface thinSurface;
 };
 
-PageTexts textsOf(const py::dict& texts) {
-  PageTexts read;
-  read.name = texts["name"].cast<std::string>();
-  read.label = texts["label"].cast<std::string>();
-  read.summary = texts["summary"].cast<std::vector<std::pair<std::string, std::string>>>();
-  read.errorSentence = texts["error_sentence"].cast<std::string>();
-  read.warnings = texts["warnings"].cast<std::vector<std::string>>();
-  read.defects = texts["defects"].cast<std::vector<std::string>>();
-  return read;
+ShownReport shownReport(const Result& result) {
+  return {reportTexts(result.report, true, OptionSpelling::SnakeCase),
+          result.report.thickness.value_or(ThicknessReport()), result.thinSurface};
 }
 
-std::vector<PageSegment> segmentsOf(const TraceScene& scene, const std::vector<Field>& fields) {
-  const Field *const segment = findField(fields, "segment"), *const sdf = findField(fields, "sdf");
-  const auto* const labels = segment == nullptr ? nullptr : std::get_if<std::vector<uint32_t>>(&segment->values);
-  if (labels == nullptr) return {};
-  const std::vector<double> none(labels->size(), kNoValue);
-  return listSegments(scene.mesh, scene.geometry.areas, scene.geometry.barycentres, *labels,
-                      sdf != nullptr && sdf->reals() != nullptr ? *sdf->reals() : none);
+py::list summaryOf(const ShownReport& shown) {
+  py::list rows;
+  for (const auto& [title, text] : shown.texts.summary) rows.append(py::make_tuple(title, python::textOf(text)));
+  return rows;
 }
 
-void addLayer(Page& page, const Result& result, Layer& layer, const RunControl& control) {
-  const View view = viewOf({}, "", result, false);
-  layer.texts.up = nameOf(kUps, view.up);
-  layer.texts.azimuthDegrees = view.azimuthDegrees;
-  layer.texts.elevationDegrees = view.elevationDegrees;
-  layer.texts.segments = segmentsOf(result.scene->scene, layer.fields);
-  layer.texts.picture = encodePng(pictureOf(result, layer.fields.front(), view, kPagePicture, control));
-  const std::vector<std::reference_wrapper<const Field>> fields(layer.fields.begin(), layer.fields.end());
-  page.add(result.scene->scene.mesh, fields, std::move(layer.texts));
+/// For pickle. Texts that are not UTF-8 are replaced.
+py::tuple stateOfShown(const ShownReport& shown) {
+  const auto& [texts, thickness, surface] = shown;
+  const Json json = Json::array({texts.summary, texts.errorSentence, texts.warnings, texts.defects});
+  return py::make_tuple(json.dump(-1, ' ', true, Json::error_handler_t::replace), thickness.thinnerThan,
+                        static_cast<int>(thickness.verdict.value_or(ThicknessVerdict::Passed)), thickness.min,
+                        bytesOf(thickness.regions), bytesOf(surface.triangles), bytesOf(surface.regions));
 }
 
-void writePage(const std::filesystem::path& path, const py::object& mesh,
-               const std::vector<std::pair<py::dict, py::dict>>& layers) {
+ShownReport shownReportOf(const py::tuple& state) {
+  ShownReport shown;
+  const Json json = Json::parse(state[0].cast<std::string>());
+  shown.texts = {json[0], json[1], json[2], json[3]};
+  shown.thickness.thinnerThan = state[1].cast<std::optional<double>>();
+  shown.thickness.verdict = static_cast<ThicknessVerdict>(state[2].cast<int>());
+  shown.thickness.min = state[3].cast<double>();
+  readBytes(state[4], shown.thickness.regions);
+  readBytes(state[5], shown.thinSurface.triangles);
+  readBytes(state[6], shown.thinSurface.regions);
+  return shown;
+}
+
+/// layers: fields, label, and the ShownReport or None.
+void writePage(const std::filesystem::path& path, const py::object& mesh, const std::string& name,
+               const std::vector<std::tuple<py::dict, std::string, std::optional<ShownReport>>>& layers) {
   requireSameProcess();
   const MeshView view = viewOf(mesh);
-  std::vector<Layer> read;
-  for (const auto& [fields, texts] : layers)
-    read.push_back({shownFields(fields, view.inputFaceCount()), textsOf(texts)});
+  std::vector<std::vector<Field>> fieldsOfLayers;
+  for (const auto& layer : layers) fieldsOfLayers.push_back(shownFields(std::get<0>(layer), view.inputFaceCount()));
+  const ReportTexts noReport{.summary = {{"Mesh", counted(view.inputFaceCount(), "face")}}};
   runInterruptibly(
       [&](const RunControl& control) {
-        const Result result = shownResult(view, control);
-        Page page(std::string("asdf-vk ") + ASDFVK_VERSION + " (" + ASDFVK_COMMIT + ")");
-        for (Layer& layer : read) addLayer(page, result, layer, control);
-        AtomicFile file(path);
-        page.write(file);
-        file.commit();
+        Result result = shownResult(view, control);
+        Page page = emptyPage();
+        for (size_t i = 0; i < layers.size(); ++i) {
+          const auto& [none, label, shown] = layers[i];
+          result.fields = std::move(fieldsOfLayers[i]);
+          result.report.thickness = shown ? shown->thickness : ThicknessReport();
+          result.thinSurface = shown ? shown->thinSurface : ThinSurface();
+          const std::vector<std::reference_wrapper<const Field>> fields(result.fields.begin(), result.fields.end());
+          addResult(page, {.name = name, .label = label, .report = shown ? shown->texts : noReport}, result, fields,
+                    viewOf({}, "", result, true), control);
+        }
+        asdfvk::writePage(path, page);
       },
       py::none());
 }
@@ -138,6 +152,10 @@ void writePage(const std::filesystem::path& path, const py::object& mesh,
 }  // namespace
 
 void bindShown(py::module_& module) {
+  py::class_<ShownReport>(module, "ShownReport")
+      .def(py::init(&shownReport))
+      .def_property_readonly("summary", summaryOf)
+      .def(py::pickle(&stateOfShown, &shownReportOf));
   module.def("write_picture", writePicture);
   module.def("write_page", writePage);
 }

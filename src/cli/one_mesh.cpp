@@ -78,7 +78,7 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
   if (!computation.failIfThinner) return failures;
   const ExitCode code = exitCodeOf(*report.thickness);
   const bool isTooThin = code == ExitCode::TooThin;
-  const ReportRows rows = shortThicknessRows(*report.thickness);
+  const ReportRows rows = shortThicknessRows(*report.thickness, OptionSpelling::Flag);
   std::string message = rows.front().second;
   if (!isTooThin && rows.size() > 1) message += fmt::format("; {} {}", rows[1].first, rows[1].second);
   if (code != ExitCode::Done) failures.push_back({code, message, isTooThin ? "tooThin" : "notJudged"});
@@ -178,7 +178,8 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   const bool showsReport = !outcome.outputs.quiet && !isOfBatch;
   run.hasResult = true;
   if (showsReport) {
-    for (const Warning& warning : report.warnings) run.text += warningLine(outcome.mesh, textWarning(warning));
+    for (const Warning& warning : report.warnings)
+      run.text += warningLine(outcome.mesh, textWarning(warning, OptionSpelling::Flag));
     run.text += textReport(outcome);
   }
   if (outcome.outputs.json) run.json += jsonReport(outcome);

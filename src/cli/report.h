@@ -11,6 +11,7 @@
 #include "cli/exit_code.h"
 #include "cli/options.h"
 #include "describe/report_json.h"
+#include "describe/report_text.h"
 #include "page/page.h"
 
 namespace asdfvk {
@@ -24,30 +25,10 @@ struct MeshOutcome {
   const Result& result;
 };
 
-/// Rows of title and text. A row without a title continues the previous row.
-using ReportRows = std::vector<std::pair<std::string, std::string>>;
-
-/// The rows of the full report: thicknessRows(), or the short report if the thickness was not measured; then details of
-/// values, parts, seeds, device, solver and times. Titles have at most nine characters.
-[[nodiscard]] ReportRows reportRows(const Report& report);
-
 /// The report as aligned lines. The first line has the name of the mesh and the verdict or the row "mesh". Further rows
 /// and the output files follow. With --verbose the report has all of reportRows(). Otherwise it has at most six lines
 /// of at most 100 columns; long file names take more columns.
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
-
-/// One line: "the check failed: " and the reason.
-[[nodiscard]] std::string checkFailure(const CheckReport& check);
-
-/// Verdict, unjudged faces, size, thin regions, sharp edges and more. Precondition: report.thickness is set.
-[[nodiscard]] ReportRows thicknessRows(const Report& report);
-
-/// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or the least thickness
-/// without a limit; the numbers of unjudged faces, if any; the thickness and the thin regions.
-[[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness);
-
-/// The message of the warning, with a remedy by options if there is one.
-[[nodiscard]] std::string textWarning(const Warning& warning);
 
 /// The lines about the devices of the session, with a remark if Vulkan runs on the CPU. Without isVerbose, the text is
 /// empty unless another backend replaces Vulkan or a CPU device was chosen among several devices.
@@ -74,8 +55,6 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
-[[nodiscard]] Page emptyPage();
-
 [[nodiscard]] std::string nameInPage(const std::string& mesh);
 
 /// Name of a mesh in a page, and whether the page shows times.
@@ -87,8 +66,5 @@ struct PageMesh {
 /// Adds a result to a page, with its report and a small picture. Precondition: the result has a scene. Throws
 /// Error{UnknownField} if the result lacks a field of --fields, and Error{Cancelled}.
 void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, const RunControl& control);
-
-/// Writes the page atomically. Throws Error{OutputNotWritable}.
-void writePage(const std::string& path, const Page& page);
 
 }  // namespace asdfvk

@@ -57,7 +57,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
             {"picture", orNull(outcome.outputs.picture)},
             {"points", orNull(outcome.outputs.points)}};
   Report report = outcome.result.report;
-  for (Warning& warning : report.warnings) warning.message = textWarning(warning);
+  for (Warning& warning : report.warnings) warning.message = textWarning(warning, OptionSpelling::Flag);
   json.update(resultJson(report, outcome.result.fields, outcome.computation, outcome.session));
   return oneLineOf(json);
 }

@@ -181,8 +181,9 @@ std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling
                                                          : "=true");
   }
   if (spelling == OptionSpelling::Flag) return fmt::format("{} {}", name, value);
-  return spelling == OptionSpelling::SnakeCase ? fmt::format("{}='{}'", name, value)
-                                               : fmt::format("{}={}", name, value);
+  const bool isNumber = row.access.kind == OptionKind::Real || row.access.kind == OptionKind::Whole;
+  return spelling == OptionSpelling::SnakeCase && !isNumber ? fmt::format("{}='{}'", name, value)
+                                                            : fmt::format("{}={}", name, value);
 }
 
 bool isFlag(const OptionRow& row) { return row.access.kind == OptionKind::Flag; }
@@ -324,8 +325,8 @@ void requireInRange(OptionRows rows, void* target, OptionSpelling spelling) {
   }
 }
 
-void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling) {
-  std::string text, first;
+std::string withSpelledOptions(OptionRows rows, std::string_view message, OptionSpelling spelling) {
+  std::string text;
   while (!message.empty()) {
     const size_t begin = std::min(message.find('{'), message.size());
     text += message.substr(0, begin);
@@ -334,11 +335,17 @@ void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling) 
     const std::string_view name = message.substr(begin + 1, end - begin - 1);
     const size_t sign = std::min(name.find('='), name.size());
     const OptionRow& row = *findOption(rows, name.substr(0, sign));
-    if (first.empty()) first = spelled(row, spelling);
     text += sign == name.size() ? spelled(row, spelling) : spelled(row, name.substr(sign + 1), spelling);
     message.remove_prefix(end + 1);
   }
-  throw Error(ErrorCode::OptionConflict, text, {{"option", first}});
+  return text;
+}
+
+void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling) {
+  const size_t begin = message.find('{') + 1;
+  const OptionRow* const first = findOption(rows, message.substr(begin, message.find_first_of("=}") - begin));
+  throw Error(ErrorCode::OptionConflict, withSpelledOptions(rows, message, spelling),
+              {{"option", spelled(*first, spelling)}});
 }
 
 std::string similarNames(std::string_view name, const std::vector<std::string>& names) {

@@ -166,7 +166,10 @@ void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given
 /// members are assigned their own values.
 void requireInRange(OptionRows rows, void* target, OptionSpelling spelling);
 
-/// Throws Error{OptionConflict} with the detail "option". message: {seeds=all} is spelled for the front end.
+/// The message, with the options in braces, such as {seeds=all}, spelled for the front end.
+[[nodiscard]] std::string withSpelledOptions(OptionRows rows, std::string_view message, OptionSpelling spelling);
+
+/// Throws Error{OptionConflict} with the detail "option", the first in braces, and withSpelledOptions(message).
 [[noreturn]] ASDFVK_API void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling);
 
 /// Up to three names that are similar to `name`, for example "--seeds or --rng-seed" for "--seed". Similar names differ

@@ -34,10 +34,11 @@ Json describe(const PageTexts& texts) {
   Json json{{"name", texts.name}, {"label", texts.label}, {"up", texts.up}};
   json["view"] = {texts.azimuthDegrees, texts.elevationDegrees};
   json["summary"] = Json::array();
-  for (const auto& [title, value] : texts.summary) json["summary"].push_back({{"title", title}, {"value", value}});
-  json["errorSentence"] = texts.errorSentence;
-  json["warnings"] = texts.warnings;
-  json["defects"] = texts.defects;
+  for (const auto& [title, value] : texts.report.summary)
+    json["summary"].push_back({{"title", title}, {"value", value}});
+  json["errorSentence"] = texts.report.errorSentence;
+  json["warnings"] = texts.report.warnings;
+  json["defects"] = texts.report.defects;
   json["segments"] = Json::array();
   for (const PageSegment& segment : texts.segments)
     json["segments"].push_back({{"label", segment.label},
@@ -50,7 +51,7 @@ Json describe(const PageTexts& texts) {
 
 }  // namespace
 
-void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts) {
+void Page::add(const TriangleMesh& mesh, FieldSpan fields, PageTexts texts) {
   Json description = describe(texts);
   const Box3d box = boxOfFaces(mesh);
   description.update(encodeMesh(mesh, fields, arrays_, box));

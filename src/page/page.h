@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -11,13 +12,18 @@
 #include <vector>
 
 #include "asdf_vk/field.h"
+#include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
+#include "describe/report_text.h"
 #include "mesh/mesh.h"
 #include "page/page_arrays.h"
 
 namespace asdfvk {
 
 class AtomicFile;
+struct View;
+
+using FieldSpan = std::span<const std::reference_wrapper<const Field>>;
 
 /// Result of comparing the thickness with a limit.
 struct PageThinPlaces {
@@ -39,12 +45,10 @@ struct PageSegment {
 struct PageTexts {
   std::string name;   ///< Name of the mesh.
   std::string label;  ///< Text that distinguishes this result from other results in the page.
-  std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title and value.
-  std::string errorSentence;
+  ReportTexts report;
   std::string up = "y";                               ///< Upright axis of the first view: x, y, z, -x, -y or -z.
   double azimuthDegrees = 30, elevationDegrees = 18;  ///< Direction of the first view.
-  std::vector<std::string> warnings, defects;
-  std::optional<PageThinPlaces> thin;  ///< Unset without a limit of the thickness.
+  std::optional<PageThinPlaces> thin;                 ///< Unset without a limit of the thickness.
   std::vector<PageSegment> segments;
   std::vector<char> picture;  ///< PNG file for browsers without WebGL 2; may be empty.
 };
@@ -56,7 +60,7 @@ class Page {
   explicit Page(std::string generator) : generator_(std::move(generator)) {}
 
   /// Adds a result. Keeps no references to the arguments. Preconditions: as for encodeMesh().
-  void add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts);
+  void add(const TriangleMesh& mesh, FieldSpan fields, PageTexts texts);
 
   [[nodiscard]] bool isEmpty() const { return texts_.empty(); }
   void write(AtomicFile& file) const;
@@ -73,6 +77,18 @@ class Page {
   std::vector<PageTexts> texts_;
   PageArrays arrays_;
 };
+
+/// Adds a result with its thin places, segments, view and a small picture. texts: name, label and report. fields: the
+/// fields to show, the one of the picture first. Preconditions: the result has a scene; there is a field. Throws
+/// Error{Cancelled}.
+void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
+               const RunControl& control);
+
+/// A page without results, with the name and version of this program as generator.
+[[nodiscard]] Page emptyPage();
+
+/// Writes the page atomically. Throws Error{OutputNotWritable}.
+void writePage(const std::filesystem::path& path, const Page& page);
 
 /// Returns the segments, ascending by label. areas, barycentres: #F. labels, values: #I. Leaves out kNoSegment.
 [[nodiscard]] std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const double> areas,

@@ -73,7 +73,9 @@ View viewOf(const View& requested, const std::string& input, const Result& resul
                   : guessUp(verticesOfHitFaces(scene));
   }
   const ThinSurface& surface = result.thinSurface;
-  return findsThin ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;
+  const std::optional<ThicknessReport>& thickness = result.report.thickness;
+  return findsThin && thickness && thickness->thinnerThan ? bestViewOf(scene, surface.triangles, surface.regions, view)
+                                                          : view;
 }
 
 Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,

@@ -277,14 +277,18 @@ TEST_CASE("JSON has null for numbers that are not finite and is one line") {
 }
 
 TEST_CASE("a warning ends with the options that help, in both reports with its code") {
-  CHECK_EQ(textWarning({WarningCode::MeshDefect, "2 faces have no area", {}}), "2 faces have no area");
-  CHECK(holds(textWarning({WarningCode::InvertedComponents, "x", {}}), "x; --orient auto "));
-  CHECK(holds(textWarning({WarningCode::NotConverged, "x", {}}), "--max-iterations"));
-  CHECK(holds(textWarning({WarningCode::FinishedOnCpu, "x", {}}), "--solver cpu"));
-  CHECK_EQ(textWarning({WarningCode::MissingValues, "x", {}}), "x");
-  CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted"}}}), "--orient auto"));
-  CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "open"}}}), "--orient flip"));
-  const std::string both = textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted or open"}}});
+  CHECK_EQ(textWarning({WarningCode::MeshDefect, "2 faces have no area", {}}, OptionSpelling::Flag),
+           "2 faces have no area");
+  CHECK(holds(textWarning({WarningCode::InvertedComponents, "x", {}}, OptionSpelling::Flag), "x; --orient auto "));
+  CHECK(holds(textWarning({WarningCode::NotConverged, "x", {}}, OptionSpelling::Flag), "--max-iterations"));
+  CHECK(holds(textWarning({WarningCode::FinishedOnCpu, "x", {}}, OptionSpelling::Flag), "--solver cpu"));
+  CHECK_EQ(textWarning({WarningCode::MissingValues, "x", {}}, OptionSpelling::Flag), "x");
+  CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted"}}}, OptionSpelling::Flag),
+              "--orient auto"));
+  CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "open"}}}, OptionSpelling::Flag),
+              "--orient flip"));
+  const std::string both =
+      textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted or open"}}}, OptionSpelling::Flag);
   CHECK((holds(both, "--orient auto") && holds(both, "--orient flip")));
   const CommandLine line = fullReport();
   Result result = sampleResult();
@@ -292,7 +296,7 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
   const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("warnings").at(0).at("code"), "notConverged");
   CHECK_EQ(json.at("warnings").at(1).at("code"), "invertedComponents");
-  CHECK_EQ(json.at("warnings").at(1).at("message"), textWarning(result.report.warnings[1]));
+  CHECK_EQ(json.at("warnings").at(1).at("message"), textWarning(result.report.warnings[1], OptionSpelling::Flag));
   CHECK(json.at("warnings").at(1).at("details").empty());
 }
 

@@ -20,9 +20,9 @@ size_t countOf(std::string_view text, std::string_view part) {
 TEST_CASE("names with markup stay text") {
   Page page("test");
   Field field{.name = "sdf", .label = kAttack, .unit = kAttack, .values = std::vector<double>(12, 1.0)};
-  PageTexts texts{.name = kAttack, .label = kAttack, .errorSentence = kAttack, .picture = {'P', 'N', 'G'}};
-  texts.summary = {{kAttack, kAttack}};
-  texts.warnings = texts.defects = {kAttack};
+  PageTexts texts{.name = kAttack, .label = kAttack, .picture = {'P', 'N', 'G'}};
+  ReportTexts& report = texts.report;
+  report = {{{kAttack, kAttack}}, kAttack, {kAttack}, {kAttack}};
   page.add(shapes::cube(), std::vector<std::reference_wrapper<const Field>>{field}, texts);
   const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
   const auto& mesh = decoded.json["meshes"][0];
@@ -34,8 +34,8 @@ TEST_CASE("names with markup stay text") {
   CHECK(decoded.html.find("\xe2\x80\xa8", json) == std::string::npos);
   // Nothing that a name could add to the page: as many elements as with a plain name.
   Page plain("test");
-  for (std::string* text : {&texts.name, &texts.label, &texts.errorSentence, &texts.summary[0].first,
-                            &texts.summary[0].second, &texts.warnings[0], &texts.defects[0]})
+  for (std::string* text : {&texts.name, &texts.label, &report.errorSentence, &report.summary[0].first,
+                            &report.summary[0].second, &report.warnings[0], &report.defects[0]})
     *text = "plain";
   field.label = field.unit = "plain";
   plain.add(shapes::cube(), std::vector<std::reference_wrapper<const Field>>{field}, texts);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/report.h"
 #include "core/text.h"
+#include "describe/computation_options.h"
+#include "describe/report_text.h"
 
 namespace asdfvk {
 namespace {
@@ -24,14 +25,17 @@ const char* sharpException(const ThicknessReport& thickness) {
 }
 
 /// A row for each kind of faces that are not judged with certainty.
-ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
+ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) {
   ReportRows rows;
-  const auto add = [&rows](uint64_t count, const char* noun, const char* rest) {
+  const auto add = [&rows](uint64_t count, const char* noun, const std::string& rest) {
     if (count > 0) rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", counted(count, noun), rest));
   };
   add(unjudged.openCount, "face", "of open components: closing them may add a thin wall; close the mesh");
   add(unjudged.invertedCount, "face",
-      "of closed components oriented inwards or inconsistently; --orient auto reverses inverted components");
+      withSpelledOptions(
+          computationRows(),
+          "of closed components oriented inwards or inconsistently; {orient=auto} reverses inverted components",
+          spelling));
   add(unjudged.degenerateCount, "degenerate face", "left out: without a normal, or with a corner that is not finite");
   add(unjudged.selfCrossedCount, "face", "crossed by a face of the same part: inside and outside are ambiguous there");
   add(unjudged.crossedCount, "face", "crossed by a face of another part: the union may be thicker than reported");
@@ -71,23 +75,25 @@ std::string verdictOf(const ThicknessReport& thickness) {
 template <typename Item>
 void addList(const char* title, const std::string& heading, const std::vector<Item>& items,
              std::string (*textOf)(const Item&, const ThicknessReport&), const ThicknessReport& thickness,
-             ReportRows& rows) {
+             OptionSpelling spelling, ReportRows& rows) {
   rows.emplace_back(title, heading);
   for (size_t i = 0; i < std::min(items.size(), kListedCount); ++i) rows.emplace_back("", textOf(items[i], thickness));
   if (items.size() > kListedCount)
-    rows.emplace_back("", fmt::format("and {} more; --json has all", groupDigits(items.size() - kListedCount)));
+    rows.emplace_back("", fmt::format("and {} more{}", groupDigits(items.size() - kListedCount),
+                                      spelling == OptionSpelling::Flag ? "; --json has all" : ""));
 }
 
-std::string sharpHeading(const ThicknessReport& thickness) {
+std::string sharpHeading(const ThicknessReport& thickness, OptionSpelling spelling) {
   const std::string count = counted(thickness.sharpEdges.size(), "sharp edge or tip", "sharp edges or tips");
   if (!thickness.thinnerThan) return count;
-  return count + (thickness.allowsSharpEdges ? ": allowed, with all that is thin around them"
-                                             : ": thinner than any limit; --allow-sharp-edges leaves them out");
+  if (thickness.allowsSharpEdges) return count + ": allowed, with all that is thin around them";
+  return count + withSpelledOptions(computationRows(), ": thinner than any limit; {allow-sharp-edges} leaves them out",
+                                    spelling);
 }
 
 }  // namespace
 
-ReportRows shortThicknessRows(const ThicknessReport& thickness) {
+ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling) {
   ReportRows rows{{"verdict", verdictOf(thickness)}};
   const bool hasValues = !std::isnan(thickness.median);
   const UnjudgedFaces& unjudged = thickness.unjudged;
@@ -98,8 +104,8 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness) {
   if (!hasValues) return rows;
   std::string text = fmt::format("median {}, greatest {}", lengthText(thickness.median), lengthText(thickness.max));
   if (!thickness.regions.empty()) {
-    text += fmt::format("; {}, {:.3g} % of the area (--verbose)", counted(thickness.regions.size(), "thin region"),
-                        100 * thickness.thinAreaShare);
+    text += fmt::format("; {}, {:.3g} % of the area{}", counted(thickness.regions.size(), "thin region"),
+                        100 * thickness.thinAreaShare, spelling == OptionSpelling::Flag ? " (--verbose)" : "");
   } else if (thickness.verdict) {
     text = fmt::format("least {}, ", lengthText(thickness.min, thickness.thinnerThan)) + text;
   }
@@ -107,10 +113,10 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness) {
   return rows;
 }
 
-ReportRows thicknessRows(const Report& report) {
+ReportRows thicknessRows(const Report& report, OptionSpelling spelling) {
   const ThicknessReport& thickness = *report.thickness;
   ReportRows rows{{"verdict", verdictOf(thickness)}};
-  for (auto& row : unjudgedRows(thickness.unjudged)) rows.push_back(std::move(row));
+  for (auto& row : unjudgedRows(thickness.unjudged, spelling)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));
   if (!thickness.regions.empty())
@@ -118,9 +124,9 @@ ReportRows thicknessRows(const Report& report) {
         "thin",
         fmt::format("{} below {}: area {} ({:.3g} %)", counted(thickness.regions.size(), "region"),
                     limitText(*thickness.thinnerThan), lengthText(thickness.thinArea), 100 * thickness.thinAreaShare),
-        thickness.regions, regionText, thickness, rows);
+        thickness.regions, regionText, thickness, spelling, rows);
   if (!thickness.sharpEdges.empty())
-    addList("sharp", sharpHeading(thickness), thickness.sharpEdges, edgeText, thickness, rows);
+    addList("sharp", sharpHeading(thickness, spelling), thickness.sharpEdges, edgeText, thickness, spelling, rows);
   if (const auto& ball = thickness.greatestSection)
     rows.emplace_back("section", fmt::format("{}, the diameter (to 0.1 %) of the largest ball inside, centre {}",
                                              lengthText(ball->diameter), pointText(ball->centre)));

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asdf_vk/report.h"
+#include "describe/option.h"
+
+namespace asdfvk {
+
+// Texts about a report. spelling: how the front end spells options in remedies.
+
+/// Rows of title and text. A row without a title continues the previous row.
+using ReportRows = std::vector<std::pair<std::string, std::string>>;
+
+/// The rows of the full report: thicknessRows(), or the short report if the thickness was not measured; then details of
+/// values, parts, seeds, device, solver and times. Titles have at most nine characters.
+[[nodiscard]] ReportRows reportRows(const Report& report, OptionSpelling spelling);
+
+/// The rows of the short report: at most five, so that a report has at most six lines.
+[[nodiscard]] ReportRows shortReportRows(const Report& report, OptionSpelling spelling);
+
+/// Texts about a result, for pages and notebooks.
+struct ReportTexts {
+  ReportRows summary;         ///< Rows of a table: title and value.
+  std::string errorSentence;  ///< The origin of the values and their expected errors.
+  std::vector<std::string> warnings, defects;
+};
+/// The summary has the rows of the full report without the list of thin regions, which a page has elsewhere.
+/// showsTimes: if false, the texts depend on mesh and options only.
+[[nodiscard]] ReportTexts reportTexts(const Report& report, bool showsTimes, OptionSpelling spelling);
+
+/// Verdict, unjudged faces, size, thin regions, sharp edges and more. Precondition: report.thickness is set.
+[[nodiscard]] ReportRows thicknessRows(const Report& report, OptionSpelling spelling);
+
+/// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or the least thickness
+/// without a limit; the numbers of unjudged faces, if any; the thickness and the thin regions.
+[[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling);
+
+/// One line: "the check failed: " and the reason.
+[[nodiscard]] std::string checkFailure(const CheckReport& check);
+
+/// The message of the warning, with a remedy by options if there is one.
+[[nodiscard]] std::string textWarning(const Warning& warning, OptionSpelling spelling);
+
+}  // namespace asdfvk

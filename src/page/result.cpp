@@ -1,0 +1,52 @@
+// A result as a layer of a page.
+#include <algorithm>
+#include <utility>
+
+#include "asdf_vk/version.h"
+#include "core/atomic_file.h"
+#include "page/page.h"
+#include "render/png.h"
+#include "render/result_picture.h"
+#include "trace/scene_data.h"
+
+namespace asdfvk {
+namespace {
+
+/// The segments; empty if the page does not show the field "segment".
+std::vector<PageSegment> segmentsOf(const Result& result, FieldSpan shown) {
+  const auto segment =
+      std::find_if(shown.begin(), shown.end(), [](const Field& field) { return field.name == "segment"; });
+  const auto* const labels =
+      segment == shown.end() ? nullptr : std::get_if<std::vector<uint32_t>>(&segment->get().values);
+  if (labels == nullptr) return {};
+  const TraceScene& scene = result.scene->scene;
+  const Field* const sdf = result.field("sdf");
+  const std::vector<double> none(labels->size(), kNoValue);
+  return listSegments(scene.mesh, scene.geometry.areas, scene.geometry.barycentres, *labels,
+                      sdf != nullptr && sdf->reals() != nullptr ? *sdf->reals() : none);
+}
+
+}  // namespace
+
+Page emptyPage() { return Page(std::string("asdf-vk ") + ASDFVK_VERSION + " (" + ASDFVK_COMMIT + ")"); }
+
+void writePage(const std::filesystem::path& path, const Page& page) {
+  AtomicFile file(path);
+  page.write(file);
+  file.commit();
+}
+
+void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
+               const RunControl& control) {
+  if (const std::optional<ThicknessReport>& thickness = result.report.thickness; thickness && thickness->thinnerThan)
+    texts.thin = {*thickness->thinnerThan, nameOf(*thickness->verdict), thickness->regions, result.thinSurface};
+  texts.up = nameOf(kUps, view.up);
+  texts.azimuthDegrees = view.azimuthDegrees;
+  texts.elevationDegrees = view.elevationDegrees;
+  texts.segments = segmentsOf(result, fields);
+  texts.picture = encodePng(texts.thin ? thinPictureOf(result, view, kPagePicture, control)
+                                       : pictureOf(result, fields.front(), view, kPagePicture, control));
+  page.add(result.scene->scene.mesh, fields, std::move(texts));
+}
+
+}  // namespace asdfvk
