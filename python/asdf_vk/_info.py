@@ -38,6 +38,14 @@ class Info(Report):
         """(m,), expected error in the unit of the mesh; None without an estimate."""
         return self.fields.get("error")
 
+    @property
+    def thin(self) -> NDArray[np.bool_]:
+        """(m,), whether a point of the face is thinner than the limit; false without a limit."""
+        report = self.thickness
+        if report is None or report.thinner_than is None or not report.regions:
+            return np.zeros(self.face_count, bool)  # Without a thin region, a value is below the limit by rounding.
+        return self.fields["least_thickness"] < np.float32(report.thinner_than)
+
 
 def info_of(computed: _core.ComputedFields) -> Info:
     """Returns the report with the arrays of all fields."""

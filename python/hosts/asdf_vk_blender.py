@@ -30,10 +30,6 @@ bl_info = {
 COLOURS = "asdf-vk"  # Name of the colour attribute.
 FIELDS = ("sdf", "seed", "thickness", "least_thickness", "segment")  # Names of the other attributes.
 REPORT = "asdf_vk_report"  # Property of the mesh with the text of the last result.
-VIRIDIS = np.array(  # sRGB at 0, 1/4, ... 1.
-    [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
-)
-GREY, RED = (0.5, 0.5, 0.5), (0.85, 0.1, 0.1)
 MEASURES = (
     ("DIAMETER", "Shape Diameter", "How thick the shape is behind each face: the mean length of many rays"),
     ("THICKNESS", "Wall Thickness", "Thickness of the wall at each face; faces below the limit are selected"),
@@ -49,7 +45,7 @@ def module():
         if folder not in sys.path:
             sys.path.append(folder)
     try:
-        import asdf_vk
+        import asdf_vk.hosts
     except ImportError as error:
         version = f"{sys.version_info.major}.{sys.version_info.minor}"
         raise ImportError(
@@ -103,17 +99,11 @@ def linear(colours):
     return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
 
 
-def colours_of(values, limit: float):
-    """Linear colours: viridis from the 1st to the 99th percentile, red below the limit, grey without a value."""
-    colours = np.tile(GREY, (len(values), 1))
+def colours_of(values, thin):
+    """Linear colours: viridis from the 1st to the 99th percentile, red where thin, grey without a value."""
     has_value = np.isfinite(values)
-    if has_value.any():
-        low, high = np.percentile(values[has_value], (1, 99))
-        shares = np.clip((values[has_value] - low) / max(high - low, 1e-30), 0, 1)
-        stops = np.linspace(0, 1, len(VIRIDIS))
-        colours[has_value] = np.stack([np.interp(shares, stops, VIRIDIS[:, channel]) for channel in range(3)], axis=1)
-        colours[has_value & (values < limit)] = RED
-    return linear(colours)
+    low, high = np.percentile(values[has_value], (1, 99)) if has_value.any() else (0, 1)
+    return linear(module().hosts.colours_of(values, low, high, thin, grey=0.5))
 
 
 def colour_of_part(part: int):
@@ -184,8 +174,7 @@ def length(context, value: float, other: float = np.nan) -> str:
             return f"{number:.{digits}g}"
         return bpy.utils.units.to_string(settings.system, "LENGTH", number * settings.scale_length, precision=digits)
 
-    digits = next((n for n in (4, 5, 6) if text(value, n) != text(other, n)), 4)
-    return text(value, digits)
+    return module().hosts.digits_of(text, value, other)
 
 
 def main_field(info):
@@ -203,18 +192,16 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
         set_colours(mesh, colours[np.maximum(segments, 0)])
         text = f"{info.segment_count} part{'s' if info.segment_count != 1 else ''}"
     elif measure == "THICKNESS":
-        least, report = info.fields["least_thickness"], info.thickness
-        lowest = limit if report.regions else 0  # Without a thin region, values are below the limit only by rounding.
-        set_colours(mesh, colours_of(least, lowest))
+        report, thin = info.thickness, info.thin
+        set_colours(mesh, colours_of(info.fields["least_thickness"], thin))
         text = f"least thickness {length(context, report.min, limit)}"
         if limit > 0:
-            thin = least < lowest  # NaN is not below the limit.
             select_faces(mesh, thin)
             context.tool_settings.mesh_select_mode = (False, False, True)
-            verdict = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}[report.verdict]
+            verdict = module().hosts.VERDICTS[report.verdict]
             text = f"{verdict}: {text}, {np.count_nonzero(thin)} faces below {length(context, limit, report.min)}"
     else:
-        set_colours(mesh, colours_of(info.fields["sdf"], 0))
+        set_colours(mesh, colours_of(info.fields["sdf"], info.thin))
         text = f"median diameter {length(context, info.sdf.median)}"
     missing = np.count_nonzero(np.isnan(main_field(info)))
     text += f"; faces without a value: {missing}" if missing else ""

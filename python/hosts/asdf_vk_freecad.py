@@ -22,17 +22,13 @@ import Part
 
 PLACE_COUNT = 50  # Greatest number of listed places.
 TRIANGLE_COUNT = 40000  # Triangles are divided up to this number, to show where on a plane a wall is thin.
-VIRIDIS = np.array(  # At 0, 1/4, ... 1.
-    [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
-)
-GREY, RED = (0.6, 0.6, 0.6), (0.85, 0.1, 0.1)
-VERDICTS = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}
+RED = (0.85, 0.1, 0.1)
 
 
 def module():
     """Imports the Python package asdf_vk. Raises ImportError with a remedy."""
     try:
-        import asdf_vk
+        import asdf_vk.hosts
     except ImportError as error:
         version = f"{sys.version_info.major}.{sys.version_info.minor}"
         raise ImportError(
@@ -44,13 +40,12 @@ def module():
 
 def length(value: float, limit: float) -> str:
     """A length in mm: four digits, or up to six to differ from the text of the limit."""
-    digits = next((n for n in (4, 5, 6) if f"{value:.{n}g}" != f"{limit:.{n}g}"), 4)
-    return f"{value:.{digits}g} mm"
+    return module().hosts.digits_of(lambda number, digits: f"{number:.{digits}g} mm", value, limit)
 
 
 def summary(report) -> str:
     least = length(report.min, report.thinner_than)
-    return VERDICTS[report.verdict] + ("" if np.isnan(report.min) else f", least thickness {least}")
+    return module().hosts.VERDICTS[report.verdict] + ("" if np.isnan(report.min) else f", least thickness {least}")
 
 
 def triangles_of(obj, deviation: float):
@@ -119,17 +114,11 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
     return info
 
 
-def colours_of(least, limit: float, is_thin: bool) -> list:
-    """Viridis from the limit to the greatest value, grey without a value, red below the limit. Without thin walls
-    nothing is red: values are then below the limit only by rounding."""
-    colours = np.tile(GREY, (len(least), 1))
-    has_value = np.isfinite(least)
-    if has_value.any():
-        high = max(float(least[has_value].max()), limit * 1.001)
-        shares = np.clip((least[has_value] - limit) / (high - limit), 0, 1)
-        stops = np.linspace(0, 1, len(VIRIDIS))
-        colours[has_value] = np.stack([np.interp(shares, stops, VIRIDIS[:, channel]) for channel in range(3)], axis=1)
-        colours[has_value & (least < limit) & is_thin] = RED
+def colours_of(info, limit: float) -> list:
+    """Viridis from the limit to the greatest value, grey without a value, red where thinner than the limit."""
+    least = info.fields["least_thickness"]
+    high = max(float(np.nanmax(least, initial=limit)), limit * 1.001)
+    colours = module().hosts.colours_of(least, limit, high, info.thin, grey=0.6)
     return [(*colour, 0.0) for colour in colours.tolist()]
 
 
@@ -151,14 +140,15 @@ def add_result(obj, vertices, triangles, info, limit: float) -> None:
     group.addProperty("App::PropertyString", "CheckedObject", "Thickness").CheckedObject = obj.Name
     group.addProperty("App::PropertyLength", "Limit", "Thickness").Limit = limit
     group.addProperty("App::PropertyLength", "LeastThickness", "Thickness").LeastThickness = info.thickness.min
-    group.addProperty("App::PropertyString", "Verdict", "Thickness").Verdict = VERDICTS[info.thickness.verdict]
+    verdict = module().hosts.VERDICTS[info.thickness.verdict]
+    group.addProperty("App::PropertyString", "Verdict", "Thickness").Verdict = verdict
 
     mesh = document.addObject("Mesh::Feature", "ThicknessMesh")
     mesh.Label = f"{obj.Label}: {summary(info.thickness)}"  # FreeCAD appends a number to a label that is in use.
     mesh.Mesh = Mesh.Mesh(vertices[triangles].tolist())
-    values = info.fields["least_thickness"]
-    mesh.addProperty("App::PropertyColorList", "FaceColors", "Thickness").FaceColors = colours_of(values, limit, bool(info.thickness.regions))
-    mesh.addProperty("App::PropertyFloatList", "LeastThickness", "Thickness").LeastThickness = values.tolist()
+    mesh.addProperty("App::PropertyColorList", "FaceColors", "Thickness").FaceColors = colours_of(info, limit)
+    values = info.fields["least_thickness"].tolist()
+    mesh.addProperty("App::PropertyFloatList", "LeastThickness", "Thickness").LeastThickness = values
     group.addObject(mesh)
     for region in info.thickness.regions[:PLACE_COUNT]:
         group.addObject(add_place(document, region, limit))

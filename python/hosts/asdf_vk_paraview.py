@@ -107,12 +107,9 @@ class WallThickness(SurfaceFilter):
         self.set_option("allow_sharp_edges", bool(value) or None)
 
     def describe(self, surface: vtkPolyData, info: asdf_vk.Info) -> None:
-        limit = self.options.get("thinner_than")
-        if limit is None:
+        if self.options.get("thinner_than") is None:
             return
-        # Without a thin region, values are below the limit only by rounding.
-        thin = (info.fields["least_thickness"] < limit) & bool(info.thickness.regions)
-        cells.add_array(surface, "thin", thin.astype("u1"))
+        cells.add_array(surface, "thin", info.thin.astype("u1"))
         verdict, least = vtkStringArray(), vtkDoubleArray()
         verdict.SetName("verdict")
         verdict.InsertNextValue(info.thickness.verdict)

@@ -96,6 +96,7 @@ def test_a_page_is_that_of_the_program(tmp_path: Path, program: Path) -> None:
         return [(row["title"], spelled(row["value"])) for row in page["summary"] if row["title"] not in ("Time", "Rate")]
 
     assert rows(ours) == rows(theirs)
+    assert info.thin.all() and not asdf_vk.compute(*mesh, measure="thickness", backend="reference").thin.any()
     assert ours["thin"]["regions"]
     for key in ("thin", "errorSentence", "segments", "up", "view", "warnings", "defects"):
         assert ours[key] == theirs[key], key
