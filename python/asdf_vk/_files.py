@@ -55,6 +55,7 @@ def write(
     further: further results of the same mesh, for a page. The other formats hold one result.
     vertex_fields: a mapping from names to arrays per vertex; None: the vertex fields of `fields` if it is an Info.
     format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png"; empty: the extension decides.
+    ascii: write a .ply as text.
     labels: names of the results on a page; by default the name of the file, with a number if there are several.
     picture_of: the field that a picture shows; empty: the segments, otherwise the first field.
 
@@ -67,6 +68,8 @@ def write(
     target = _path(path)
     kind = (format or os.path.splitext(target)[1]).lower().removeprefix(".")
     results = [{} if fields is None else fields, *further]
+    if flag_of(ascii, "ascii") and kind != "ply":
+        raise error_of("optionConflict", "ascii is for PLY only; drop it")
     if picture_of and kind != "png":
         raise error_of("optionConflict", "picture_of names the field of a picture (.png); drop it")
     if vertex_fields and kind in ("html", "png"):
@@ -91,7 +94,7 @@ def write(
         return
     if vertex_fields is None and isinstance(fields, Info):
         per_vertex = _arrays_of(fields.vertex_fields)
-    _core.write(target, argument, per_face, per_vertex, format, flag_of(ascii, "ascii"))
+    _core.write(target, argument, per_face, per_vertex, format, bool(ascii))
 
 
 def _labels_of(results: list[Any], labels: Sequence[str] | None, name: str) -> Sequence[str]:

@@ -139,6 +139,8 @@ def test_what_cannot_be_shown(tmp_path: Path, reference: asdf_vk.Session) -> Non
         ("x.png", (values, values), {}, r"a page \(.html\) shows several"),
         ("x.ply", (values, values), {}, r"a page \(.html\) shows several"),
         ("x.ply", (values,), {"labels": ["x"]}, "drop them"),
+        ("x.html", (values,), {"ascii": True}, "for PLY only"),
+        ("x.glb", (values,), {"ascii": True}, "for PLY only"),
         ("x.png", (values,), {"picture_of": "thickness"}, "thickness"),
         ("x.png", (values,), {"picture_of": 3}, "not the name"),
         ("missing/x.png", (values,), {}, "missing"),
