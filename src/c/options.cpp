@@ -11,7 +11,7 @@ constexpr OptionSpelling kSpelling = OptionSpelling::Name;
 /// Null for an unknown name, and for options of the program only (with an empty keyword).
 const OptionRow* rowOf(OptionRows rows, std::string_view name) {
   const OptionRow* const row = findOption(rows, name);
-  return row == nullptr || (row->keyword != nullptr && *row->keyword == 0) ? nullptr : row;
+  return row == nullptr || isOfProgram(*row) ? nullptr : row;
 }
 
 void setText(const OptionRow& row, void* target, const std::string& text) {

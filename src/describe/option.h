@@ -99,7 +99,7 @@ struct OptionRow {
   const char* needs = "";
   const char* defaultText = nullptr;  ///< Shown instead of the default value.
   const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
-  const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option; empty: no keyword.
+  const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option; empty: see isOfProgram().
   const char* keywordType = nullptr;  ///< Type of the keyword of Python; null: the type of the member.
   const char* valueNames = nullptr;   ///< Allowed values of a string option: "auto|seed|ray".
   bool emptyIsAuto = false;           ///< The name "auto" sets the member to an empty string.
@@ -122,7 +122,9 @@ using OptionRows = std::span<const OptionRow>;
 [[nodiscard]] std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
-/// The allowed values; empty if the values have no names.
+/// Whether only the program has the option, not C and Python.
+[[nodiscard]] inline bool isOfProgram(const OptionRow& row) { return row.keyword != nullptr && *row.keyword == 0; }
+/// Names of the allowed values; empty if values have no names.
 [[nodiscard]] ASDFVK_API std::vector<std::string> namesOf(const OptionRow& row);
 /// The placeholder, or the names of the values with bars between them. Empty for a flag.
 [[nodiscard]] ASDFVK_API std::string placeholderOf(const OptionRow& row);
