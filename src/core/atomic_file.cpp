@@ -212,11 +212,12 @@ void AtomicFile::commit() {
 void AtomicFile::commitBoth(AtomicFile& first, AtomicFile& second) {
   first.close();
   second.close();
+  const bool isNew = !std::filesystem::exists(first.target_);
   first.commit();
   try {
     second.commit();
   } catch (...) {
-    ::unlink(first.target_.c_str());
+    if (isNew) ::unlink(first.target_.c_str());
     throw;
   }
 }

@@ -41,7 +41,7 @@ class AtomicFile {
   void commit();
 
   /// Commits two files. Both temporary files are complete before the first is renamed. If the second cannot be renamed,
-  /// the target of the first is removed.
+  /// the target of the first is removed, unless it replaced a file.
   static void commitBoth(AtomicFile& first, AtomicFile& second);
 
   static constexpr size_t kMaxReserve = size_t{1} << 16;

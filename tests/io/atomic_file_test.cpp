@@ -98,6 +98,10 @@ TEST_CASE("of two files both are replaced, or none is left half") {
   std::string message;
   CHECK(kindOf(writeInto, message) == ErrorKind::Output);
   CHECK(folder.names() == std::vector<std::string>{"out.obj"});
+  std::filesystem::remove(folder / "out.obj");
+  putContent(folder / "out.mtl", "old");
+  CHECK(kindOf(writeInto, message) == ErrorKind::Output);
+  CHECK(std::filesystem::exists(folder / "out.mtl"));
 }
 
 TEST_CASE("a write that the system refuses leaves the old file and no temporary") {
