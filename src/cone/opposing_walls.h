@@ -15,7 +15,7 @@ struct OpposingWalls {
   }
 };
 
-/// Precondition: options.wallAngleDegrees is in its range.
+/// Precondition: the angle is in its range.
 [[nodiscard]] OpposingWalls makeOpposingWalls(const ThicknessOptions& options);
 
 }  // namespace asdfvk
