@@ -131,11 +131,10 @@ void BrickLattice::evaluateSigns() {
     Brick& brick = bricks_[i];
     const double half = 0.5 * kBrickEdge;
     brick.selection = field_.near(position(brick, half, half, half), (half + 2) * kSqrt3 * spacing_);
-    for (int32_t z = 0; z < kBrickEdge; ++z)
-      for (int32_t y = 0; y < kBrickEdge; ++y)
-        for (int32_t x = 0; x < kBrickEdge; ++x)
-          if (field_.value(position(brick, x, y, z), brick.selection) < 0)
-            brick.inside[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
+    forEachPoint([&](int32_t x, int32_t y, int32_t z) {
+      if (field_.value(position(brick, x, y, z), brick.selection) < 0)
+        brick.inside[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
+    });
   });
 }
 
@@ -166,15 +165,13 @@ void BrickLattice::makeWellComposed() {
     std::vector<Flips> flipsOf(bricks_.size());
     forEachBrick(bricks_.size(), [&](size_t i) {
       const CellCorners signs = corners(bricks_[i]);
-      for (int32_t z = 0; z < kBrickEdge; ++z)
-        for (int32_t y = 0; y < kBrickEdge; ++y)
-          for (int32_t x = 0; x < kBrickEdge; ++x) {
-            const int32_t corner = cornerToFill(signs.mask(x, y, z));
-            if (corner < 0) continue;
-            const auto [bx, by, bz] = bricks_[i].coordinates;
-            flipsOf[i].push_back({bx * kBrickEdge + x + (corner & 1), by * kBrickEdge + y + (corner >> 1 & 1),
-                                  bz * kBrickEdge + z + (corner >> 2)});
-          }
+      forEachPoint([&](int32_t x, int32_t y, int32_t z) {
+        const int32_t corner = cornerToFill(signs.mask(x, y, z));
+        if (corner < 0) return;
+        const auto& [bx, by, bz] = bricks_[i].coordinates;
+        flipsOf[i].push_back({bx * kBrickEdge + x + (corner & 1), by * kBrickEdge + y + (corner >> 1 & 1),
+                              bz * kBrickEdge + z + (corner >> 2)});
+      });
     });
     bool isDone = true;
     for (const Flips& flips : flipsOf) {
@@ -193,16 +190,8 @@ void BrickLattice::makeWellComposed() {
 uint64_t BrickLattice::crossedEdgeCount() const {
   const auto count = [&](size_t begin, size_t end) {
     uint64_t sum = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const CellCorners signs = corners(bricks_[i]);
-      for (int32_t z = 0; z < kBrickEdge; ++z)
-        for (int32_t y = 0; y < kBrickEdge; ++y)
-          for (int32_t x = 0; x < kBrickEdge; ++x) {
-            const bool here = signs.at(x, y, z);
-            sum += uint64_t{here != signs.at(x + 1, y, z)} + uint64_t{here != signs.at(x, y + 1, z)} +
-                   uint64_t{here != signs.at(x, y, z + 1)};
-          }
-    }
+    for (size_t i = begin; i < end; ++i)
+      forEachCrossedEdge(corners(bricks_[i]), [&](int, int32_t, int32_t, int32_t, bool) { ++sum; });
     return sum;
   };
   return foldInParallel<uint64_t, kBricksPerTask>(bricks_.size(), count, std::plus<>());

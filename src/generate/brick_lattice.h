@@ -26,6 +26,14 @@ void forEachBrick(size_t count, const Body& body) {
   });
 }
 
+/// Calls use(x, y, z) for the points of a brick, x fastest.
+template <typename Use>
+void forEachPoint(const Use& use) {
+  for (int32_t z = 0; z < kBrickEdge; ++z)
+    for (int32_t y = 0; y < kBrickEdge; ++y)
+      for (int32_t x = 0; x < kBrickEdge; ++x) use(x, y, z);
+}
+
 /// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
 struct Brick {
   std::array<int32_t, 3> coordinates{};   ///< Coordinates of the lowest point of the brick, divided by kBrickEdge.
@@ -48,6 +56,17 @@ class CellCorners {
   }
   std::array<bool, (kBrickEdge + 1) * (kBrickEdge + 1) * (kBrickEdge + 1)> flags_{};
 };
+
+/// Calls use(axis, x, y, z, isInside) for the crossed lattice edges that start at a point of the brick.
+template <typename Use>
+void forEachCrossedEdge(const CellCorners& signs, const Use& use) {
+  forEachPoint([&](int32_t x, int32_t y, int32_t z) {
+    const bool here = signs.at(x, y, z);
+    if (here != signs.at(x + 1, y, z)) use(0, x, y, z, here);
+    if (here != signs.at(x, y + 1, z)) use(1, x, y, z, here);
+    if (here != signs.at(x, y, z + 1)) use(2, x, y, z, here);
+  });
+}
 
 /// Points of a cubic lattice inside a shape. Bricks that the surface cannot reach (Lipschitz bound) are not stored.
 ///

@@ -49,19 +49,6 @@ class SurfaceNets {
       }
   }
 
-  /// Calls use(axis, x, y, z, isInside) for the crossed lattice edges that start at a point of the brick.
-  template <typename Use>
-  static void forEachCrossedEdge(const CellCorners& signs, Use use) {
-    for (int32_t z = 0; z < kBrickEdge; ++z)
-      for (int32_t y = 0; y < kBrickEdge; ++y)
-        for (int32_t x = 0; x < kBrickEdge; ++x) {
-          const bool here = signs.at(x, y, z);
-          if (here != signs.at(x + 1, y, z)) use(0, x, y, z, here);
-          if (here != signs.at(x, y + 1, z)) use(1, x, y, z, here);
-          if (here != signs.at(x, y, z + 1)) use(2, x, y, z, here);
-        }
-  }
-
   void findCells() {
     cells_.resize(lattice_.bricks().size());
     forEachBrick(cells_.size(), [&](size_t i) {

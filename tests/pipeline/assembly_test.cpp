@@ -41,7 +41,7 @@ bool reportHas(const Report& report, WarningCode code) {
 }  // namespace
 
 TEST_CASE("each component of an assembly is divided as if it were alone, and small ones are parts") {
-  const Mesh animal = makeAnimal(2000).mesh, bolt = makeSphere(80, {}).mesh;
+  const Mesh animal = makeAnimal(2000).mesh, bolt = makeSphere(80).mesh;
   Mesh assembly;
   addInstance(assembly, animal, 1, {});
   addInstance(assembly, animal, 0.5, {50, 0, 0});
