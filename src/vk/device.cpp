@@ -15,31 +15,17 @@ namespace asdfvk {
 namespace {
 
 DeviceKind kindOf(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return DeviceKind::Discrete;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return DeviceKind::Integrated;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return DeviceKind::Virtual;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return DeviceKind::Cpu;
-    default:
-      return DeviceKind::Other;
-  }
+  constexpr DeviceKind kKinds[]{DeviceKind::Other, DeviceKind::Integrated, DeviceKind::Discrete, DeviceKind::Virtual,
+                                DeviceKind::Cpu};
+  static_assert(VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU == 1 && VK_PHYSICAL_DEVICE_TYPE_CPU == 4);
+  return static_cast<size_t>(type) < std::size(kKinds) ? kKinds[type] : DeviceKind::Other;
 }
 
 DeviceVendor vendorOf(uint32_t pciId) {
-  switch (pciId) {
-    case 0x10de:
-      return DeviceVendor::Nvidia;
-    case 0x1002:
-      return DeviceVendor::Amd;
-    case 0x8086:
-      return DeviceVendor::Intel;
-    default:
-      return DeviceVendor::Other;
-  }
+  return pciId == 0x10de   ? DeviceVendor::Nvidia
+         : pciId == 0x1002 ? DeviceVendor::Amd
+         : pciId == 0x8086 ? DeviceVendor::Intel
+                           : DeviceVendor::Other;
 }
 
 std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
