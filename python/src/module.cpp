@@ -5,6 +5,7 @@
 
 #include "asdf_vk/asdf_vk.h"
 #include "bindings.h"
+#include "core/error_kind.h"
 #include "describe/option.h"
 #include "gil.h"
 #include "interruptible.h"
@@ -33,28 +34,12 @@ void translate(std::exception_ptr pointer) {
   }
 }
 
-const char* nameOfKind(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::Usage:
-      return "usage";
-    case ErrorKind::Input:
-      return "input";
-    case ErrorKind::Device:
-      return "device";
-    case ErrorKind::Output:
-      return "output";
-    case ErrorKind::Cancelled:
-      return "cancelled";
-  }
-  return "";
-}
-
 /// A dictionary from names of error codes to names of error kinds.
 py::dict errorKinds() {
   py::dict kinds;
   for (int i = 0; i <= static_cast<int>(ErrorCode::Cancelled); ++i) {
     const auto code = static_cast<ErrorCode>(i);
-    kinds[nameOf(code)] = nameOfKind(kindOf(code));
+    kinds[nameOf(code)] = rowOf(kindOf(code)).name;
   }
   return kinds;
 }

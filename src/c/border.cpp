@@ -8,6 +8,7 @@
 #include <new>
 
 #include "asdf_vk/report.h"
+#include "core/error_kind.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -39,22 +40,6 @@ LastError& lastError() {
   return last;
 }
 
-asdf_vk_status statusOf(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::Usage:
-      return ASDF_VK_USAGE;
-    case ErrorKind::Input:
-      return ASDF_VK_INPUT;
-    case ErrorKind::Device:
-      return ASDF_VK_DEVICE;
-    case ErrorKind::Output:
-      return ASDF_VK_OUTPUT;
-    case ErrorKind::Cancelled:
-      return ASDF_VK_CANCELLED;
-  }
-  return ASDF_VK_INTERNAL;
-}
-
 asdf_vk_status keepError(asdf_vk_status status, const char* name, const char* message) noexcept {
   LastError& last = lastError();
   last.name = name;
@@ -70,7 +55,7 @@ asdf_vk_status keepCurrentError() noexcept {
   try {
     throw;
   } catch (const Error& error) {
-    return keepError(statusOf(error.kind()), nameOf(error.code()), error.what());
+    return keepError(static_cast<asdf_vk_status>(rowOf(error.kind()).code), nameOf(error.code()), error.what());
   } catch (const std::bad_alloc&) {
     return keepError(ASDF_VK_INPUT, nameOf(ErrorCode::InputTooLarge), "not enough memory for this mesh");
   } catch (const std::exception& error) {

@@ -6,54 +6,47 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/error_kind.h"
 #include "core/text.h"
 
 namespace asdfvk {
 namespace {
 
-/// The remedy, such as an option or a package; empty if the reason suffices.
-std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& valueOptions) {
-  const auto orOnCpu = [&](const std::string& remedy) {
-    return requiresGpu ? remedy : remedy + ", or use --backend cpu or reference";
-  };
-  switch (code) {
-    case ErrorCode::UnknownField:
-      return "an error estimate needs enough seeds, and faces that are not seeds; give a share such as --seeds 10%";
-    case ErrorCode::NoValues:
-      return "try --orient auto or flip" + (valueOptions.empty() ? "" : ", or drop " + valueOptions);
-    case ErrorCode::TooFewValues:
-      return "give fewer --clusters, or drop --segment";
-    case ErrorCode::NoVulkanLoader:
-      return orOnCpu("install libvulkan1");
-    case ErrorCode::NoVulkanDriver:
-      return requiresGpu ? "install the driver of the GPU, or drop --require-gpu"
-                         : orOnCpu("install a driver (mesa-vulkan-drivers has one for any CPU)");
-    case ErrorCode::NoUsableDevice:
-      return "see --list-devices";
-    case ErrorCode::GpuRequired:
-      return "see --list-devices, or drop --require-gpu";
-    case ErrorCode::NoDeviceForKernel:
-      return "use --backend vulkan, or drop --solver, --kernel and --fetch";
-    case ErrorCode::KernelUnsupported:
-      return requiresGpu ? "use another --kernel" : "use another --kernel, or --backend reference";
-    case ErrorCode::DeviceLimit:
-      return orOnCpu("use --fetch auto, or a smaller mesh");
-    case ErrorCode::OutOfDeviceMemory:
-      return orOnCpu("use a smaller mesh");
-    case ErrorCode::EquationLimit:
-      return "use --solver cpu";
-    case ErrorCode::DeviceLost:
-      return orOnCpu("try again");
-    case ErrorCode::MeshTooLarge:
-      return "split the mesh";
-    default:
-      return "";
-  }
-}
+/// The remedy for an error, such as an option or a package.
+struct Remedy {
+  ErrorCode code;
+  std::string_view text;
+  std::string_view ifGpuRequired = text;
+  bool isCpuPossible = false;  ///< Without --require-gpu, the CPU is a remedy too.
+};
+constexpr Remedy kRemedies[]{
+    {ErrorCode::UnknownField,
+     "an error estimate needs enough seeds, and faces that are not seeds; give a share such as --seeds 10%"},
+    {ErrorCode::NoValues, "try --orient auto or flip"},
+    {ErrorCode::TooFewValues, "give fewer --clusters, or drop --segment"},
+    {ErrorCode::NoVulkanLoader, "install libvulkan1", "install libvulkan1", true},
+    {ErrorCode::NoVulkanDriver, "install a driver (mesa-vulkan-drivers has one for any CPU)",
+     "install the driver of the GPU, or drop --require-gpu", true},
+    {ErrorCode::NoUsableDevice, "see --list-devices"},
+    {ErrorCode::GpuRequired, "see --list-devices, or drop --require-gpu"},
+    {ErrorCode::NoDeviceForKernel, "use --backend vulkan, or drop --solver, --kernel and --fetch"},
+    {ErrorCode::KernelUnsupported, "use another --kernel, or --backend reference", "use another --kernel"},
+    {ErrorCode::DeviceLimit, "use --fetch auto, or a smaller mesh", "use --fetch auto, or a smaller mesh", true},
+    {ErrorCode::OutOfDeviceMemory, "use a smaller mesh", "use a smaller mesh", true},
+    {ErrorCode::EquationLimit, "use --solver cpu"},
+    {ErrorCode::DeviceLost, "try again", "try again", true},
+    {ErrorCode::MeshTooLarge, "split the mesh"},
+};
 
 std::string messageOf(const Error& error, bool requiresGpu, const std::string& valueOptions) {
-  const std::string remedy = remedyFor(error.code(), requiresGpu, valueOptions);
-  return remedy.empty() ? error.what() : std::string(error.what()) + "; " + remedy;
+  std::string message = error.what();
+  for (const Remedy& remedy : kRemedies) {
+    if (remedy.code != error.code()) continue;
+    message += fmt::format("; {}", requiresGpu ? remedy.ifGpuRequired : remedy.text);
+    if (remedy.isCpuPossible && !requiresGpu) message += ", or use --backend cpu or reference";
+    if (remedy.code == ErrorCode::NoValues && !valueOptions.empty()) message += ", or drop " + valueOptions;
+  }
+  return message;
 }
 
 Failure limitFailure(const std::string& message) { return {ExitCode::Limit, message, "systemLimit"}; }
@@ -75,21 +68,7 @@ Failure internalFailure(const char* reason) {
 
 }  // namespace
 
-ExitCode exitCodeOf(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::Usage:
-      return ExitCode::Usage;
-    case ErrorKind::Input:
-      return ExitCode::Input;
-    case ErrorKind::Device:
-      return ExitCode::Device;
-    case ErrorKind::Output:
-      return ExitCode::Output;
-    case ErrorKind::Cancelled:
-      return ExitCode::Cancelled;
-  }
-  return ExitCode::Internal;
-}
+ExitCode exitCodeOf(ErrorKind kind) { return static_cast<ExitCode>(rowOf(kind).code); }
 
 bool hasResult(ExitCode ofMesh) {
   return ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::TooThin;
