@@ -15,6 +15,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
+#include "core/box3.h"
 #include "core/json.h"
 #include "core/length_unit.h"
 #include "core/text.h"
@@ -136,17 +137,10 @@ class GlbWriter {
 
   /// Makes coordinates relative to the middle of the mesh if float32 does not represent them exactly.
   void placeAtOrigin() {
-    Vec3d low{1, 1, 1}, high{-1, -1, -1};
-    bool isFirst = true;
-    for (const Vec3d& p : mesh_.vertices) {
-      if (!isFinite(p)) continue;
-      for (size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = isFirst ? p[axis] : std::min(low[axis], p[axis]);
-        high[axis] = isFirst ? p[axis] : std::max(high[axis], p[axis]);
-      }
-      isFirst = false;
-    }
-    middle_ = isFirst ? Vec3d{} : (low + high) / 2.0;
+    Box3d box;
+    for (const Vec3d& p : mesh_.vertices)
+      if (isFinite(p)) box.add(p);
+    middle_ = box.centre();
     if (!result_.hasFloatVertices()) origin_ = middle_;
   }
 
@@ -200,17 +194,12 @@ class GlbWriter {
                              }});
   }
 
-  [[nodiscard]] std::pair<Vec3f, Vec3f> boundsOf(const GlbGroup& group) const {
-    Vec3f low = pointOf(order_[group.begin], 0), high = low;
+  /// The box of a group, as it is written.
+  [[nodiscard]] Box3f boxOf(const GlbGroup& group) const {
+    Box3f box;
     for (uint64_t i = group.begin; i < group.end; ++i)
-      for (uint32_t corner = 0; corner < 3; ++corner) {
-        const Vec3f p = pointOf(order_[i], corner);
-        for (size_t axis = 0; axis < 3; ++axis) {
-          low[axis] = std::min(low[axis], p[axis]);
-          high[axis] = std::max(high[axis], p[axis]);
-        }
-      }
-    return {low, high};
+      for (uint32_t corner = 0; corner < 3; ++corner) box.add(pointOf(order_[i], corner));
+    return box;
   }
 
   [[nodiscard]] Json materialOf(const GlbGroup& group, const Field* shown) const {
@@ -258,9 +247,9 @@ class GlbWriter {
                                                                   : "VEC4"}};
         if (attribute.isNormalized) accessor["normalized"] = true;
         if (i == 0) {
-          const auto [low, high] = boundsOf(group);
-          accessor["min"] = {low.x, low.y, low.z};
-          accessor["max"] = {high.x, high.y, high.z};
+          const Box3f box = boxOf(group);
+          accessor["min"] = arrayOf(static_cast<Vec3d>(box.min));
+          accessor["max"] = arrayOf(static_cast<Vec3d>(box.max));
         }
         accessors.push_back(std::move(accessor));
       }
