@@ -12,41 +12,18 @@ namespace {
 constexpr double kRingRadius = 0.62, kRingWidth = 0.16, kLineWidth = 0.07, kRowHeight = 1.9, kCalloutGap = 0.5;
 constexpr double kHidden = 1e-4;  ///< A point this far behind the first face is hidden; in normalised units.
 
-struct Pixel {
-  double x = 0, y = 0;
-};
-
-double distanceToLine(const Pixel& p, const Pixel& a, const Pixel& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
-  const double along = squared > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0;
-  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
-}
-
-/// Blends `colour` where distance(pixel) is below half of `width`, within the bounding box of `low` and `high`.
-template <typename Distance>
-void stroke(Image& image, const Pixel& low, const Pixel& high, double width, const Rgb& colour,
-            const Distance& distance) {
-  const double reach = width / 2 + 1;
-  const auto bound = [](double value, int limit) { return static_cast<int>(std::clamp(value, 0.0, double(limit))); };
-  for (int y = bound(low.y - reach, image.height()); y < bound(high.y + reach + 1, image.height()); ++y)
-    for (int x = bound(low.x - reach, image.width()); x < bound(high.x + reach + 1, image.width()); ++x) {
-      const double share = std::clamp(width / 2 - distance(Pixel{x + 0.5, y + 0.5}) + 0.5, 0.0, 1.0);
-      image.at(x, y) = blend(image.at(x, y), colour, share);
-    }
-}
-
-void drawLine(Image& image, const Pixel& a, const Pixel& b, double width, const Rgb& colour) {
+void drawLine(Image& image, const Point2d& a, const Point2d& b, double width, const Rgb& colour) {
   stroke(image, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}, width, colour,
-         [&](const Pixel& p) { return distanceToLine(p, a, b); });
+         [&](const Point2d& p) { return distanceToSegment(p, a, b); });
 }
 
-void drawRing(Image& image, const Pixel& centre, double radius, double width, const Rgb& colour) {
+void drawRing(Image& image, const Point2d& centre, double radius, double width, const Rgb& colour) {
   stroke(image, {centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}, width, colour,
-         [&](const Pixel& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
+         [&](const Point2d& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
-/// The pixel of the place, or of the opposite point if only that point is visible.
-Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
+/// The pixel of the place, or of the opposite point where only that point is visible.
+Point2d pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
     constexpr double kBeyond = 4;  // More than the diagonal of the normalised box, which is at most 2 sqrt(3).
     return !isHitBetween(scene.bvh, scene.mesh, point, camera.toViewer, kHidden, kBeyond);
@@ -61,7 +38,7 @@ Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& call
 
 struct Label {
   const Callout* callout = nullptr;
-  Pixel place;
+  Point2d place;
   double y = 0;  ///< Middle of the text.
 };
 
@@ -92,7 +69,7 @@ void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, s
                   const std::array<PixelArea, 2>& columns, double capHeight) {
   std::array<std::vector<Label>, 2> sides;
   for (const Callout& callout : callouts) {
-    const Pixel place = pixelOf(scene, camera, callout);
+    const Point2d place = pixelOf(scene, camera, callout);
     sides[place.x < camera.centreX ? 0 : 1].push_back({&callout, place});
   }
   const double radius = std::max(4.0, kRingRadius * capHeight), width = std::max(1.5, kRingWidth * capHeight);
@@ -102,10 +79,10 @@ void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, s
     for (const auto& [callout, place, y] : sides[side]) {
       const double text = textWidth(callout->text, capHeight);
       const double left = side == 0 ? column.left : column.left + column.width - text;
-      const Pixel from{side == 0 ? left + text + kCalloutGap * capHeight / 2 : left - kCalloutGap * capHeight / 2, y};
+      const Point2d from{side == 0 ? left + text + kCalloutGap * capHeight / 2 : left - kCalloutGap * capHeight / 2, y};
       const double distance = std::hypot(place.x - from.x, place.y - from.y);
       const double share = distance > radius ? (distance - radius) / distance : 0;
-      const Pixel to{from.x + (place.x - from.x) * share, from.y + (place.y - from.y) * share};
+      const Point2d to{from.x + (place.x - from.x) * share, from.y + (place.y - from.y) * share};
       drawLine(image, from, to, std::max(1.2, kLineWidth * capHeight), kInk);
       drawText(image, callout->text, left, y + capHeight / 2, capHeight);
       drawRing(image, place, radius, 2 * width, kWhite);

@@ -121,7 +121,7 @@ constexpr std::array<GlyphText, kLast - kFirst + 1> kGlyphs{{
     /* ~ */ {9, "n a 2.4 5.6 2.4 1.8 170 30 l 6 4.9 a 6.8 6.4 2.4 1.8 215 350"},
 }};
 
-void appendArc(std::vector<FontPoint>& stroke, std::istream& in) {
+void appendArc(std::vector<Point2d>& stroke, std::istream& in) {
   double centreX = 0, centreY = 0, radiusX = 0, radiusY = 0, from = 0, to = 0;
   in >> centreX >> centreY >> radiusX >> radiusY >> from >> to;
   const int steps = std::max(2, static_cast<int>(std::abs(to - from) / 12));
@@ -139,7 +139,7 @@ Glyph parseGlyph(const GlyphText& text) {
     if (command == 'a') {
       appendArc(glyph.strokes.back(), in);
     } else if (command != 'n') {
-      FontPoint point;
+      Point2d point;
       in >> point.x >> point.y;
       glyph.strokes.back().push_back(point);
     }
@@ -149,16 +149,7 @@ Glyph parseGlyph(const GlyphText& text) {
 
 constexpr double kStrokeShare = 0.13;  ///< Width of a stroke, divided by the height of capitals.
 
-double squared(double x) { return x * x; }
-
-double distanceToSegment(const FontPoint& p, const FontPoint& a, const FontPoint& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, lengthSquared = dx * dx + dy * dy;
-  const double along = lengthSquared > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / lengthSquared : 0;
-  const double t = std::clamp(along, 0.0, 1.0);
-  return std::sqrt(squared(p.x - a.x - t * dx) + squared(p.y - a.y - t * dy));
-}
-
-double distanceToGlyph(const FontPoint& p, const Glyph& glyph, double dotExtra) {
+double distanceToGlyph(const Point2d& p, const Glyph& glyph, double dotExtra) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& stroke : glyph.strokes) {
     if (stroke.size() == 1) nearest = std::min(nearest, distanceToSegment(p, stroke[0], stroke[0]) - dotExtra);
@@ -171,18 +162,14 @@ double distanceToGlyph(const FontPoint& p, const Glyph& glyph, double dotExtra) 
 void drawGlyph(Image& image, const Glyph& glyph, double left, double baseline, double pixelsPerUnit,
                const Rgb& colour) {
   constexpr double kAscent = 17, kDescent = 6, kSide = 3;  // In font units: bounds of all glyphs.
-  const double halfWidth = std::max(0.5, kStrokeShare * kCapHeight * pixelsPerUnit / 2);
+  const double width = std::max(1.0, kStrokeShare * kCapHeight * pixelsPerUnit);
   const double dotExtra = 0.35 * kStrokeShare * kCapHeight;
-  const int beginX = std::max(0, static_cast<int>(std::floor(left - kSide * pixelsPerUnit)));
-  const int endX = std::min(image.width(), static_cast<int>(std::ceil(left + (glyph.width + kSide) * pixelsPerUnit)));
-  const int beginY = std::max(0, static_cast<int>(std::floor(baseline - kAscent * pixelsPerUnit)));
-  const int endY = std::min(image.height(), static_cast<int>(std::ceil(baseline + kDescent * pixelsPerUnit)));
-  for (int y = beginY; y < endY; ++y)
-    for (int x = beginX; x < endX; ++x) {
-      const FontPoint p{(x + 0.5 - left) / pixelsPerUnit, (baseline - y - 0.5) / pixelsPerUnit};
-      const double distance = distanceToGlyph(p, glyph, dotExtra) * pixelsPerUnit;
-      image.at(x, y) = blend(image.at(x, y), colour, std::clamp(halfWidth - distance + 0.5, 0.0, 1.0));
-    }
+  stroke(image, {left - kSide * pixelsPerUnit, baseline - kAscent * pixelsPerUnit},
+         {left + (glyph.width + kSide) * pixelsPerUnit, baseline + kDescent * pixelsPerUnit}, width, colour,
+         [&](const Point2d& p) {
+           const Point2d inFont{(p.x - left) / pixelsPerUnit, (baseline - p.y) / pixelsPerUnit};
+           return distanceToGlyph(inFont, glyph, dotExtra) * pixelsPerUnit;
+         });
 }
 
 /// Share of the pixel [i, i+1] inside [low, high].
@@ -191,6 +178,13 @@ double coverage(int i, double low, double high) {
 }
 
 }  // namespace
+
+double distanceToSegment(const Point2d& p, const Point2d& a, const Point2d& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, lengthSquared = dx * dx + dy * dy;
+  const double along = lengthSquared > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / lengthSquared : 0;
+  const double t = std::clamp(along, 0.0, 1.0);
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
 
 const Glyph& glyphOf(char character) {
   static const std::vector<Glyph> glyphs = [] {

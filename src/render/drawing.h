@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -8,16 +9,19 @@
 
 namespace asdfvk {
 
-/// A point in font units: x from the left side of the glyph, y up from the baseline. Capitals are kCapHeight high.
-struct FontPoint {
+struct Point2d {
   double x = 0, y = 0;
 };
-inline constexpr double kCapHeight = 14;
 
-/// A glyph as centre lines of strokes. A stroke is a chain of points; a single point is a dot.
+[[nodiscard]] double distanceToSegment(const Point2d& p, const Point2d& a, const Point2d& b);
+
+inline constexpr double kCapHeight = 14;  ///< Height of capitals, in font units.
+
+/// A glyph as centre lines of strokes, each a chain of points; a single point is a dot. In font units: x to the right
+/// of the left side of the glyph, y up from the baseline.
 struct Glyph {
   double width = 0;
-  std::vector<std::vector<FontPoint>> strokes;
+  std::vector<std::vector<Point2d>> strokes;
 };
 
 /// The glyph of a printable ASCII character; for any other byte, the question mark.
@@ -27,6 +31,19 @@ struct Glyph {
 [[nodiscard]] double advanceOf(char character);
 
 // Antialiased drawing. Coordinates are in pixels from the top left corner. Parts outside of the image are clipped.
+
+/// Blends `colour` where distance(pixel) is below half of `width`, within the rectangle from `low` to `high`.
+template <typename Distance>
+void stroke(Image& image, const Point2d& low, const Point2d& high, double width, const Rgb& colour,
+            const Distance& distance) {
+  const double reach = width / 2 + 1;
+  const auto bound = [](double value, int limit) { return static_cast<int>(std::clamp(value, 0.0, double(limit))); };
+  for (int y = bound(low.y - reach, image.height()); y < bound(high.y + reach + 1, image.height()); ++y)
+    for (int x = bound(low.x - reach, image.width()); x < bound(high.x + reach + 1, image.width()); ++x) {
+      const double share = std::clamp(width / 2 - distance(Point2d{x + 0.5, y + 0.5}) + 0.5, 0.0, 1.0);
+      image.at(x, y) = blend(image.at(x, y), colour, share);
+    }
+}
 
 /// Width of a text, in pixels. capHeight: height of capitals, in pixels.
 [[nodiscard]] double textWidth(std::string_view text, double capHeight);
