@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
@@ -35,25 +33,6 @@ Parts onePart(size_t faceCount) {
   return parts;
 }
 
-/// Numbers the parts by the mean of their values, weighted by area; parts without a value are the last.
-void numberByValue(std::span<const double> values, Parts& parts) {
-  std::vector<double> sums(parts.partCount, 0), areas(parts.partCount, 0);
-  for (size_t face = 0; face < values.size(); ++face) {
-    if (std::isnan(values[face])) continue;
-    const double area = std::max(parts.areas[face], 1e-12);  // Parts of zero area have a mean, too.
-    sums[parts.partOf[face]] += area * values[face];
-    areas[parts.partOf[face]] += area;
-  }
-  const auto meanOf = [&](uint32_t part) {
-    return areas[part] > 0 ? sums[part] / areas[part] : std::numeric_limits<double>::infinity();
-  };
-  std::vector<uint32_t> order(parts.partCount), rank(parts.partCount);
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return meanOf(i) < meanOf(j); });
-  for (uint32_t i = 0; i < parts.partCount; ++i) rank[order[i]] = i;
-  for (uint32_t& part : parts.partOf) part = rank[part];
-}
-
 }  // namespace
 
 Parts segmentAssembly(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
@@ -77,7 +56,7 @@ Parts segmentAssembly(const PartsInput& input, const PartsOptions& options, cons
   }
 
   all.partOf.resize(faceCount);
-  double agreementArea = 0, agreement = 0, sightArea = 0, meanSight = 0;
+  double comparedArea = 0, agreement = 0, meanSight = 0;
   for (size_t component = 0; component < componentCount; ++component) {
     control.checkpoint(static_cast<double>(component) / static_cast<double>(componentCount));
     const std::vector<uint32_t>& faces = facesOf[component];
@@ -93,12 +72,13 @@ Parts segmentAssembly(const PartsInput& input, const PartsOptions& options, cons
     all.isThinShell = all.isThinShell || parts.isThinShell;
     if (!parts.agreement) continue;
     agreement += areaOf[component] * *parts.agreement;
-    agreementArea += areaOf[component];
     meanSight += areaOf[component] * parts.meanSight;
-    sightArea += areaOf[component];
+    comparedArea += areaOf[component];
   }
-  if (agreementArea > 0) all.agreement = agreement / agreementArea;
-  if (sightArea > 0) all.meanSight = meanSight / sightArea;
+  if (comparedArea > 0) {
+    all.agreement = agreement / comparedArea;
+    all.meanSight = meanSight / comparedArea;
+  }
   numberByValue(input.values, all);
   return all;
 }

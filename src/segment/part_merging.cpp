@@ -98,12 +98,6 @@ std::optional<double> PartMerging::nextCost() const {
   return border == kNoBorder ? std::nullopt : std::optional(borders_[border].cost);
 }
 
-void PartMerging::mergeNext() {
-  const uint32_t border = cheapestBorder();
-  ASDFVK_CHECK_OP(border, !=, kNoBorder);
-  merge(border);
-}
-
 void PartMerging::merge(uint32_t border) {
   const uint32_t a = borders_[border].a, b = borders_[border].b;
   costs_.push_back(borders_[border].cost);

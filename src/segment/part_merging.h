@@ -51,7 +51,6 @@ class PartMerging {
   [[nodiscard]] uint32_t regionCount() const { return regionCount_; }
   /// Unset if no two regions are adjacent.
   [[nodiscard]] std::optional<double> nextCost() const;
-  void mergeNext();
 
   void mergeUpTo(double threshold);
   /// Merges until there are at most `count` regions, or none are adjacent.

@@ -229,24 +229,32 @@ void labelSmallComponents(const PartsInput& input, const PartSurface& surface, c
     if (labels[face] == kNoLabel) labels[face] = labelOf[input.components.componentOf[face]];
 }
 
-/// Numbers the labels by ascending mean value, weighted by area.
-void sortByValue(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount) {
-  std::vector<double> sums(labelCount, 0), areas(labelCount, 0), means(labelCount, 0);
-  for (uint32_t face = 0; face < labels.size(); ++face) {
-    // Labels of zero area have a mean, too.
-    const double area = std::max(double{surface.areas[face]}, 1e-12);
-    sums[labels[face]] += area * std::exp(double{surface.logValues[face]});
-    areas[labels[face]] += area;
-  }
-  for (uint32_t label = 0; label < labelCount; ++label) means[label] = sums[label] / areas[label];
-  std::vector<uint32_t> order(labelCount), rank(labelCount);
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return means[i] < means[j]; });
-  for (uint32_t i = 0; i < labelCount; ++i) rank[order[i]] = i;
-  for (uint32_t& label : labels) label = rank[label];
+/// Numbers the parts by the mean of the values that the surface has.
+void numberByValue(const PartSurface& surface, Parts& parts) {
+  std::vector<double> values;
+  for (const float logValue : surface.logValues) values.push_back(std::exp(double{logValue}));
+  numberByValue(values, parts);
 }
 
 }  // namespace
+
+void numberByValue(std::span<const double> values, Parts& parts) {
+  std::vector<double> sums(parts.partCount, 0), areas(parts.partCount, 0);
+  for (size_t face = 0; face < values.size(); ++face) {
+    if (std::isnan(values[face])) continue;
+    const double area = std::max(parts.areas[face], 1e-12);  // Parts of zero area have a mean, too.
+    sums[parts.partOf[face]] += area * values[face];
+    areas[parts.partOf[face]] += area;
+  }
+  const auto meanOf = [&](uint32_t part) {
+    return areas[part] > 0 ? sums[part] / areas[part] : std::numeric_limits<double>::infinity();
+  };
+  std::vector<uint32_t> order(parts.partCount), rank(parts.partCount);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return meanOf(i) < meanOf(j); });
+  for (uint32_t i = 0; i < parts.partCount; ++i) rank[order[i]] = i;
+  for (uint32_t& part : parts.partOf) part = rank[part];
+}
 
 Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
                        const RunControl& control) {
@@ -261,7 +269,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   if (roles.firstSeeds.empty()) {
     parts.partOf = input.components.componentOf;
     parts.partCount = parts.fewest = parts.most = static_cast<uint32_t>(shapes.areas.size());
-    sortByValue(surface, parts.partOf, parts.partCount);
+    numberByValue(surface, parts);
     return parts;
   }
 
@@ -302,7 +310,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   control.checkpoint(0.8);
   parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), regionCount, control);
   labelSmallComponents(input, surface, division, roles.whole, regionCount, parts.partOf);
-  sortByValue(surface, parts.partOf, parts.partCount);
+  numberByValue(surface, parts);
   return parts;
 }
 

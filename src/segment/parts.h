@@ -44,6 +44,9 @@ struct Parts {
   double meanSight = 1;      ///< Mean over pairs of patches of a component, weighted by the product of their areas.
 };
 
+/// Numbers the parts by the mean of their values, weighted by area; parts without a value are the last. values: #F.
+void numberByValue(std::span<const double> values, Parts& parts);
+
 /// Share of the area below which components are not divided, and parts are merged.
 inline constexpr double kMinPartArea = 0.01;
 

@@ -61,10 +61,10 @@ TEST_CASE("a neck between regions raises the cost") {
   // Merged first, patches 0 and 1 are one region whose border with 2 is thinner than both.
   PatchData data = chain({0.3, 0.02, 0.3}, {0, -0.3, 0});
   PartMerging thin = merging(data);
-  thin.mergeNext();
+  thin.mergeToCount(2);
   data.patches[1].logValue = 0;
   PartMerging even = merging(data);
-  even.mergeNext();
+  even.mergeToCount(2);
   CHECK(*thin.nextCost() > 2 * *even.nextCost());
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("each level refines the next one") {
   PartMerging levels = merging(chain(areas, logs));
   Labels finer = levels.regionOfPatches();
   while (levels.nextCost()) {
-    levels.mergeNext();
+    levels.mergeToCount(levels.regionCount() - 1);
     const Labels coarser = levels.regionOfPatches();
     for (size_t i = 0; i < finer.size(); ++i)
       for (size_t j = 0; j < i; ++j)
