@@ -3,11 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
 
+#include "core/median.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -23,10 +24,10 @@ std::optional<double> averageErrorOf(const MeshRecord& record) {
   return estimate["average"].get<double>();
 }
 
-std::vector<std::pair<std::string, uint64_t>> descending(const std::map<std::string, uint64_t>& counts) {
-  std::vector<std::pair<std::string, uint64_t>> rows(counts.begin(), counts.end());
-  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  return rows;
+template <typename Row, typename Number>
+void sortDescending(std::vector<Row>& rows, const Number& numberOf) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const Row& a, const Row& b) { return std::invoke(numberOf, a) > std::invoke(numberOf, b); });
 }
 
 std::string spreadText(const Spread& spread, double factor, const char* unit) {
@@ -84,11 +85,7 @@ constexpr size_t kNamedInputs = 3;  ///< Greatest number of inputs that the text
 
 Spread spreadOf(std::vector<double> numbers) {
   if (numbers.empty()) return {};
-  std::sort(numbers.begin(), numbers.end());
-  const auto at = [&](double share) {
-    return numbers[static_cast<size_t>(std::llround(share * static_cast<double>(numbers.size() - 1)))];
-  };
-  return {numbers.front(), at(0.5), at(0.9), numbers.back()};
+  return {percentileOf(numbers, 0), percentileOf(numbers, 0.5), percentileOf(numbers, 0.9), percentileOf(numbers, 1)};
 }
 
 LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineCount) {
@@ -129,15 +126,13 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   summary.seconds = spreadOf(seconds);
   summary.averageErrors = spreadOf(errors);
   summary.stageSeconds.assign(stages.begin(), stages.end());
-  std::stable_sort(summary.stageSeconds.begin(), summary.stageSeconds.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  sortDescending(summary.stageSeconds, &std::pair<std::string, double>::second);
   for (auto& [key, group] : failures) summary.failures.push_back(std::move(group));
-  std::stable_sort(summary.failures.begin(), summary.failures.end(),
-                   [](const auto& a, const auto& b) { return a.count > b.count; });
+  sortDescending(summary.failures, &FailureGroup::count);
   for (auto& [code, inputs] : warnings) summary.warnings.push_back({code, inputs.size(), std::move(inputs)});
-  std::stable_sort(summary.warnings.begin(), summary.warnings.end(),
-                   [](const auto& a, const auto& b) { return a.count > b.count; });
-  summary.devices = descending(devices);
+  sortDescending(summary.warnings, &WarningGroup::count);
+  summary.devices.assign(devices.begin(), devices.end());
+  sortDescending(summary.devices, &std::pair<std::string, uint64_t>::second);
   return summary;
 }
 
