@@ -24,22 +24,6 @@ std::string keywordType(const OptionRow& row) {
   }
 }
 
-std::string wrappedAt(const std::string& text, size_t width, const std::string& indent) {
-  std::string lines, line;
-  size_t begin = 0;
-  while (begin < text.size()) {
-    const size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (!line.empty() && line.size() + 1 + word.size() > width) {
-      lines += line + "\n" + indent;
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-    begin = end + 1;
-  }
-  return lines + line;
-}
-
 std::string keywordClass(const char* name, const char* comment, OptionRows rows, const void* defaults) {
   std::string text = fmt::format("\n\nclass {}(TypedDict, total=False):\n    \"\"\"{}\"\"\"\n\n", name, comment);
   for (const OptionRow& row : rows) {
@@ -56,7 +40,7 @@ std::string keywordClass(const char* name, const char* comment, OptionRows rows,
     if (const std::string value = defaultText(row, defaults); value != "-" && !isFlag(row))
       meaning += "; default " + value;
     text += fmt::format("    {}: {} | None\n    \"\"\"{}.\"\"\"\n", keyword, keywordType(row),
-                        wrappedAt(meaning, 108, "    "));
+                        wrapped(meaning, 112, "    ").substr(4));
   }
   return text;
 }

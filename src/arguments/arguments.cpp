@@ -220,19 +220,4 @@ std::string ArgumentParser::help() const {
   return footer.empty() ? text : text + "\n" + wrapped(footer, kWidth, "") + "\n";
 }
 
-std::string wrapped(std::string_view text, size_t width, std::string_view indent) {
-  std::string lines;
-  size_t column = width;
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, std::min(text.find_first_of(" \n"), text.size()));
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
-    const bool isNewLine = column + 1 + word.size() > width;
-    if (isNewLine) lines += lines.empty() ? "" : "\n";
-    lines += isNewLine ? indent : " ";
-    lines += word;
-    column = isNewLine ? indent.size() + word.size() : column + 1 + word.size();
-  }
-  return lines;
-}
-
 }  // namespace asdfvk

@@ -73,7 +73,4 @@ class ArgumentParser {
   std::vector<Entry> entries_;
 };
 
-/// Wraps a text into lines of at most `width` columns. Each line begins with `indent`.
-[[nodiscard]] std::string wrapped(std::string_view text, size_t width, std::string_view indent);
-
 }  // namespace asdfvk

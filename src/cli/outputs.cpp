@@ -43,22 +43,13 @@ std::string plannedFormat(const std::string& output, const WriteOptions& options
   }
 }
 
-/// Whether the extension of `path` names a format other than `format`.
-bool contradicts(const fs::path& path, const std::string& format) {
-  if (isPageName(path)) return format != kPageFormat;
+/// The format that the extension of `path` names; empty if it names none.
+std::string formatNamedBy(const fs::path& path) {
+  if (isPageName(path)) return kPageFormat;
   try {
-    return resultFormatOf(path) != format;
+    return resultFormatOf(path);
   } catch (const Error&) {
-    return false;
-  }
-}
-
-bool isResultName(const fs::path& path) {
-  if (isPageName(path)) return true;
-  try {
-    return !resultFormatOf(path).empty();
-  } catch (const Error&) {
-    return false;
+    return {};
   }
 }
 
@@ -137,7 +128,7 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   const bool sharePage = writesOnePage(outputs);
   if (batch.hasTree() && !outputs.path.empty() && !isFolder(outputs.path)) {
     std::error_code ignored;
-    if (fs::exists(outputs.path, ignored) || isResultName(outputs.path))
+    if (fs::exists(outputs.path, ignored) || !formatNamedBy(outputs.path).empty())
       usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", outputs.path));
   } else if (files.size() > 1 && !sharePage) {
     if (outputs.path == "-") usageError("standard output (-o -) holds one result; name one mesh");
@@ -156,7 +147,7 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     if (outputs.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (outputs.coloursVertices && format != "ply") usageError("--vertex-colours is for PLY only; drop it");
     if (output != "-") {
-      if (contradicts(output, format))
+      if (const std::string named = formatNamedBy(output); !named.empty() && named != format)
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, outputs.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew && !sharePage && normalised(other->second) == normalised(mesh))

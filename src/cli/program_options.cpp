@@ -34,15 +34,12 @@ void requireFieldName(const std::string& name) {
 /// Reads names such as "sdf,seed,error".
 bool readFields(void* target, const OptionValue& value) {
   const std::string& text = textOf(value);
-  std::vector<std::string> names;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    names.push_back(text.substr(begin, end - begin));
-    if (names.back().empty()) return false;
-    if (std::count(names.begin(), names.end(), names.back()) > 1)
-      reject(fmt::format("'{}' names {} twice", text, names.back()));
-    requireFieldName(names.back());
-    begin = end + 1;
+  std::vector<std::string> names = splitAt(text, ',');
+  if (names.empty() || text.ends_with(',')) return false;
+  for (const std::string& name : names) {
+    if (name.empty()) return false;
+    if (std::count(names.begin(), names.end(), name) > 1) reject(fmt::format("'{}' names {} twice", text, name));
+    requireFieldName(name);
   }
   static_cast<Outputs*>(target)->fields = std::move(names);
   return true;

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace asdfvk {
 
@@ -38,6 +39,33 @@ template <typename Names>
     text += name;
   }
   return text;
+}
+
+/// The parts between separators. An empty last part is left out.
+[[nodiscard]] inline std::vector<std::string> splitAt(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find(separator), text.size());
+    parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parts;
+}
+
+/// Wraps a text into lines of at most `width` columns. Each line begins with `indent`.
+[[nodiscard]] inline std::string wrapped(std::string_view text, size_t width, std::string_view indent) {
+  std::string lines;
+  size_t column = width;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, std::min(text.find_first_of(" \n"), text.size()));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const bool isNewLine = column + 1 + word.size() > width;
+    if (isNewLine) lines += lines.empty() ? "" : "\n";
+    lines += isNewLine ? indent : " ";
+    lines += word;
+    column = isNewLine ? indent.size() + word.size() : column + 1 + word.size();
+  }
+  return lines;
 }
 
 /// 96966 as "96,966".

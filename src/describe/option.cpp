@@ -14,16 +14,6 @@ namespace {
 
 constexpr const char* kAutomatic = "auto";
 
-std::vector<std::string> splitAt(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find(separator), text.size());
-    parts.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return parts;
-}
-
 /// "time_budget" or "timeBudget" for "time-budget".
 std::string inCase(std::string_view name, OptionSpelling spelling) {
   std::string text;
@@ -56,7 +46,7 @@ uint64_t greatestWhole(const OptionRow& row, uint64_t ofType) {
 }
 
 template <typename T>
-bool assignWhole(const OptionRow& row, const OptionValue& value, T& member) {
+bool assignNumber(const OptionRow& row, const OptionValue& value, T& member) {
   const auto* whole = std::get_if<uint64_t>(&value);
   const uint64_t max = greatestWhole(row, std::numeric_limits<T>::max());
   if (whole == nullptr || static_cast<double>(*whole) < row.range.min || *whole > max) return false;
@@ -85,18 +75,6 @@ bool assign(const OptionRow& row, void* target, const OptionValue& value) {
       const bool* const flag = std::get_if<bool>(&value);
       if (flag != nullptr) *member = *flag;
       return flag != nullptr;
-    } else if constexpr (std::is_same_v<T, double*>) {
-      return assignNumber(row, value, *member);
-    } else if constexpr (std::is_same_v<T, std::optional<double>*>) {
-      double number = 0;
-      if (!assignNumber(row, value, number)) return false;
-      *member = number;
-      return true;
-    } else if constexpr (std::is_same_v<T, std::optional<uint32_t>*>) {
-      uint32_t number = 0;
-      if (!assignWhole(row, value, number)) return false;
-      *member = number;
-      return true;
     } else if constexpr (std::is_same_v<T, std::string*>) {
       const auto* text = std::get_if<std::string>(&value);
       if (text == nullptr || !hasName(row, *text)) return false;
@@ -105,8 +83,13 @@ bool assign(const OptionRow& row, void* target, const OptionValue& value) {
     } else if constexpr (std::is_same_v<T, ChoiceMember>) {
       const auto* text = std::get_if<std::string>(&value);
       return text != nullptr && member.set(member.member, *text);
+    } else if constexpr (requires { member->value(); }) {
+      auto number = member->value_or(0);
+      if (!assignNumber(row, value, number)) return false;
+      *member = number;
+      return true;
     } else {
-      return assignWhole(row, value, *member);
+      return assignNumber(row, value, *member);
     }
   };
   return std::visit(set, row.access.member(target));

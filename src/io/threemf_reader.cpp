@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -153,11 +152,7 @@ class ModelReader {
   }
 
   void requireExtensions() {
-    std::string_view names = xml_.attribute("requiredextensions").value_or("");
-    while (!names.empty()) {
-      const size_t end = std::min(names.find(' '), names.size());
-      const std::string prefix(names.substr(0, end));
-      names.remove_prefix(std::min(end + 1, names.size()));
+    for (const std::string& prefix : splitAt(xml_.attribute("requiredextensions").value_or(""), ' ')) {
       if (prefix.empty()) continue;
       const std::string& space = namespaces_[prefix];
       const auto is = [&](std::string_view part) { return space.find(part) != std::string::npos; };
@@ -175,21 +170,15 @@ class ModelReader {
 
   uint64_t whole(std::string_view name) {
     const std::string_view text = requiredAttribute(name);
-    uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size())
-      xml_.fail(fmt::format("{} {} is not a whole number", name, asdfvk::quoted(text)));
-    return number;
+    const std::optional<uint32_t> number = numberIn<uint32_t>(text);
+    if (!number) xml_.fail(fmt::format("{} {} is not a whole number", name, asdfvk::quoted(text)));
+    return *number;
   }
 
   double real(std::string_view text, std::string_view what) {
-    double number = 0;
-    std::string_view digits = text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(number))
-      xml_.fail(fmt::format("{} {} is not a number", what, asdfvk::quoted(text)));
-    return number;
+    const std::optional<double> number = numberIn<double>(text.substr(text.starts_with('+') ? 1 : 0));
+    if (!number || !std::isfinite(*number)) xml_.fail(fmt::format("{} {} is not a number", what, asdfvk::quoted(text)));
+    return *number;
   }
 
   /// Reads twelve numbers: the images of the axes, then the translation.
@@ -198,15 +187,11 @@ class ModelReader {
     const auto text = xml_.attribute("transform");
     if (!text) return read;
     std::array<double, 12> numbers{};
-    std::string_view rest = *text;
     size_t count = 0;
-    for (;;) {
-      while (rest.starts_with(' ')) rest.remove_prefix(1);
-      if (rest.empty()) break;
-      const size_t end = std::min(rest.find(' '), rest.size());
+    for (const std::string& number : splitAt(*text, ' ')) {
+      if (number.empty()) continue;
       if (count == numbers.size()) xml_.fail("a transform has more than 12 numbers");
-      numbers[count++] = real(rest.substr(0, end), "a number of a transform");
-      rest.remove_prefix(end);
+      numbers[count++] = real(number, "a number of a transform");
     }
     if (count != numbers.size()) xml_.fail(fmt::format("a transform has {} instead of 12", counted(count, "number")));
     for (size_t i = 0; i < 4; ++i)

@@ -147,11 +147,5 @@ TEST_CASE("help and version are answers, whatever else is given") {
   CHECK_EQ(parser.parse({"--help"}), "Short.\n");
 }
 
-TEST_CASE("text is wrapped between words") {
-  CHECK_EQ(wrapped("one two three", 8, "  "), "  one\n  two\n  three");
-  CHECK_EQ(wrapped("one two\nthree", 7, ""), "one two\nthree");
-  CHECK_EQ(wrapped("", 7, "  "), "");
-}
-
 }  // namespace
 }  // namespace asdfvk

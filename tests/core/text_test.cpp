@@ -45,3 +45,9 @@ TEST_CASE("a length has four digits, and as many more as it takes to differ from
   CHECK(lengthText(0.7999999999999546, 0.8) == "0.8");
   CHECK(lengthText(0.6, 0.8) == "0.6");
 }
+
+TEST_CASE("text is wrapped between words") {
+  CHECK_EQ(wrapped("one two three", 8, "  "), "  one\n  two\n  three");
+  CHECK_EQ(wrapped("one two\nthree", 7, ""), "one two\nthree");
+  CHECK_EQ(wrapped("", 7, "  "), "");
+}
