@@ -4,9 +4,9 @@
 #include <pybind11/stl.h>
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,10 +22,10 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Runs `compute` on the session when no other thread uses it.
+/// Returns compute(session, control), run on the session when no other thread uses it.
 template <typename Compute>
-Result computed(SharedSession& session, const py::object& progress, const Compute& compute) {
-  Result result;
+auto runOn(SharedSession& session, const py::object& progress, const Compute& compute) {
+  std::invoke_result_t<const Compute&, Session&, const RunControl&> result;
   session.run([&](Session& idle, const RunControl& control) { result = compute(idle, control); }, progress);
   return result;
 }
@@ -59,8 +59,8 @@ class SharedScene {
     const Options parsed = optionsOf(options);
     std::span<const uint8_t> mask;
     if (!region.is_none()) mask = entriesOf<uint8_t>(region.cast<py::array>());
-    return computed(*session_, progress,
-                    [&](Session&, const RunControl& control) { return scene_->compute(parsed, mask, control); });
+    return runOn(*session_, progress,
+                 [&](Session&, const RunControl& control) { return scene_->compute(parsed, mask, control); });
   }
 
   /// points, normals: #P x 3 double. Returns #P float.
@@ -68,9 +68,9 @@ class SharedScene {
                                             const py::object& progress) {
     const ConeOptions cone = optionsOf(options).cone;
     const std::span<const double> origins = entriesOf<double>(points), axes = entriesOf<double>(normals);
-    std::vector<double> values;
-    session_->run([&](Session&, const RunControl& control) { values = scene_->valuesAt(origins, axes, cone, control); },
-                  progress);
+    const std::vector<double> values = runOn(*session_, progress, [&](Session&, const RunControl& control) {
+      return scene_->valuesAt(origins, axes, cone, control);
+    });
     return singles(values, "at()");
   }
 
@@ -79,31 +79,25 @@ class SharedScene {
                                                 const py::dict& options, const py::object& progress) {
     const ThicknessOptions thickness = optionsOf(options).thickness;
     const std::span<const double> places = entriesOf<double>(points), axes = entriesOf<double>(normals);
-    std::vector<double> values;
-    session_->run(
-        [&](Session&, const RunControl& control) { values = scene_->thicknessAt(places, axes, thickness, control); },
-        progress);
-    return asArray(std::move(values));
+    return asArray(runOn(*session_, progress, [&](Session&, const RunControl& control) {
+      return scene_->thicknessAt(places, axes, thickness, control);
+    }));
   }
 
   /// points: #P x 3 double. Returns #P double: radii if givesRadii, otherwise distances.
   [[nodiscard]] py::array_t<double> distance(const py::array& points, bool givesRadii, const py::object& progress) {
     const std::span<const double> places = entriesOf<double>(points);
-    std::vector<double> distances;
-    session_->run(
-        [&](Session&, const RunControl& control) {
-          distances = givesRadii ? scene_->radii(places, control) : scene_->distance(places, control);
-        },
-        progress);
-    return asArray(std::move(distances));
+    return asArray(runOn(*session_, progress, [&](Session&, const RunControl& control) {
+      return givesRadii ? scene_->radii(places, control) : scene_->distance(places, control);
+    }));
   }
 
   /// origins, directions: #R x 3 double. Returns #R lengths (double), and #R input faces, -1 for no hit.
   [[nodiscard]] py::tuple firstHits(const py::array& origins, const py::array& directions, const py::object& progress) {
     const std::span<const double> starts = entriesOf<double>(origins), axes = entriesOf<double>(directions);
-    Scene::RayHits hits;
-    session_->run([&](Session&, const RunControl& control) { hits = scene_->firstHits(starts, axes, control); },
-                  progress);
+    Scene::RayHits hits = runOn(*session_, progress, [&](Session&, const RunControl& control) {
+      return scene_->firstHits(starts, axes, control);
+    });
     return py::make_tuple(asArray(std::move(hits.distances)),
                           asArray(std::vector<int32_t>(hits.faces.begin(), hits.faces.end())));
   }
@@ -111,10 +105,8 @@ class SharedScene {
   /// points: #P x 3 double. Returns #P input faces.
   [[nodiscard]] py::array_t<uint32_t> nearestFaces(const py::array& points, const py::object& progress) {
     const std::span<const double> places = entriesOf<double>(points);
-    std::vector<uint32_t> faces;
-    session_->run([&](Session&, const RunControl& control) { faces = scene_->nearestFaces(places, control); },
-                  progress);
-    return asArray(std::move(faces));
+    return asArray(runOn(*session_, progress,
+                         [&](Session&, const RunControl& control) { return scene_->nearestFaces(places, control); }));
   }
 
  private:
@@ -160,7 +152,7 @@ void bindScenes(py::module_& module) {
            [](SharedSession& self, const py::object& mesh, const py::dict& options, const py::object& progress) {
              const Options parsed = optionsOf(options);
              const MeshView view = viewOf(mesh);
-             return computed(self, progress, [&](Session& session, const RunControl& control) {
+             return runOn(self, progress, [&](Session& session, const RunControl& control) {
                return session.compute(view, parsed, control);
              });
            });
