@@ -47,10 +47,7 @@ def polygon_arrays(
         array = as_array(value, name, "iu", "integers")
         if array.ndim != 1:
             raise error_of("arraySize", f"{name} has the shape {array.shape}, not (k,)")
-        if array.size and not (0 <= int(array.min()) and int(array.max()) <= allowed):
-            raise error_of(
-                "indexOutOfRange", f"{name} reaches from {array.min()} to {array.max()}; allowed are 0 to {allowed}"
-            )
+        _require_range(array, allowed, f"{name} reaches")
         arrays.append(_native(array, np.uint32, name))
     first = arrays[1]
     if first.size == 0 or first[0] != 0 or first[-1] != len(arrays[0]) or (first[1:] < first[:-1]).any():
@@ -97,11 +94,7 @@ def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
         return _native(array, np.bool_, "faces").view(np.uint8)
     if array.ndim != 1:
         raise error_of("arraySize", f"the indices of faces have the shape {array.shape}, not (k,)")
-    if array.size and not (0 <= int(array.min()) and int(array.max()) < count):
-        raise error_of(
-            "indexOutOfRange",
-            f"the indices of faces reach from {array.min()} to {array.max()}; allowed are 0 to {count - 1}",
-        )
+    _require_range(array, count - 1, "the indices of faces reach")
     mask = np.zeros(count, np.uint8)
     mask[array] = 1
     if mask.sum() != array.size:
@@ -144,6 +137,12 @@ def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
             raise error_of("arrayType", f"{name} is an object of type {type(value).__name__}, not an array of {wanted}")
         raise error_of("arrayType", f"{name} has the type {array.dtype}, not {wanted}")
     return array
+
+
+def _require_range(array: NDArray[Any], greatest: int, subject: str) -> None:
+    if array.size and not (0 <= int(array.min()) and int(array.max()) <= greatest):
+        message = f"{subject} from {array.min()} to {array.max()}; allowed are 0 to {greatest}"
+        raise error_of("indexOutOfRange", message)
 
 
 def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
