@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "render/drawing.h"
+#include "render/sample_rows.h"
 #include "render/thin_places.h"
 #include "trace/nearest_hit.h"
 
@@ -22,7 +23,7 @@ void drawRing(Image& image, const Point2d& centre, double radius, double width, 
          [&](const Point2d& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
-/// The pixel of the place, or of the opposite point where only that point is visible.
+/// The pixel of the place, or of the opposite point if only that point is visible.
 Point2d pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
     constexpr double kBeyond = 4;  // More than the diagonal of the normalised box, which is at most 2 sqrt(3).
@@ -31,9 +32,8 @@ Point2d pixelOf(const TraceScene& scene, const Camera& camera, const Callout& ca
   Vec3d point = scene.bvh.normalization.toNormalized(callout.place);
   const Vec3d other = scene.bvh.normalization.toNormalized(callout.opposite);
   if (!isVisible(point) && isVisible(other)) point = other;
-  const Vec3d offset = point - camera.centre;
-  return {camera.centreX + dot(offset, camera.right) / camera.pixelSize,
-          camera.centreY - dot(offset, camera.up) / camera.pixelSize};
+  const Projected projected = SampleGrid{camera}.project(point);
+  return {projected.x, projected.y};
 }
 
 struct Label {

@@ -9,10 +9,6 @@
 
 namespace asdfvk {
 
-struct Point2d {
-  double x = 0, y = 0;
-};
-
 [[nodiscard]] double distanceToSegment(const Point2d& p, const Point2d& a, const Point2d& b);
 
 inline constexpr double kCapHeight = 14;  ///< Height of capitals, in font units.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,6 +16,11 @@ using Rgb = std::array<uint8_t, 3>;
 inline constexpr Rgb kWhite{255, 255, 255}, kInk{34, 34, 34};
 /// Colour of a body without values.
 inline constexpr Rgb kNeutral{210, 209, 204};
+
+struct Point2d {
+  double x = 0, y = 0;
+  auto operator<=>(const Point2d&) const = default;
+};
 
 /// A picture: rows from the top, with pixels from the left.
 class Image {

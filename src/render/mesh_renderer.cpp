@@ -72,7 +72,7 @@ class MeshRenderer {
     if (!isEmpty) image_.at(x, y) = toRgb(sum / double{kSamples * kSamples});
   }
 
-  [[nodiscard]] LitPoint pointAt(uint32_t face, const SamplePlace& place) const {
+  [[nodiscard]] LitPoint pointAt(uint32_t face, const Point2d& place) const {
     const std::array<Projected, 3> corners = faces_.cornersOf(face);
     const std::array<double, 3> shares = cornerShares(corners, place);
     const Vec3d& toViewer = grid_.camera.toViewer;
