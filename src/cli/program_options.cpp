@@ -111,7 +111,6 @@ const std::array kOutputRows{
               .read = readName<&Outputs::path>,
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->path); }},
     OptionRow{.name = "fields",
-              .group = kOutputGroup,
               .text = kFieldsText.c_str(),
               .more = "The first real field is the `quality` of `.ply`. `.npy` has the first field only "
                       "([formats.md](formats.md)).",
@@ -122,23 +121,18 @@ const std::array kOutputRows{
               .read = readFields,
               .write = [](const void* t) { return nameOrNone(joined(static_cast<const Outputs*>(t)->fields, ",")); }},
     OptionRow{.name = "open",
-              .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, opensPage),
               .text = "Open the page in the browser. Without -o the page is NAME.asdf.html"},
     OptionRow{.name = "json",
-              .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, json),
               .text = "Report as JSON on standard output, one line per mesh"},
     OptionRow{.name = "format",
-              .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, format),
               .text = "Format of the result if the name of -o does not determine it",
               .defaultText = "ply",
               .moreNames = outputFormats},
-    OptionRow{
-        .name = "ascii", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, ascii), .text = "Write PLY as text"},
+    OptionRow{.name = "ascii", .access = ASDFVK_MEMBER(Outputs, ascii), .text = "Write PLY as text"},
     OptionRow{.name = "colour-of",
-              .group = kOutputGroup,
               .text = "Field that determines the colours in .ply, .glb and .obj",
               .more = "The field must be written and have one component.",
               .defaultText = "segment with --segment, else the first real field",
@@ -151,13 +145,11 @@ const std::array kOutputRows{
                   },
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->colourOf); }},
     OptionRow{.name = "vertex-colours",
-              .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, coloursVertices),
               .text = "Also colour the vertices of PLY, which Blender shows",
               .more = "`.glb` and `.obj` always have vertex colours."},
     OptionRow{
         .name = "points",
-        .group = kOutputGroup,
         .text =
             "Also write a skeleton point for each face, half of the shape diameter below it. PLY: points with radius "
             "and segment. SWC: points with radius, joined into trees. - is PLY on standard output. For one mesh only",
@@ -169,10 +161,8 @@ const std::array kOutputRows{
                      readName<&Outputs::points>(t, value);
             },
         .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
-    OptionRow{
-        .name = "quiet", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, quiet), .text = "Print errors only"},
+    OptionRow{.name = "quiet", .access = ASDFVK_MEMBER(Outputs, quiet), .text = "Print errors only"},
     OptionRow{.name = "verbose",
-              .group = kOutputGroup,
               .access = ASDFVK_MEMBER(Outputs, verbose),
               .text = "Print the full report: device, seeds, times, solver, places"},
     OptionRow{.name = "picture",
@@ -187,7 +177,6 @@ const std::array kOutputRows{
                   },
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->picture); }},
     OptionRow{.name = "picture-of",
-              .group = kPictureGroup,
               .text = "Field that the picture shows",
               .needs = "picture",
               .defaultText =
@@ -197,7 +186,6 @@ const std::array kOutputRows{
               .read = readPictureOf,
               .write = noValue},
     OptionRow{.name = "picture-view",
-              .group = kPictureGroup,
               .text = "Direction of the view in degrees: to the right of the broad side of the mesh (-360 to 360) and "
                       "upwards (-90 to 90)",
               .placeholder = "AZIMUTH,ELEVATION",
@@ -207,7 +195,6 @@ const std::array kOutputRows{
               .read = readView,
               .write = noValue},
     OptionRow{.name = "picture-up",
-              .group = kPictureGroup,
               .access = ASDFVK_CHOICE(Outputs, pictureView.up, kUps),
               .text = "Up axis of the picture. auto: z of STL and 3MF, else y, unless the mesh stands more stably on "
                       "another axis",
@@ -221,18 +208,15 @@ const std::array kBatchRows{
               .text = "Compute every mesh below the given folders. The results are in the same tree below -o",
               .flags = "-r,--recursive"},
     OptionRow{.name = "files-from",
-              .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, list),
               .text = "Also compute the meshes of a list with a path per line; - is standard input",
               .placeholder = "FILE|-"},
     OptionRow{.name = "null",
-              .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, isNullSeparated),
               .text = "Paths of the list end with a zero byte, as find -print0 writes them",
               .needs = "files-from",
               .flags = "-0,--null"},
     OptionRow{.name = "shard",
-              .group = kBatchGroup,
               .text = "Compute part I of N only; the parts have about the same size",
               .placeholder = "I/N",
               .read =
@@ -242,17 +226,14 @@ const std::array kBatchRows{
                   },
               .write = noValue},
     OptionRow{.name = "log",
-              .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, log),
               .text = "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads it",
               .placeholder = "FILE.jsonl"},
     OptionRow{.name = "skip-existing",
-              .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, skipsExisting),
               .text = "Skip meshes that have a result of the same input, options and version"},
     OptionRow{
         .name = "timeout",
-        .group = kBatchGroup,
         .access = ASDFVK_MEMBER(BatchOptions, timeoutSeconds),
         .range = aboveUpTo(0, kMaxSeconds),
         .text =
@@ -261,18 +242,15 @@ const std::array kBatchRows{
         .defaultText = "-"},
     OptionRow{
         .name = "memory-limit",
-        .group = kBatchGroup,
         .text = "Fail a mesh that takes more memory than this, such as 500M or 2G, with exit code 8; implies --isolate",
         .placeholder = "SIZE",
         .wanted = "a size such as 500M or 2G",
         .read = readMemory,
         .write = noValue},
     OptionRow{.name = "isolate",
-              .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, isolates),
               .text = "Compute in worker processes, so that a mesh that crashes or hangs fails alone"},
     OptionRow{.name = "jobs",
-              .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, jobCount),
               .range = fromTo(1, kMaxJobCount),
               .text = "Number of meshes that are computed at once",
@@ -288,7 +266,6 @@ const std::array kDeviceRows{
               .more = "Can be combined with `--json`, `--quiet`, `--threads` and `--require-gpu` (exit code 3 if no "
                       "GPU is usable) only."},
     OptionRow{.name = "device-report",
-              .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(CommandLine, deviceReport),
               .text = "Print a report on the device as JSON, with a self-test and the rate of each variant of the "
                       "kernels; exit code 3 if the self-test fails",
@@ -297,14 +274,19 @@ const std::array kDeviceRows{
 
 }  // namespace
 
-OptionRows outputRows() { return kOutputRows; }
+OptionRows outputRows() {
+  static const auto rows = withGroups(kOutputRows);
+  return rows;
+}
 
 std::vector<OptionTable> optionTables(CommandLine& line) {
+  static const auto batchRows = withGroups(kBatchRows);
+  static const auto deviceRows = withGroups(kDeviceRows);
   return {{computationRows(), &line.computation},
-          {kOutputRows, &line.outputs},
-          {kBatchRows, &line.batch},
+          {outputRows(), &line.outputs},
+          {batchRows, &line.batch},
           {sessionRows(), &line.session},
-          {kDeviceRows, &line}};
+          {deviceRows, &line}};
 }
 
 std::optional<uint64_t> parseByteCount(const std::string& text) {

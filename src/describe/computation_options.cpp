@@ -156,7 +156,6 @@ const std::array kComputationRows{
         .more = "[method.md](method.md#recipes) lists the options of each set.",
         .apply = [](void* t) { applyRecipe(static_cast<ComputationSettings*>(t)->recipe, optionsOf(t)); }},
     OptionRow{.name = "definition",
-              .group = kSeedGroup,
               .access = COMPUTATION_CHOICE(options.cone.definition, kDefinitions),
               .text = "Definition of the shape diameter. paper: as in the ASDF paper. cgal: as CGAL's sdf_values "
                       "without post-processing, with --rays 25 --seeds all unless these are given",
@@ -164,7 +163,6 @@ const std::array kComputationRows{
                       "rotates the cones ([method.md](method.md)).",
               .apply = [](void* t) { applyDefinition(optionsOf(t).cone.definition, optionsOf(t)); }},
     OptionRow{.name = "seeds",
-              .group = kSeedGroup,
               .text = "Faces that cast rays: a share, a count or all faces. auto: 10%, but at least 3,000",
               .more =
                   "With `auto`, all faces of a mesh of at most 3,000 faces cast rays. Without `--guidance prediction`, "
@@ -176,7 +174,6 @@ const std::array kComputationRows{
               .write = [](const void* t) { return OptionValue(toText(optionsOf(t).seeds)); }},
     OptionRow{
         .name = "max-error",
-        .group = kSeedGroup,
         .text = "Add seeds until the estimated average error is at most E of the range of the values; with rel, until "
                 "the estimated median of error / value is at most E. Starts with 2% of the faces, or with --seeds",
         .more = "E is compared with the estimate plus 1.5 standard errors. With `rel`, half of the faces are within E "
@@ -189,7 +186,6 @@ const std::array kComputationRows{
         .read = readMaxError,
         .write = writeMaxError},
     OptionRow{.name = "max-relative-error",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.rounds.maxRelativeError),
               .range = aboveAndBelow(0, 1),
               .text = "Add seeds until the estimated median of error / value is at most E",
@@ -208,14 +204,12 @@ const std::array kComputationRows{
                       "first one predicts errors",
               .valueNames = "random|blue-noise|farthest-point|normal-space|adaptive"},
     OptionRow{.name = "rng-seed",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.randomSeed),
               .range = {.min = 0},
               .text = "Start of all random numbers; the same number gives the same bits",
               .placeholder = "N",
               .keyword = "random-seed"},
     OptionRow{.name = "time-budget",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.rounds.timeBudgetSeconds),
               .range = aboveUpTo(0, kMaxSeconds),
               .text = "Add seeds until this time has passed, reading and writing excluded. The result is not "
@@ -223,47 +217,40 @@ const std::array kComputationRows{
               .more = "Excludes `--seeds all`.",
               .placeholder = "SECONDS"},
     OptionRow{.name = "estimate",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.estimatesError),
               .text = "Do not estimate the error. This saves about as much time as the interpolation takes",
               .more = "The sampler then selects all seeds, and none is placed at large expected errors or extreme "
                       "values, which costs a little accuracy.",
               .flags = "--no-estimate"},
     OptionRow{.name = "rays",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.cone.rayCount),
               .range = fromTo(1, kMaxRayCount),
               .text = "Rays per cone",
               .placeholder = "N"},
     OptionRow{.name = "angle",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.cone.openingAngleDegrees),
               .range = aboveAndBelow(0, 180),
               .text = "Full opening angle of the cone",
               .placeholder = "DEGREES",
               .keyword = "cone-angle"},
     OptionRow{.name = "false-hit-angle",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.cone.falseHitAngleDegrees),
               .range = fromTo(0, 180),
               .text = "A hit is dropped as false if the normals of hit face and seed differ by less than this angle",
               .placeholder = "DEGREES",
               .needs = "definition=paper"},
     OptionRow{.name = "outlier-deviations",
-              .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.cone.outlierDeviations),
               .range = above(0),
               .text = "Ray lengths farther from the median than S standard deviations are dropped",
               .placeholder = "S",
               .needs = "definition=paper"},
     OptionRow{.name = "cone-rotation",
-              .group = kSeedGroup,
               .access = COMPUTATION_CHOICE(options.cone.rotation, kConeRotations),
               .text = "Rotation of each cone about its axis. fixed: neighbouring cones have nearly parallel rays. "
                       "hashed: by a hash of the face index, so that errors of neighbouring faces are independent",
               .needs = "definition=paper"},
     OptionRow{.name = "smooth",
-              .group = kSeedGroup,
               .text = "Bilateral filter of the values over R rings of faces, in P passes. auto: R and P by the number "
                       "of faces. Use it with --seeds all and --cone-rotation hashed",
               .more = "The filter removes up to a third of the error against many rays. The error estimate and "
@@ -279,7 +266,6 @@ const std::array kComputationRows{
               .text = "Post-processing of the values for the field normalized. cgal: fill missing values, smooth all "
                       "values and map them to 0 .. 1, as CGAL does"},
     OptionRow{.name = "segment",
-              .group = kSegmentGroup,
               .access = COMPUTATION_CHOICE(options.segmentation, kSegmentations),
               .text = "Segmentation for the field segment. parts: the parts that people see; --segment without a value "
                       "means parts. cgal: soft clustering and graph cut, as CGAL does; implies --postprocess cgal; use "
@@ -287,14 +273,12 @@ const std::array kComputationRows{
               .bareValue = "parts",
               .wanted = "one of none|parts|cgal; the option parts sets the number of parts"},
     OptionRow{.name = "parts",
-              .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.parts.partCount),
               .range = fromTo(1, kMaxPartCount),
               .text = "Number of parts. Without it the segmentation chooses the number",
               .placeholder = "N",
               .needs = "segment=parts"},
     OptionRow{.name = "detail",
-              .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.parts.detail),
               .range = fromTo(kMinDetail, kMaxDetail),
               .text = "Level of detail. It divides the cost at which the merging of regions stops; a larger number "
@@ -303,21 +287,18 @@ const std::array kComputationRows{
               .placeholder = "X",
               .needs = "segment=parts"},
     OptionRow{.name = "clusters",
-              .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.cgalSegmentation.clusterCount),
               .range = fromTo(2, kMaxClusterCount),
               .text = "Number of clusters of values. A cluster may become several segments",
               .placeholder = "K",
               .needs = "segment=cgal"},
     OptionRow{.name = "smoothness",
-              .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.cgalSegmentation.smoothness),
               .range = fromTo(0, kMaxSmoothness),
               .text = "Weight of the boundaries in the graph cut, usually at most 1",
               .placeholder = "L",
               .needs = "segment=cgal"},
     OptionRow{.name = "cgal-expansion",
-              .group = kSegmentGroup,
               .access = COMPUTATION_CHOICE(options.cgalSegmentation.expansion, kCgalExpansions),
               .text = "Clusters that the graph cut expands: all, or only the first one, as CGAL 5.5.1 does",
               .needs = "segment=cgal",
@@ -330,7 +311,6 @@ const std::array kComputationRows{
               .more = "The wall thickness is the diameter of the largest ball inside that touches the face. It is "
                       "measured at all faces, whatever `--seeds` is. `thickness` traces no rays."},
     OptionRow{.name = "thinner-than",
-              .group = kThicknessGroup,
               .range = above(0),
               .text = "Report whether and where the surface is thinner than T, in the unit of the mesh; implies "
                       "--measure thickness",
@@ -351,7 +331,6 @@ const std::array kComputationRows{
                     return lengthValue(thickness.thinnerThan, thickness.limitUnit);
                   }},
     OptionRow{.name = "fail-if-thinner",
-              .group = kThicknessGroup,
               .range = above(0),
               .text = "As --thinner-than, with exit code 6 if a point is thinner than T, and exit code 5 if parts of "
                       "the surface cannot be judged",
@@ -370,12 +349,10 @@ const std::array kComputationRows{
                     return lengthValue(settings.failIfThinner, settings.failIfThinnerUnit);
                   }},
     OptionRow{.name = "allow-sharp-edges",
-              .group = kThicknessGroup,
               .access = COMPUTATION_MEMBER(options.thickness.allowsSharpEdges),
               .text = "Leave sharp edges and tips, where the thickness is 0, out of the verdict. The report lists them",
               .needs = "thinner-than"},
     OptionRow{.name = "wall-angle",
-              .group = kThicknessGroup,
               .access = COMPUTATION_MEMBER(options.thickness.wallAngleDegrees),
               .range = aboveUpTo(90, 180),
               .text = "Two faces are opposing walls if their normals differ by at least this angle",
@@ -392,7 +369,6 @@ const std::array kComputationRows{
               .read = readCheck,
               .write = writeCheck},
     OptionRow{.name = "centres",
-              .group = kOutputGroup,
               .access = COMPUTATION_MEMBER(options.computesCentres),
               .text = "Add the fields centre (skeleton points) and component",
               .flags = ""},
@@ -405,20 +381,17 @@ const std::array kComputationRows{
         .more = "See [method.md](method.md)."},
     OptionRow{
         .name = "guidance",
-        .group = kExperimentGroup,
         .access = COMPUTATION_CHOICE(options.interpolation.guidance, kGuidances),
         .text =
             "Guidance field of the Poisson equation. none: harmonic interpolation. curvature: its divergence is minus "
             "the curvature. prediction: the gradient of values predicted from the hits of neighbouring seeds"},
     OptionRow{.name = "pooling",
-              .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.interpolation.pooling),
               .range = fromTo(0, 1),
               .text = "Weight of the prediction in the values; 0 keeps traced values. Above 0 needs --guidance "
                       "prediction",
               .placeholder = "P"},
     OptionRow{.name = "solver",
-              .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.solver),
               .text = "Solver of the Poisson equation. On the device: conjugate gradients (cg) or jacobi. On the CPU: "
                       "conjugate gradients in float32 (cpu), or in double (eigen)",
@@ -426,7 +399,6 @@ const std::array kComputationRows{
                       "`cpu` if the CPU traces. With `cg` and `jacobi` the device also predicts values.",
               .valueNames = "auto|cg|jacobi|cpu|eigen"},
     OptionRow{.name = "tolerance",
-              .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.solverOptions.tolerance),
               .range = aboveAndBelow(0, 1),
               .text = "Relative residual at which the solver stops",
@@ -434,7 +406,6 @@ const std::array kComputationRows{
                       "does not hide the residuals of other faces.",
               .placeholder = "R"},
     OptionRow{.name = "max-iterations",
-              .group = kExperimentGroup,
               .access = COMPUTATION_MEMBER(options.solverOptions.maxIterations),
               .range = {.min = 1},
               .text = "Greatest number of iterations of the solver",
@@ -455,19 +426,16 @@ const std::array kSessionRows{
                       "the CPU in double precision. auto: the first of these that is available",
               .valueNames = "auto|vulkan|cpu|reference"},
     OptionRow{.name = "device",
-              .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, device),
               .text = "Vulkan device: its number in --list-devices or a part of its name",
               .placeholder = "N|NAME",
               .defaultText = "the best",
               .keywordType = "str | int"},
     OptionRow{.name = "require-gpu",
-              .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, requireGpu),
               .text = "Fail if no GPU is usable",
               .more = "The exit code is then 3. CPU devices, `cpu` and `reference` are not used."},
     OptionRow{.name = "threads",
-              .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, threadCount),
               .range = fromTo(0, 1024),
               .text = "Number of CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on the "
@@ -484,7 +452,6 @@ const std::array kSessionRows{
               .valueNames = "auto|seed|ray|packet",
               .emptyIsAuto = true},
     OptionRow{.name = "fetch",
-              .group = kExperimentGroup,
               .access = ASDFVK_MEMBER(SessionSettings, variant.fetch),
               .text = "Vulkan: kind of buffers from which the kernels read the hierarchy",
               .keyword = "",
@@ -494,8 +461,15 @@ const std::array kSessionRows{
 
 }  // namespace
 
-OptionRows computationRows() { return kComputationRows; }
-OptionRows sessionRows() { return kSessionRows; }
+OptionRows computationRows() {
+  static const auto rows = withGroups(kComputationRows);
+  return rows;
+}
+
+OptionRows sessionRows() {
+  static const auto rows = withGroups(kSessionRows);
+  return rows;
+}
 
 std::string toText(const SeedCount& seeds) {
   if (seeds.kind == SeedCount::Kind::Automatic) return "auto";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -88,8 +89,8 @@ struct OptionRange {
 
 /// An option. target: the struct that the options of the table set, for example ComputationSettings.
 struct OptionRow {
-  const char* name;  ///< "time-budget"
-  const char* group;
+  const char* name;             ///< "time-budget"
+  const char* group = nullptr;  ///< Heading in the help; null: the group of the row before, see withGroups().
   OptionAccess access = {};
   OptionRange range = {};
   const char* text = "";         ///< Text of the help, without range, default and final full stop.
@@ -114,6 +115,14 @@ struct OptionRow {
 
 using OptionRows = std::span<const OptionRow>;
 
+/// Sets OptionRow::group in rows where it is null.
+template <size_t N>
+[[nodiscard]] std::array<OptionRow, N> withGroups(std::array<OptionRow, N> rows) {
+  for (size_t i = 1; i < N; ++i)
+    if (rows[i].group == nullptr) rows[i].group = rows[i - 1].group;
+  return rows;
+}
+
 /// Null if there is no such row.
 [[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
 
@@ -124,7 +133,7 @@ using OptionRows = std::span<const OptionRow>;
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
 /// Whether only the program has the option, not C and Python.
 [[nodiscard]] inline bool isOfProgram(const OptionRow& row) { return row.keyword != nullptr && *row.keyword == 0; }
-/// Names of the allowed values; empty if values have no names.
+/// The allowed values; empty if the values have no names.
 [[nodiscard]] ASDFVK_API std::vector<std::string> namesOf(const OptionRow& row);
 /// The placeholder, or the names of the values with bars between them. Empty for a flag.
 [[nodiscard]] ASDFVK_API std::string placeholderOf(const OptionRow& row);
