@@ -68,4 +68,5 @@ def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
 def skeleton_of(
     result: _core.ComputedFields, options: dict[str, Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-    return values_of(result, "centre", options), values_of(result, "sdf", options) / np.float32(2)
+    radii: NDArray[np.float32] = np.divide(values_of(result, "sdf", options), 2, dtype=np.float32)
+    return values_of(result, "centre", options), radii

@@ -64,9 +64,9 @@ def test_cell_arrays_of_vtk(with_line: bool) -> None:
 
 
 def test_datasets_without_faces_are_refused() -> None:
+    surface = _surface(True)  # Skips without VTK.
     with pytest.raises(asdf_vk.ArrayTypeError, match="extract its surface"):
         vtk.compute(np.zeros((3, 3)))
-    surface = _surface(True)
     surface.SetPolys(type(surface.GetPolys())())
     with pytest.raises(asdf_vk.InputError, match="no faces"):
         vtk.segment(surface)

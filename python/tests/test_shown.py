@@ -29,7 +29,9 @@ def numbers(page: Path, array: int, count: int) -> Any:
     found = re.search(f'<script type="[^"]*" id="array-{array}">(.*?)</script>', page.read_text(), re.DOTALL)
     assert found is not None
     planes = np.frombuffer(zlib.decompress(base64.b64decode(found[1])), "u1").reshape(-1, count)
-    stored = sum(plane.astype("u4") << 8 * i for i, plane in enumerate(planes))
+    stored = np.zeros(count, "u4")
+    for i, plane in enumerate(planes):
+        stored |= plane.astype("u4") << np.uint32(8 * i)
     return np.cumsum((stored >> 1).astype("i4") ^ -(stored & 1).astype("i4"), dtype="i4").astype("u4")
 
 
