@@ -44,7 +44,7 @@ std::span<const T> entriesOf(const py::array& array) {
   const bool isAligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
   if (!py::isinstance<py::array_t<T, py::array::c_style>>(array) || !isAligned)
     throw Error(ErrorCode::ArrayType,
-                "an array is not aligned, C-contiguous and of type " + std::string(py::str(py::dtype::of<T>())));
+                "an array must be aligned, C-contiguous and of type " + std::string(py::str(py::dtype::of<T>())));
   return {static_cast<const T*>(array.data()), static_cast<size_t>(array.size())};
 }
 

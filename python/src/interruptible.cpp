@@ -54,8 +54,8 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
-/// Threads that run tasks, as many as there were tasks at the same time. Threads are kept until the process ends,
-/// because TBB 2021.8 leaks about 10 KB at the end of a thread that used it while the processors were busy.
+/// Runs each task on a thread of its own. A thread is started only if no other is idle, and is kept until the process
+/// ends, because TBB 2021.8 leaks about 10 KB at the end of a thread that used it while the processors were busy.
 class Workers {
  public:
   /// `task` may be destroyed after its future is ready.

@@ -94,7 +94,8 @@ class Handles {
   std::map<const Object*, std::shared_ptr<Object>> objects_;
 };
 
-/// Never destroyed, because devices may be unusable at the end of the process.
+/// The table of all handles of a type. It is never destroyed, because its objects hold devices, which may be unusable
+/// at the end of the process.
 template <typename Object>
 [[nodiscard]] Handles<Object>& handles() {
   static auto* const table = new Handles<Object>(Object::kType);

@@ -101,7 +101,8 @@ class StagedEntries {
       for (std::vector<uint32_t>& count : counts) {
         total += std::exchange(count[run], static_cast<uint32_t>(total));
         if (total > UINT32_MAX)
-          throw Error(ErrorCode::MeshTooLarge, "the mesh has more connections than 32 bits can index");
+          throw Error(ErrorCode::MeshTooLarge,
+                      "the mesh is too large: a table of its vertices and faces needs more than 2^32 entries");
       }
     }
     runBegins_.push_back(static_cast<uint32_t>(total));

@@ -95,7 +95,7 @@ struct OptionRow {
   OptionRange range = {};
   const char* text = "";         ///< Text of the help, without range, default and final full stop.
   const char* more = "";         ///< Further sentences for the man page and docs/options.md.
-  const char* placeholder = "";  ///< Stands for the value in the help. Empty for flags and options with named values.
+  const char* placeholder = "";  ///< Stands for the value in the help. Empty for options without a value or with names.
   /// The option that this option needs, with allowed values: "measure=thickness|both", "thinner-than".
   const char* needs = "";
   const char* defaultText = nullptr;  ///< Shown instead of the default value.

@@ -43,8 +43,8 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 [[nodiscard]] std::vector<uint32_t> randomPermutationSeeds(std::span<const uint32_t> candidates, uint64_t count,
                                                            uint64_t randomSeed);
 
-/// Poisson-disk sampling of the dual graph in the distances of arcLengths(), see throwDarts(). The start radius is
-/// slightly larger than the estimated disk radius.
+/// Poisson-disk sampling of the dual graph in the distances of arcLengths(), see throwDarts(). The radius of
+/// the disks decreases from 1.25 times an estimate of the radius that gives `count` seeds.
 ///
 /// For some radius r no new seed is nearer than r to another seed, and no candidate of a component that has a seed is
 /// farther than (1 + 1/64) r from all seeds. The covering radius is therefore at most 2 (1 + 1/64) times the smallest

@@ -17,7 +17,7 @@ namespace asdfvk {
 
 struct CgalSegmentation {
   std::vector<uint32_t> clusters;  ///< #F, ascending by their mean value.
-  std::vector<uint32_t> segments;  ///< #F: the connected faces of one cluster, numbered by ascending mean value.
+  std::vector<uint32_t> segments;  ///< #F. Connected faces of one cluster are a segment. Ascending by mean value.
   uint32_t segmentCount = 0;
   double energy = 0;  ///< Energy of the clusters, see LabelProblem.
 };

@@ -16,8 +16,8 @@ bool isTraversedBothWays(const TriangleMesh& mesh, uint32_t first, uint32_t seco
   return mesh.faces[first / 3][first % 3] != mesh.faces[second / 3][second % 3];
 }
 
-/// The umbrella of a corner: the faces around its vertex that neighbours connect to its face. Returns the lowest corner
-/// (number 3 f + i) in the umbrella.
+/// The umbrella of a corner: its face, and the faces around its vertex that steps to a neighbour reach from this face.
+/// Returns the lowest corner (number 3 f + i) in the umbrella.
 uint32_t umbrellaOf(const TriangleMesh& mesh, const FaceNeighbours& neighbours, uint32_t corner) {
   const uint32_t vertex = mesh.faces[corner / 3][corner % 3];
   uint32_t lowest = corner;

@@ -80,7 +80,8 @@ class PartMerging {
     [[nodiscard]] uint32_t other(uint32_t region) const { return region == a ? b : a; }
   };
   /// Sums over the pairs of patches of two regions. seen: product of the areas, times the visibility. near: product of
-  /// the areas, times a weight that decreases with the distance. nearSeen: product of all three.
+  /// the areas, times a weight that decreases with the distance. nearSeen: product of areas, visibility
+  /// and this weight.
   struct PairSums {
     float seen = 0, nearSeen = 0, near = 0;
   };

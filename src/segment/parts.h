@@ -47,7 +47,7 @@ struct Parts {
 /// Numbers the parts by the mean of their values, weighted by area; parts without a value are the last. values: #F.
 void numberByValue(std::span<const double> values, Parts& parts);
 
-/// Share of the area below which components are not divided, and parts are merged.
+/// A share of the area of the mesh. Smaller components are not divided. Smaller parts are merged with a neighbour.
 inline constexpr double kMinPartArea = 0.01;
 
 /// Divides a mesh into parts. Components below kMinPartArea are small. If small components have at most 5 % of the area

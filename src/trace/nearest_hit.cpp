@@ -12,8 +12,9 @@ namespace {
 // margin of Ize 2013 does not cover a ray along a side of the box.
 constexpr double kBoxMargin = 1e-14;
 
-// Slabs ordered by the signs of the direction. A component of 0 is replaced by a number that is too small to move the
-// ray; the products of its inverse with box coordinates stay finite.
+// Test of a ray against boxes. The sign of the direction decides which side of a slab is the near one. A component of 0
+// is replaced by a number that is too small to move the ray; the products of its inverse with box coordinates stay
+// finite.
 struct SlabTest {
   Vec3d inverse, nearOrigin, farOrigin;
   std::array<bool, 3> isNegative{};
