@@ -307,12 +307,24 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
   return extremes;
 }
 
-/// #H: the values of the held-out faces, interpolated without them and without these extreme seeds.
+/// #H: the values of the held-out faces, interpolated without them and without these extreme seeds. NaN for a face
+/// without a traced value.
 std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extremes) {
+  std::vector<size_t> measured;  // Held-out faces without a traced value have no error.
+  std::vector<uint32_t> faces;
+  for (size_t i = 0; i < heldOut_.faces.size(); ++i) {
+    if (std::isnan(traced_.values[heldOut_.faces[i]])) continue;
+    measured.push_back(i);
+    faces.push_back(heldOut_.faces[i]);
+  }
   std::vector<uint32_t> unknown = heldOut_.faces;
   unknown.insert(unknown.end(), extremes.begin(), extremes.end());
   const HiddenValues hidden(traced_.values, std::move(unknown));
-  return interpolation_.valuesAt(heldOut_.faces, traced_.values, prediction_.last().values, result_.values);
+  const std::vector<double> values =
+      interpolation_.valuesAt(faces, traced_.values, prediction_.last().values, result_.values);
+  std::vector<double> ofHeldOut(heldOut_.faces.size(), kNoValue);
+  for (size_t i = 0; i < measured.size(); ++i) ofHeldOut[measured[i]] = values[i];
+  return ofHeldOut;
 }
 
 uint64_t Rounds::remainingCount() const {
