@@ -101,9 +101,9 @@ class RunBuilder {
 
   SplitBox build(size_t nodeIndex, std::span<SplitTriangle> triangles, uint32_t firstPrimitive, uint32_t level,
                  uint32_t depth) {
-    if (triangles.size() <= options_.maxLeafTriangleCount && options_.maxLeafTriangleCount == kMaxLeafTriangleCount)
-      return writeLeaf(nodeIndex, triangles, firstPrimitive, depth);
     if (triangles.size() <= kMaxSmallTreeCount) {
+      if (options_.maxLeafTriangleCount >= kMaxSmallTreeCount)
+        return writeLeaf(nodeIndex, triangles, firstPrimitive, depth);
       const SmallTree tree(triangles, options_.maxLeafTriangleCount);
       run_.depth = std::max(run_.depth, depth + tree[tree.root()].depth);
       write(tree, tree.root(), nodeIndex, triangles, firstPrimitive);
@@ -231,8 +231,7 @@ Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry, std::span<c
              const BvhOptions& options) {
   ASDFVK_CHECK_OP(representatives.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
-  ASDFVK_CHECK(options.maxLeafTriangleCount <= kMaxWideLeafTriangleCount ||
-               options.maxLeafTriangleCount == kMaxLeafTriangleCount);
+  ASDFVK_CHECK_OP(options.maxLeafTriangleCount, <=, kMaxLeafTriangleCount);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
   UnsetVector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);

@@ -35,11 +35,12 @@ struct Bvh {
 inline constexpr float kNodeCost = 1.0f;
 inline constexpr float kTriangleCost = 1.0f;
 
-/// A tracer of the CPU tests this many triangles at the same time.
+/// Greatest number of triangles in a leaf. Only the layout of the CPU (lane_bvh.h) takes leaves of more than
+/// kMaxWideLeafTriangleCount triangles.
 inline constexpr uint32_t kMaxLeafTriangleCount = 8;
 
 struct BvhOptions {
-  /// 1 to kMaxWideLeafTriangleCount, or kMaxLeafTriangleCount for tracers of the CPU only.
+  /// 1 to kMaxLeafTriangleCount.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
   uint32_t binCount = 16;  ///< Bins per axis, 2 to 32. Small sets of triangles use fewer bins.
 };

@@ -10,7 +10,8 @@
 namespace asdfvk {
 
 /// Boxes of a node, or triangles of a block, that are tested together against one ray.
-inline constexpr uint32_t kBvhLaneCount = kMaxLeafTriangleCount;
+inline constexpr uint32_t kBvhLaneCount = 8;
+static_assert(kMaxLeafTriangleCount <= kBvhLaneCount);
 
 /// A node of 256 bytes with up to eight children, in the slots that chooseSlots() assigns. In an empty slot the lower
 /// corner of the box is above the upper corner, so that no ray enters it.

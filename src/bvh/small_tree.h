@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-inline constexpr size_t kMaxSmallTreeCount = kMaxLeafTriangleCount;
+inline constexpr size_t kMaxSmallTreeCount = 8;
 
 /// A hierarchy over few triangles, built by agglomerative clustering (Meister and Bittner 2018, but with all clusters
 /// as candidates). Each pass merges the pairs of clusters that are mutual nearest neighbours. The distance of two

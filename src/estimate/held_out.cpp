@@ -11,23 +11,30 @@ namespace {
 class InclusionProbabilities {
  public:
   /// The sum of the probabilities is `count`. Precondition: it is below the number of candidates.
-  InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count)
-      : indicator_(indicator) {
+  InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
+                         std::span<const uint32_t> representedCounts)
+      : indicator_(indicator), representedCounts_(representedCounts) {
     for (bool grows = true; grows;) {  // Until no further probability reaches 1.
       double sum = 0, remaining = static_cast<double>(count);
       for (const uint32_t face : candidates)
         if (of(face) < 1)
-          sum += indicator[face];
+          sum += densityOf(face);
         else
           remaining -= 1;
       grows = remaining / sum > scale_;
       if (grows) scale_ = remaining / sum;
     }
   }
-  [[nodiscard]] double of(uint32_t face) const { return std::min(1.0, scale_ * indicator_[face]); }
+  [[nodiscard]] double of(uint32_t face) const { return std::min(1.0, scale_ * densityOf(face)); }
+  [[nodiscard]] double representedCount(uint32_t face) const {
+    return representedCounts_.empty() ? 1 : representedCounts_[face];
+  }
 
  private:
+  [[nodiscard]] double densityOf(uint32_t face) const { return indicator_[face] * representedCount(face); }
+
   std::span<const double> indicator_;
+  std::span<const uint32_t> representedCounts_;
   double scale_ = 0;
 };
 
@@ -61,15 +68,15 @@ void HeldOutFaces::append(const HeldOutFaces& further) {
 }
 
 HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
-                           uint64_t randomSeed) {
+                           uint64_t randomSeed, std::span<const uint32_t> representedCounts) {
   if (count >= candidates.size())
     return {{candidates.begin(), candidates.end()}, std::vector<double>(candidates.size(), 0.0)};
-  const InclusionProbabilities probabilities(candidates, indicator, count);
+  const InclusionProbabilities probabilities(candidates, indicator, count, representedCounts);
   const double candidatesPerFace = static_cast<double>(candidates.size()) / static_cast<double>(count);
   HeldOutFaces heldOut;
   heldOut.faces = samplePivotally(candidates, probabilities, Random(randomSeed));
   for (const uint32_t face : heldOut.faces)
-    heldOut.weights.push_back((1 / probabilities.of(face) - 1) / candidatesPerFace);
+    heldOut.weights.push_back((probabilities.representedCount(face) / probabilities.of(face) - 1) / candidatesPerFace);
   return heldOut;
 }
 

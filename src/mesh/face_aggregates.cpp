@@ -28,14 +28,15 @@ class AggregateGrower {
     members_.reserve(graph.faceCount());
   }
 
-  void grow(uint32_t centre, bool mayGrow) {
+  void grow(uint32_t centre) {
+    maxLength_ = limits_.lengths[limits_.componentOf[centre]];
     const size_t begin = members_.size();
     begins_.push_back(begin);
     const auto aggregate = static_cast<uint32_t>(aggregates_.centres.size());
     aggregates_.centres.push_back(centre);
     add(centre, aggregate);
     size_t next = begin;
-    for (uint32_t arc = 0; mayGrow && arc < limits_.arcCount; ++arc)
+    for (uint32_t arc = 0; maxLength_ > 0 && arc < limits_.arcCount; ++arc)
       for (const size_t end = members_.size(); next < end; ++next)
         for (const uint32_t neighbour : graph_.neighboursOf(members_[next]))
           if (aggregates_.aggregateOf[neighbour] == kNoAggregate && isWithinLimits(centre, neighbour))
@@ -55,9 +56,8 @@ class AggregateGrower {
     members_.push_back(face);
   }
   [[nodiscard]] bool isWithinLimits(uint32_t centre, uint32_t face) const {
-    const Vec3d between = geometry_.barycentres[face] - geometry_.barycentres[centre];
-    return dot(geometry_.normals[face], geometry_.normals[centre]) >= minCosine_ &&
-           dot(between, between) <= limits_.length * limits_.length;
+    const Vec3d between = (geometry_.barycentres[face] - geometry_.barycentres[centre]) / maxLength_;
+    return dot(geometry_.normals[face], geometry_.normals[centre]) >= minCosine_ && dot(between, between) <= 1;
   }
 
   const DualGraph& graph_;
@@ -67,6 +67,7 @@ class AggregateGrower {
   FaceAggregates& aggregates_;
   std::vector<uint32_t> members_;  // Of all aggregates, one after another.
   std::vector<size_t> begins_;     // Per aggregate.
+  double maxLength_ = 0;           // Of the current aggregate.
 };
 
 /// Sets aggregates.graph.
@@ -100,12 +101,12 @@ void connect(const DualGraph& graph, const AggregateGrower& grower, FaceAggregat
 }  // namespace
 
 FaceAggregates buildFaceAggregates(const DualGraph& graph, const FaceGeometry& geometry,
-                                   std::span<const uint8_t> mayGrow, const AggregateLimits& limits) {
-  ASDFVK_CHECK_OP(mayGrow.size(), ==, size_t{graph.faceCount()});
+                                   const AggregateLimits& limits) {
+  ASDFVK_CHECK_OP(limits.componentOf.size(), ==, size_t{graph.faceCount()});
   FaceAggregates aggregates;
   AggregateGrower grower(graph, geometry, limits, aggregates);
   for (uint32_t face = 0; face < graph.faceCount(); ++face)
-    if (aggregates.aggregateOf[face] == kNoAggregate) grower.grow(face, mayGrow[face] != 0);
+    if (aggregates.aggregateOf[face] == kNoAggregate) grower.grow(face);
   connect(graph, grower, aggregates);
   return aggregates;
 }
@@ -120,16 +121,17 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
   std::vector<double> next = values;
   for (int iteration = 0; iteration < kIterationCount; ++iteration, std::swap(values, next))
     forEachInParallel(values.size(), [&](uint32_t face) {
-      if (aggregates.isCentre(face)) return;
-      double sum = 0, weightSum = 0;
+      const double own = values[face];
+      if (aggregates.isCentre(face) || !std::isfinite(own)) return;
+      double sum = 0, weightSum = 0;  // Of differences, so that equal values remain equal.
       for (const uint32_t neighbour : graph.neighboursOf(face)) {
         if (!std::isfinite(values[neighbour])) continue;
         const double versine = 1 - dot(geometry.normals[face], geometry.normals[neighbour]);
         const double weight = 1 / (1 + perVersine * versine);
-        sum += weight * values[neighbour];
+        sum += weight * (values[neighbour] - own);
         weightSum += weight;
       }
-      if (weightSum > 0) next[face] = sum / weightSum;
+      if (weightSum > 0) next[face] = own + sum / weightSum;
     });
 }
 

@@ -25,12 +25,14 @@ struct FaceAggregates {
 /// Limits of an aggregate, measured from its centre.
 struct AggregateLimits {
   uint32_t arcCount = 0;  ///< Greatest number of arcs to a face.
-  double length = 0;      ///< Greatest distance to the barycentre of a face.
+  /// #components: greatest distance to the barycentre of a face. With 0 each face is an aggregate of its own.
+  std::span<const double> lengths;
+  std::span<const uint32_t> componentOf;  ///< #F: see Components.
 };
 
-/// mayGrow: #F; a face with 0 is an aggregate of its own. Linear time.
+/// Linear time.
 [[nodiscard]] FaceAggregates buildFaceAggregates(const DualGraph& graph, const FaceGeometry& geometry,
-                                                 std::span<const uint8_t> mayGrow, const AggregateLimits& limits);
+                                                 const AggregateLimits& limits);
 
 /// Sets the values of all faces that are not centres: Jacobi iterations of the harmonic interpolation on `graph`, which
 /// start from the value of the centre. Arcs over bent edges have small weights. values: #F, NaN = no value.

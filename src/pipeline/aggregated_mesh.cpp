@@ -9,28 +9,30 @@
 namespace asdfvk {
 namespace {
 
-// Measured on generated shapes of 200,000 to 1,500,000 faces (docs/experiments.md).
-constexpr uint64_t kMinFaceCount = 1u << 17, kMinFacesPerSeed = 8;
+// Measured on generated shapes of 200,000 to 1,500,000 faces (docs/experiments.md). Coarser meshes lose extreme values.
+constexpr uint64_t kMinFaceCount = 1u << 18, kMinFacesPerSeed = 8;
 // All centres of a small component might have no valid ray.
 constexpr uint64_t kMinComponentSize = 1000;
 constexpr uint32_t kMaxArcCount = 2;
-constexpr double kMaxLength = 0.002;  // Unit: diagonal of the bounding box.
+constexpr double kMaxLength = 0.002;  // Unit: diagonal of the bounding box of the component.
 // Without so many aggregates per seed, or faces per aggregate, the aggregates are not used.
 constexpr uint64_t kMinAggregatesPerSeed = 2;
 constexpr double kMinFacesPerAggregate = 1.5;
 
-/// #F: whether the face is in a component with many faces.
-std::vector<uint8_t> facesOfLargeComponents(const Components& components) {
-  std::vector<uint64_t> sizes(components.components.size(), 0);
-  for (const uint32_t component : components.componentOf) ++sizes[component];
-  std::vector<uint8_t> isLarge(components.componentOf.size());
-  forEachInParallel(isLarge.size(), [&](uint32_t face) {
-    isLarge[face] = sizes[components.componentOf[face]] >= kMinComponentSize ? 1 : 0;
-  });
-  return isLarge;
+/// #components: AggregateLimits::lengths.
+std::vector<double> lengthLimits(const PreparedMesh& prepared) {
+  const auto& [componentOf, components] = prepared.components;
+  std::vector<Box3d> boxes(components.size());
+  for (size_t face = 0; face < componentOf.size(); ++face)
+    if (const Vec3d& place = prepared.geometry.barycentres[face]; isFinite(place)) boxes[componentOf[face]].add(place);
+  std::vector<double> limits(components.size(), 0);
+  for (size_t i = 0; i < limits.size(); ++i)
+    if (components[i].faceCount >= kMinComponentSize) limits[i] = kMaxLength * length(boxes[i].size());
+  return limits;
 }
 
-/// The graph of the aggregates with faces as nodes. Only centres have arcs.
+/// The graph of the aggregates with faces as nodes. Only centres have arcs, in the order of aggregates.graph, so that
+/// both graphs have the same weights.
 DualGraph onCentres(const FaceAggregates& aggregates) {
   DualGraph graph;
   graph.offsets.reserve(aggregates.aggregateOf.size() + 1);
@@ -47,8 +49,8 @@ DualGraph onCentres(const FaceAggregates& aggregates) {
 
 AggregatedMesh::AggregatedMesh(const PreparedMesh& prepared)
     : prepared_(prepared),
-      aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry, facesOfLargeComponents(prepared.components),
-                                      {kMaxArcCount, kMaxLength * length(prepared.geometry.bounds.size())})),
+      aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry,
+                                      {kMaxArcCount, lengthLimits(prepared), prepared.components.componentOf})),
       graph_(onCentres(aggregates_)),
       componentOf_(prepared.mesh.faces.size(), static_cast<uint32_t>(prepared.components.components.size())) {
   for (const uint32_t centre : aggregates_.centres) componentOf_[centre] = prepared.components.componentOf[centre];
@@ -63,6 +65,18 @@ std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared
   const uint64_t centreCount = aggregated->domain().traceableFaces.size();
   const bool savesTime = static_cast<double>(faceCount) >= kMinFacesPerAggregate * static_cast<double>(centreCount);
   return savesTime && centreCount >= kMinAggregatesPerSeed * seedCount ? std::move(aggregated) : nullptr;
+}
+
+std::vector<uint32_t> AggregatedMesh::representedCounts() const {
+  std::vector<uint32_t> counts(componentOf_.size(), 0);
+  for (size_t i = 0; i < aggregates_.centres.size(); ++i) counts[aggregates_.centres[i]] = aggregates_.sizes[i];
+  return counts;
+}
+
+void AggregatedMesh::spread(std::vector<double>& values, std::vector<double>& indicator) const {
+  spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, values);
+  for (size_t face = 0; face < indicator.size(); ++face)
+    indicator[face] = indicator[aggregates_.centreOf(static_cast<uint32_t>(face))];
 }
 
 }  // namespace asdfvk

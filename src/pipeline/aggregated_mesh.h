@@ -18,10 +18,11 @@ class AggregatedMesh {
     return {graph_, componentOf_, prepared_.components.components.size() + 1, traceableFaces_, {}, this};
   }
   [[nodiscard]] const FaceAggregates& aggregates() const { return aggregates_; }
-  /// Replaces the values of the faces that are not centres, see spreadFromCentres().
-  void spread(std::vector<double>& values) const {
-    spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, values);
-  }
+  /// #F: the number of faces that a centre represents; 0 for other faces.
+  [[nodiscard]] std::vector<uint32_t> representedCounts() const;
+  /// Sets the values of the faces that are not centres, see spreadFromCentres(). Their indicator, #F or empty, becomes
+  /// that of their centre.
+  void spread(std::vector<double>& values, std::vector<double>& indicator) const;
 
  private:
   const PreparedMesh& prepared_;

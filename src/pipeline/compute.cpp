@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -125,7 +126,17 @@ std::vector<double> finalValues(const FaceDomain& domain, const std::vector<doub
                            smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
 }
 
-/// Calls runRounds(), on fine meshes for the centres of aggregates only.
+/// Whether a component without a value has faces that could cast rays and did not.
+bool losesComponent(const FaceDomain& domain, const TracedSeeds& traced) {
+  std::vector<uint8_t> hasValue(domain.componentCount, 0);
+  for (const uint32_t face : traced.faces)
+    if (std::isfinite(traced.values[face])) hasValue[domain.componentOf[face]] = 1;
+  return std::any_of(domain.traceableFaces.begin(), domain.traceableFaces.end(),
+                     [&](uint32_t face) { return !traced.isSeed[face] && hasValue[domain.componentOf[face]] == 0; });
+}
+
+/// Calls runRounds(), on fine meshes for the centres of aggregates only. If these leave a component without a value,
+/// calls it for all faces.
 RoundsResult runRoundsOnAggregates(const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
                                    const RunControl& control) {
   const auto run = [&](const Computation& on) {
@@ -138,14 +149,19 @@ RoundsResult runRoundsOnAggregates(const Computation& computation, KeptTracers& 
   if (!mayAggregate) return run(computation);
   const uint64_t seedCount = resolveSeedCount(options, domain.traceableFaces.size());
   const std::unique_ptr<const AggregatedMesh> aggregated = [&] {
-    const auto scope = clock.time(Stage::Sample);
-    return aggregatesFor(prepared, seedCount);
+    const auto scope = computation.clock.time(Stage::Sample);
+    return aggregatesFor(computation.prepared, seedCount);
   }();
   if (!aggregated) return run(computation);
   const FaceDomain centres = aggregated->domain();
   Options counted = options;  // A share would be a share of the centres.
   counted.seeds = SeedCount::ofCount(seedCount);
-  return run({counted, prepared, centres, scene, cone, backend, solvers, clock, warnings});
+  control.checkpoint(0);
+  RoundsResult rounds = run({counted, prepared, centres, scene, cone, backend, solvers, clock, warnings});
+  if (!losesComponent(domain, rounds.traced)) return rounds;
+  if (releasedBvh != nullptr && releasedBvh->nodes.empty())
+    *releasedBvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives, bvhOptionsFor(backend));
+  return run(computation);
 }
 
 /// releasedBvh: see SeedTracing.

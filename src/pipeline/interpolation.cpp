@@ -130,7 +130,8 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
   return problem;
 }
 
-/// Solves the equation of the aggregates, which has no rows for the other faces. problem: of all faces.
+/// Solves the equation of the aggregates, which has no rows for the other faces. problem: of all faces, without
+/// divergence.
 SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vector<double>& values,
                                            const RunControl& control) {
   const FaceAggregates& aggregates = domain_.aggregated->aggregates();
@@ -147,7 +148,7 @@ SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vec
                                             {.constraints = constraints,
                                              .firstGuess = atCentres(std::span(std::as_const(problem.firstGuess))),
                                              .guide = guide,
-                                             .divergence = atCentres(std::span(std::as_const(problem.divergence))),
+                                             .divergence = {},
                                              .componentOf = componentOf},
                                             solved, control);
   values.assign(problem.constraints.begin(), problem.constraints.end());

@@ -182,9 +182,7 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double>
   interpolation_.pool(prediction_.last().values, result_.values);
   if (const AggregatedMesh* const aggregated = computation_.domain.aggregated) {
     const auto scope = clock_.time(Stage::Solve);
-    aggregated->spread(result_.values);
-    for (size_t face = 0; face < indicator.size(); ++face)
-      indicator[face] = indicator[aggregated->aggregates().centreOf(face)];
+    aggregated->spread(result_.values, indicator);
   }
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
@@ -285,18 +283,10 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
         ++extreme;
       else if (!traced_.isSeed[face])
         candidates.push_back(face);
-    const uint64_t sampleSeed = heldOutSeed(options_.randomSeed, heldOut_.faces.size());
-    if (const AggregatedMesh* const aggregated =
-            computation_.domain.aggregated) {  // A centre represents its aggregate.
-      const FaceAggregates& aggregates = aggregated->aggregates();
-      const auto sizeOf = [&](uint32_t centre) { return aggregates.sizes[aggregates.aggregateOf[centre]]; };
-      std::vector<double> ofAggregate(indicator.begin(), indicator.end());
-      for (const uint32_t centre : candidates) ofAggregate[centre] *= sizeOf(centre);
-      heldOut = sampleHeldOut(candidates, ofAggregate, shares.heldOut, sampleSeed);
-      for (size_t i = 0; i < heldOut.faces.size(); ++i) heldOut.weights[i] *= sizeOf(heldOut.faces[i]);
-    } else {
-      heldOut = sampleHeldOut(candidates, indicator, shares.heldOut, sampleSeed);
-    }
+    const AggregatedMesh* const aggregated = computation_.domain.aggregated;
+    const std::vector<uint32_t> counts = aggregated ? aggregated->representedCounts() : std::vector<uint32_t>();
+    heldOut = sampleHeldOut(candidates, indicator, shares.heldOut,
+                            heldOutSeed(options_.randomSeed, heldOut_.faces.size()), counts);
     faces = extremes;
     faces.insert(faces.end(), heldOut.faces.begin(), heldOut.faces.end());
   }

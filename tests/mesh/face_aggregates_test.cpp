@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -14,17 +13,18 @@
 namespace {
 using namespace asdfvk;
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = 1e9;
 
 struct AggregatedShape {
   Mesh mesh;
   FaceGeometry geometry = computeFaceGeometry(mesh);
   DualGraph graph = buildDualGraph(mesh);
-  std::vector<uint8_t> mayGrow = std::vector<uint8_t>(mesh.faces.size(), 1);
+  std::vector<uint32_t> componentOf = std::vector<uint32_t>(mesh.faces.size(), 0);
 
   explicit AggregatedShape(Mesh shape) : mesh(std::move(shape)) {}
   [[nodiscard]] FaceAggregates aggregates(uint32_t arcCount, double length = kUnlimited) const {
-    return buildFaceAggregates(graph, geometry, mayGrow, {arcCount, length});
+    const std::vector<double> lengths{length, 0};
+    return buildFaceAggregates(graph, geometry, {arcCount, lengths, componentOf});
   }
 };
 
@@ -91,14 +91,15 @@ TEST_CASE("aggregates are a partition within their limits, and their arcs are th
     }
 }
 
-TEST_CASE("aggregates do not cross sharp edges, and faces that may not grow are aggregates of their own") {
+TEST_CASE(
+    "aggregates do not cross sharp edges, and faces of a component without a length are aggregates of their own") {
   AggregatedShape shape(shapes::box({1, 1, 1}, 6));
   for (uint32_t face = 0; face < shape.mesh.faces.size(); ++face)
-    shape.mayGrow[face] = shape.geometry.barycentres[face].z > 0 ? 1 : 0;
+    shape.componentOf[face] = shape.geometry.barycentres[face].z > 0 ? 0 : 1;
   const FaceAggregates aggregates = shape.aggregates(3);
   for (uint32_t face = 0; face < shape.mesh.faces.size(); ++face) {
     CHECK(dot(shape.geometry.normals[face], shape.geometry.normals[aggregates.centreOf(face)]) > 0.99);
-    if (aggregates.isCentre(face) && shape.mayGrow[face] == 0)
+    if (aggregates.isCentre(face) && shape.componentOf[face] == 1)
       CHECK(aggregates.sizes[aggregates.aggregateOf[face]] == 1);
   }
 }
@@ -122,7 +123,7 @@ TEST_CASE("values are spread smoothly, not across sharp edges, and not over face
   }
   CHECK(spread < 0.6 * ofAggregate);
 
-  values.assign(values.size(), std::numeric_limits<double>::quiet_NaN());
+  values.assign(values.size(), kNoValue);
   values[aggregates.centres.front()] = 3;
   spreadFromCentres(cube.graph, cube.geometry, aggregates, values);
   for (uint32_t face = 0; face < values.size(); ++face) {

@@ -15,7 +15,7 @@ using test::averageError;
 
 namespace {
 
-constexpr uint64_t kFineFaceCount = 160'000;
+constexpr uint64_t kFineFaceCount = 300'000;
 
 Session& cpuSession() { return *test::allSessions().back(); }
 
@@ -43,13 +43,17 @@ Result withoutAggregates(Scene& scene, size_t faceCount, const Options& options)
 
 TEST_CASE("fine meshes have aggregates, others do not") {
   const Mesh fine = makeAnimal(kFineFaceCount).mesh;
-  REQUIRE(fine.faces.size() > 140'000);
+  REQUIRE(fine.faces.size() > 280'000);
   CHECK(hasAggregates(fine, 0.1));
   CHECK(hasAggregates(fine, 0.01));
   CHECK_FALSE(hasAggregates(fine, 0.2));  // Too many seeds.
-  CHECK_FALSE(hasAggregates(makeAnimal(60'000).mesh, 0.01));
+  CHECK_FALSE(hasAggregates(makeAnimal(200'000).mesh, 0.01));
+  Mesh animals;  // Coarse, although the mesh has many faces.
+  for (int i = 0; i < 20; ++i) animals = shapes::joined(std::move(animals), makeAnimal(15'000).mesh, {3.0 * i, 0, 0});
+  REQUIRE(animals.faces.size() > 280'000);
+  CHECK_FALSE(hasAggregates(animals, 0.01));
   Mesh spheres;  // Components of 80 faces, whose faces are their own aggregates.
-  for (int i = 0; i < 1700; ++i) spheres = shapes::joined(std::move(spheres), makeSphere(80, 1).mesh, {3.0 * i, 0, 0});
+  for (int i = 0; i < 3500; ++i) spheres = shapes::joined(std::move(spheres), makeSphere(80, 1).mesh, {3.0 * i, 0, 0});
   CHECK_FALSE(hasAggregates(spheres, 0.01));
 }
 
@@ -93,4 +97,23 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   const Result onDevice = test::vulkanSession().compute(mesh, options);
   CHECK(onDevice.report.solver.name == "cg");
   CHECK(averageError(onDevice.sdf(), onCpu.sdf()) < 2e-4);
+}
+
+TEST_CASE("a component whose centres have no valid ray has the value of another face") {
+  Mesh mesh = shapes::grid(380);
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  const auto aggregated = aggregatesFor(prepared, 1000);
+  REQUIRE(aggregated);
+  auto face = static_cast<uint32_t>(mesh.faces.size() / 2);
+  while (aggregated->aggregates().isCentre(face)) ++face;
+  // Below the sheet, a triangle that only the rays of this face hit.
+  const Vec3d place = prepared.geometry.barycentres[face] - Vec3d{0, 0, 0.05};
+  const auto first = static_cast<uint32_t>(mesh.vertices.size());
+  for (const Vec3d& offset : {Vec3d{-0.04, -0.04, 0}, Vec3d{0.08, 0, 0}, Vec3d{0, 0.08, 0}})
+    mesh.vertices.push_back(place + offset);
+  mesh.faces.push_back({first, first + 2, first + 1});
+  const Result result = cpuSession().compute(mesh, seedsOf(0.01));
+  CHECK(result.seed()[face] == 1);
+  CHECK(result.sdf()[face] == doctest::Approx(0.05).epsilon(0.05));
+  CHECK(result.report.noValueCount <= 1);
 }
