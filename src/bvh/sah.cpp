@@ -9,8 +9,8 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxBinCount = 32;
-// Triangles of the sample, taken at a constant stride. The best split of the sample is nearly as good as the best split
-// of all triangles.
+// Number of triangles in the sample. Every n-th triangle is in the sample. The best split of the sample is nearly as
+// good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
 struct Bin {

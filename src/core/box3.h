@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An axis-aligned box; empty (min > max) until something is added. Coordinates may be any finite numbers of T. A size
-/// or diagonal that would overflow is the largest number of T.
+/// An axis-aligned box; empty (min > max) until something is added. Coordinates may be any finite numbers of T. If a
+/// size or a diagonal would overflow, the result is the largest number of T.
 template <typename T>
 struct Box3 {
   Vec3<T> min{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),

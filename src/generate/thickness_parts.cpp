@@ -35,7 +35,7 @@ ThicknessPart makeWedge(double firstHeight, double lastHeight) {
           .sharpLength = 20};
 }
 
-/// A wedge with a sharp edge. Far from that edge, a pocket has a floor 0.7 thick.
+/// A wedge with a sharp edge. Far from this edge is a pocket; its floor is 0.7 thick.
 ThicknessPart makeBlade() {
   constexpr std::array<double, 4> kXs{0, 45, 55, 60}, kYs{0, 6, 14, 20};
   const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
 
@@ -25,35 +26,31 @@ class AggregateGrower {
                   FaceAggregates& aggregates)
       : graph_(graph), geometry_(geometry), limits_(limits), aggregates_(aggregates) {
     aggregates.aggregateOf.assign(graph.faceCount(), kNoAggregate);
-    members_.reserve(graph.faceCount());
+    members_.entries.reserve(graph.faceCount());
   }
 
   void grow(uint32_t centre) {
     maxLength_ = limits_.lengths[limits_.componentOf[centre]];
-    const size_t begin = members_.size();
-    begins_.push_back(begin);
     const auto aggregate = static_cast<uint32_t>(aggregates_.centres.size());
     aggregates_.centres.push_back(centre);
     add(centre, aggregate);
-    size_t next = begin;
+    size_t next = members_.offsets.back();
     for (uint32_t arc = 0; maxLength_ > 0 && arc < limits_.arcCount; ++arc)
-      for (const size_t end = members_.size(); next < end; ++next)
-        for (const uint32_t neighbour : graph_.neighboursOf(members_[next]))
+      for (const size_t end = members_.entries.size(); next < end; ++next)
+        for (const uint32_t neighbour : graph_.neighboursOf(members_.entries[next]))
           if (aggregates_.aggregateOf[neighbour] == kNoAggregate && isWithinLimits(centre, neighbour))
             add(neighbour, aggregate);
-    aggregates_.sizes.push_back(static_cast<uint32_t>(members_.size() - begin));
+    members_.offsets.push_back(static_cast<uint32_t>(members_.entries.size()));
+    aggregates_.sizes.push_back(static_cast<uint32_t>(members_[aggregate].size()));
   }
 
-  /// The faces of an aggregate.
-  [[nodiscard]] std::span<const uint32_t> membersOf(size_t aggregate) const {
-    const size_t end = aggregate + 1 < begins_.size() ? begins_[aggregate + 1] : members_.size();
-    return {members_.data() + begins_[aggregate], members_.data() + end};
-  }
+  /// The faces of each aggregate, the centre first.
+  [[nodiscard]] const Buckets<uint32_t>& members() const { return members_; }
 
  private:
   void add(uint32_t face, uint32_t aggregate) {
     aggregates_.aggregateOf[face] = aggregate;
-    members_.push_back(face);
+    members_.entries.push_back(face);
   }
   [[nodiscard]] bool isWithinLimits(uint32_t centre, uint32_t face) const {
     const Vec3d between = (geometry_.barycentres[face] - geometry_.barycentres[centre]) / maxLength_;
@@ -65,13 +62,12 @@ class AggregateGrower {
   const AggregateLimits limits_;
   const double minCosine_ = std::cos(inRadians(kMaxAngleDegrees));
   FaceAggregates& aggregates_;
-  std::vector<uint32_t> members_;  // Of all aggregates, one after another.
-  std::vector<size_t> begins_;     // Per aggregate.
-  double maxLength_ = 0;           // Of the current aggregate.
+  Buckets<uint32_t> members_{{0}, {}};
+  double maxLength_ = 0;  // Of the current aggregate.
 };
 
 /// Sets aggregates.graph.
-void connect(const DualGraph& graph, const AggregateGrower& grower, FaceAggregates& aggregates) {
+void connect(const DualGraph& graph, const Buckets<uint32_t>& members, FaceAggregates& aggregates) {
   constexpr uint32_t kBlockSize = 4096;
   const auto aggregateCount = static_cast<uint32_t>(aggregates.centres.size());
   std::vector<std::vector<uint32_t>> blocks((aggregateCount + kBlockSize - 1) / kBlockSize);
@@ -82,7 +78,7 @@ void connect(const DualGraph& graph, const AggregateGrower& grower, FaceAggregat
     for (auto aggregate = static_cast<uint32_t>(block) * kBlockSize;
          aggregate < std::min((static_cast<uint32_t>(block) + 1) * kBlockSize, aggregateCount); ++aggregate) {
       const auto begin = static_cast<std::ptrdiff_t>(rows.size());
-      for (const uint32_t face : grower.membersOf(aggregate))
+      for (const uint32_t face : members[aggregate])
         for (const uint32_t neighbour : graph.neighboursOf(face))
           if (aggregates.aggregateOf[neighbour] != aggregate) rows.push_back(aggregates.aggregateOf[neighbour]);
       std::sort(rows.begin() + begin, rows.end());
@@ -107,7 +103,7 @@ FaceAggregates buildFaceAggregates(const DualGraph& graph, const FaceGeometry& g
   AggregateGrower grower(graph, geometry, limits, aggregates);
   for (uint32_t face = 0; face < graph.faceCount(); ++face)
     if (aggregates.aggregateOf[face] == kNoAggregate) grower.grow(face);
-  connect(graph, grower, aggregates);
+  connect(graph, grower.members(), aggregates);
   return aggregates;
 }
 

@@ -148,10 +148,11 @@ RoundsResult runRoundsOnAggregates(const Computation& computation, KeptTracers& 
                             !options.rounds.areSet() && domain.inputFaces.empty() && !domain.traceableFaces.empty();
   if (!mayAggregate) return run(computation);
   const uint64_t seedCount = resolveSeedCount(options, domain.traceableFaces.size());
-  const std::unique_ptr<const AggregatedMesh> aggregated = [&] {
-    const auto scope = computation.clock.time(Stage::Sample);
-    return aggregatesFor(computation.prepared, seedCount);
-  }();
+  std::unique_ptr<const AggregatedMesh> aggregated;
+  {
+    const auto scope = clock.time(Stage::Sample);
+    aggregated = aggregatesFor(prepared, seedCount);
+  }
   if (!aggregated) return run(computation);
   const FaceDomain centres = aggregated->domain();
   Options counted = options;  // A share would be a share of the centres.

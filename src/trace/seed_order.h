@@ -32,8 +32,8 @@ class SeedOrder {
 };
 
 /// A permutation of the indices into `starts` that orders them along a space-filling curve (Morton 1966), because
-/// neighbouring cones traverse the same nodes. Origins outside of the normalised box are sorted like the nearest point
-/// in it.
+/// neighbouring cones traverse the same nodes. An origin outside of the normalised box has the place of
+/// the nearest point of the box.
 [[nodiscard]] std::vector<uint32_t> spatialOrder(std::span<const ConeStart> starts);
 
 }  // namespace asdfvk

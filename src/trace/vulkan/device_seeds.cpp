@@ -13,7 +13,8 @@
 namespace asdfvk {
 namespace {
 
-// If at least 1 / kMinDenseShare of the faces are seeds, seeds are collected instead of sorted.
+// If at least 1 / kMinDenseShare of the faces are seeds, the seeds are ordered by an array over all faces, not by a
+// sort.
 constexpr uint32_t kMinDenseShare = 8;
 
 uint32_t codeOf(const TraceScene& scene, uint32_t face, uint32_t triangle) {
