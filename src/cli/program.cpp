@@ -1,7 +1,6 @@
 #include "cli/program.h"
 
 #include <fmt/core.h>
-#include <malloc.h>
 
 #include <algorithm>
 
@@ -13,22 +12,12 @@
 #include "cli/one_mesh.h"
 #include "cli/options.h"
 #include "cli/report.h"
+#include "process/heap.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 
 namespace asdfvk {
 namespace {
-
-/// Bytes of unused memory at the end of the heap that are not returned to the kernel.
-constexpr int kKeptBytes = 128 << 20;
-
-/// Makes the allocator reuse freed memory, because the kernel needs time to clear each new page. All threads share one
-/// heap, so that a thread can reuse memory that another thread freed.
-void keepFreedMemory() {
-  ::mallopt(M_MMAP_MAX, 0);
-  ::mallopt(M_ARENA_MAX, 1);
-  ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
-}
 
 /// Prints the devices. Returns Device if a GPU is required and none is usable, else Done.
 ExitCode printDevices(bool requireGpu, bool asJson) {
@@ -120,7 +109,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
 
 ExitCode runProgram(const std::vector<std::string>& arguments) {
   secureStandardStreams();
-  keepFreedMemory();
+  configureHeap();
   try {
     return runCommand(arguments);
   } catch (...) {
