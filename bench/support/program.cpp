@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "asdf_vk/error.h"
+#include "process/heap.h"
 
 namespace asdfvk::bench {
 namespace {
@@ -139,6 +140,7 @@ int Program::run(int argc, char** argv, const std::function<void(const RunContro
   } catch (const CLI::ParseError& error) {
     return app_->exit(error) == 0 ? 0 : exitCodeOf(ErrorKind::Usage);
   }
+  configureHeap();  // As the program: benchmarks measure what its users wait for.
   int exitCode = kFailureExitCode;
   try {
     const SignalWaiter signals;
