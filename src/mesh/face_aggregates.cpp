@@ -14,7 +14,10 @@ namespace {
 
 constexpr double kMaxAngleDegrees = 10;  // Between the normals of a face and of the centre of its aggregate.
 constexpr double kBentAngleDegrees = 5;  // At this angle between two faces the weight of an arc is 1/2.
-constexpr int kIterationCount = 4;       // Eight iterations lower the error by 1 % (docs/experiments.md).
+// Two sweeps with this relaxation are as accurate as four Jacobi iterations (docs/experiments.md).
+constexpr int kSweepCount = 2;
+constexpr double kRelaxation = 1.2;
+constexpr size_t kSweepBlockSize = 4096;  // A sweep reads the new values of faces of the same block only.
 constexpr uint32_t kNoAggregate = 0xffffffff;
 
 double inRadians(double degrees) { return degrees * (std::numbers::pi / 180); }
@@ -114,20 +117,30 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
   forEachInParallel(values.size(), [&](uint32_t face) {
     if (!aggregates.isCentre(face)) values[face] = values[aggregates.centreOf(face)];
   });
-  std::vector<double> next = values;
-  for (int iteration = 0; iteration < kIterationCount; ++iteration, std::swap(values, next))
-    forEachInParallel(values.size(), [&](uint32_t face) {
-      const double own = values[face];
-      if (aggregates.isCentre(face) || !std::isfinite(own)) return;
-      double sum = 0, weightSum = 0;  // Of differences, so that equal values remain equal.
-      for (const uint32_t neighbour : graph.neighboursOf(face)) {
-        if (!std::isfinite(values[neighbour])) continue;
-        const double versine = 1 - dot(geometry.normals[face], geometry.normals[neighbour]);
-        const double weight = 1 / (1 + perVersine * versine);
-        sum += weight * (values[neighbour] - own);
-        weightSum += weight;
-      }
-      if (weightSum > 0) next[face] = own + sum / weightSum;
+  std::vector<double> next(values.size());
+  const auto relax = [&](uint32_t face, uint32_t begin, uint32_t end) {
+    const double own = values[face];
+    double sum = 0, weightSum = 0;  // Of differences, so that equal values remain equal.
+    double least = 0, greatest = 0;
+    for (const uint32_t neighbour : graph.neighboursOf(face)) {
+      const double difference = (neighbour >= begin && neighbour < end ? next : values)[neighbour] - own;
+      if (!std::isfinite(difference)) continue;
+      const double versine = 1 - dot(geometry.normals[face], geometry.normals[neighbour]);
+      const double weight = 1 / (1 + perVersine * versine);
+      sum += weight * difference;
+      weightSum += weight;
+      least = std::min(least, difference);
+      greatest = std::max(greatest, difference);
+    }
+    if (weightSum > 0) next[face] = own + std::clamp(kRelaxation * sum / weightSum, least, greatest);
+  };
+  for (int sweep = 0; sweep < kSweepCount; ++sweep, std::swap(values, next))
+    forEachTask((values.size() + kSweepBlockSize - 1) / kSweepBlockSize, [&](size_t block) {
+      const size_t begin = block * kSweepBlockSize, end = std::min(begin + kSweepBlockSize, values.size());
+      std::copy_n(&values[begin], end - begin, &next[begin]);
+      for (size_t face = begin; face < end; ++face)
+        if (!aggregates.isCentre(static_cast<uint32_t>(face)) && std::isfinite(values[face]))
+          relax(static_cast<uint32_t>(face), static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
     });
 }
 

@@ -34,8 +34,9 @@ struct AggregateLimits {
 [[nodiscard]] FaceAggregates buildFaceAggregates(const DualGraph& graph, const FaceGeometry& geometry,
                                                  const AggregateLimits& limits);
 
-/// Sets the values of all faces that are not centres: Jacobi iterations of the harmonic interpolation on `graph`, which
-/// start from the value of the centre. Arcs over bent edges have small weights. values: #F, NaN = no value.
+/// Sets the values of all faces that are not centres: relaxation sweeps of the harmonic interpolation on `graph`, which
+/// start from the value of the centre. Arcs over bent edges have small weights. The values remain between those of the
+/// neighbours. The result does not depend on the number of threads. values: #F, NaN = no value.
 void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, const FaceAggregates& aggregates,
                        std::vector<double>& values);
 
