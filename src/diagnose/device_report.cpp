@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/stopwatch.h"
+#include "mesh/arc_angles.h"
 #include "pipeline/backend.h"
 #include "pipeline/generated_mesh.h"
 #include "poisson/poisson_solver.h"
@@ -109,7 +110,7 @@ void testOther(DeviceReport& report, const std::string& name, const TestTorus& t
 struct TestEquation {
   explicit TestEquation(const TestTorus& test)
       : graph(test.scene.prepared.graph),
-        weights(arcWeights(ArcWeights::Feature, graph, test.scene.prepared.geometry)),
+        weights(featureWeights(arcAngles(graph, test.scene.prepared.geometry))),
         constraints(graph.faceCount(), kNoValue),
         componentOf(graph.faceCount(), 0) {
     for (size_t f = 0; f < constraints.size(); f += 8)

@@ -8,6 +8,7 @@
 #include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "mesh/dual_graph.h"
 
 namespace asdfvk {
 namespace {
@@ -29,17 +30,6 @@ double angleAt(const Vec3d& apex, const Vec3d& b, const Vec3d& c) {
 }
 
 }  // namespace
-
-double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
-  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
-  const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
-  // The arc tangent is accurate for small angles, unlike the arc cosine.
-  const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
-  // The barycentres are halved, so that their difference does not overflow.
-  const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;
-  const bool isConcave = dot(ofF, between) > 0 && dot(ofG, between) < 0;
-  return isConcave ? angle : -angle;
-}
 
 std::vector<double> vertexAngleDefects(const TriangleMesh& mesh) {
   const auto takesPart = [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); };

@@ -1,19 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "mesh/dual_graph.h"
-#include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
-
-/// The angle in radians between the normals of two neighbouring faces: 0 for coplanar faces, up to pi for faces folded
-/// onto each other, positive on a concave edge, negative on a convex edge. An edge is concave where the barycentre of
-/// each face is in front of the plane of the other; an edge between faces of opposite winding is never concave. 0 where
-/// a face is degenerate. The result has the same bits if the faces are swapped.
-[[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
 
 /// Discrete Gaussian curvature of each vertex: its angle defect in radians, 2 pi minus the sum of the angles of its
 /// faces, or pi minus the sum at a boundary vertex (Meyer, Desbrun, Schroeder and Barr 2003, not divided by an area).

@@ -107,7 +107,10 @@ std::vector<double> Interpolation::valuesAt(std::span<const uint32_t> faces, std
 }
 
 std::span<const double> Interpolation::weights() {
-  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, domain_.graph, prepared_.geometry);
+  if (weights_.empty())
+    weights_ = options_.interpolation.weights == ArcWeights::Feature
+                   ? featureWeights(arcAngles_.get())
+                   : distanceWeights(domain_.graph, prepared_.geometry);
   return weights_;
 }
 

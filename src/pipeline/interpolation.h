@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/options.h"
+#include "mesh/arc_angles.h"
 #include "pipeline/equation_solver.h"
 #include "pipeline/face_domain.h"
 #include "pipeline/prepared_mesh.h"
@@ -30,8 +31,9 @@ struct ComponentValues {
 class Interpolation {
  public:
   /// The arguments must outlive this object.
-  Interpolation(const FaceDomain& domain, const PreparedMesh& prepared, const Options& options, EquationSolver& solver)
-      : domain_(domain), prepared_(prepared), options_(options), solver_(solver) {}
+  Interpolation(const FaceDomain& domain, const PreparedMesh& prepared, ArcAngles& arcAngles, const Options& options,
+                EquationSolver& solver)
+      : domain_(domain), prepared_(prepared), arcAngles_(arcAngles), options_(options), solver_(solver) {}
 
   /// constraints: #F, NaN where a value is unknown. predicted: #F, or empty: the prediction that guides the solution
   /// with Guidance::Prediction. The values are not pooled yet.
@@ -57,6 +59,7 @@ class Interpolation {
 
   const FaceDomain& domain_;
   const PreparedMesh& prepared_;
+  ArcAngles& arcAngles_;
   const Options& options_;
   EquationSolver& solver_;
   std::vector<double> weights_;  ///< One per arc of the dual graph; computed at first use, so that they take no memory

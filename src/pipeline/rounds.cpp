@@ -64,7 +64,8 @@ class Rounds {
         makeTracing_(makeTracing),
         prediction_(computation),
         solver_(computation.options, computation.backend, computation.solvers, computation.warnings),
-        interpolation_(computation.domain, computation.prepared, computation.options, solver_),
+        arcAngles_(computation.domain.graph, computation.prepared.geometry),
+        interpolation_(computation.domain, computation.prepared, arcAngles_, computation.options, solver_),
         traced_(computation.prepared.geometry.areas.size(),
                 computation.keepsHits() ? computation.cone.directions.size() : 0) {}
 
@@ -78,7 +79,7 @@ class Rounds {
 
  private:
   void runRound(uint64_t count, bool isLast, const RunControl& control);
-  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density) const;
+  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density);
   [[nodiscard]] SeedChoice timedChoice(const SeedShares& shares, std::span<const double> density);
   [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares);
   void traceChosen(SeedChoice choice, const RunControl& control);
@@ -107,6 +108,7 @@ class Rounds {
   std::optional<TraceVariant> traceVariant_;
   SeedPrediction prediction_;
   EquationSolver solver_;
+  ArcAngles arcAngles_;
   Interpolation interpolation_;
 
   SeedChoice sampled_;  ///< All seeds. `sampled` includes extreme seeds.
@@ -193,8 +195,9 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double>
 }
 
 /// density: see chooseSeeds().
-SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density) const {
-  return chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, density);
+SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density) {
+  return chooseSeeds(computation_.domain, computation_.prepared.geometry, arcAngles_, options_, shares, sampled_,
+                     density);
 }
 
 SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double> density) {

@@ -9,7 +9,6 @@
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
 #include "mesh/arc_values.h"
-#include "mesh/curvature.h"
 
 namespace asdfvk {
 namespace {
@@ -89,12 +88,17 @@ void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, s
 
 }  // namespace
 
-std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
+std::vector<double> featureWeights(std::span<const float> arcAngles) {
+  std::vector<double> weights(arcAngles.size());
+  forEachInParallel(weights.size(), [&](size_t arc) { weights[arc] = featureWeight(arcAngles[arc]); });
+  return weights;
+}
+
+std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   std::vector<double> weights(graph.neighbours.size());
   const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
   setForEachPair(graph, std::span(weights), [&](uint32_t face, uint32_t neighbour) {
-    if (kind == ArcWeights::Feature) return featureWeight(signedDihedralAngle(geometry, face, neighbour));
     // The difference of the halves does not overflow.
     const Vec3d half = geometry.barycentres[neighbour] * 0.5 - geometry.barycentres[face] * 0.5;
     return std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);

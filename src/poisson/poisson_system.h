@@ -16,13 +16,17 @@ namespace asdfvk {
 inline constexpr double kConcaveScaleDegrees = 3;
 inline constexpr double kConvexScaleDegrees = 8;
 
-/// The larger the weight of an arc, the closer the interpolated values of its two faces.
-///   Distance: 1 / distance of the barycentres (ASDF paper, section 4.1)
-///   Feature:  1 / (1 + (a / s)^2), a: dihedral angle, s: kConcaveScaleDegrees or kConvexScaleDegrees
-/// One weight per arc, in the order of graph.neighbours: positive, finite, and with the same bits in both directions.
-/// Unit: 1 / length for Distance, none for Feature. Distances below 1e-9 of the diagonal of the bounding box are
-/// replaced by this bound, which keeps the matrix finite for coincident barycentres.
-[[nodiscard]] std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry);
+/// Weights of arcs. The larger the weight of an arc, the closer the interpolated values of its two faces. Both
+/// functions return one weight per arc, in the order of graph.neighbours: positive, finite, and with the same bits in
+/// both directions.
+///
+/// ArcWeights::Feature: 1 / (1 + (a / s)^2), where a is the dihedral angle and s is kConcaveScaleDegrees or
+/// kConvexScaleDegrees. No unit. arcAngles: see arcAngles().
+[[nodiscard]] std::vector<double> featureWeights(std::span<const float> arcAngles);
+/// ArcWeights::Distance: 1 / distance of the barycentres (ASDF paper, section 4.1). Unit: 1 / length. Distances below
+/// 1e-9 of the diagonal of the bounding box are replaced by this bound, which keeps the matrix finite for coincident
+/// barycentres.
+[[nodiscard]] std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry);
 
 /// A u = b for the unknown faces of an interpolation. A is symmetric, positive definite and an M-matrix: its
 /// off-diagonal entries are minus the weights. Rows are compressed, columns strictly ascending.
@@ -47,8 +51,8 @@ struct PoissonSystem {
 /// Without a divergence it minimises sum w_fg (u_f - u_g)^2, and u stays within the range of the constraints. Faces
 /// without a path of arcs to a constraint are not unknowns.
 ///
-/// weights: one per arc, see arcWeights(); > 0, finite, equal in both directions. Several arcs between two faces count
-/// as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a
+/// weights: one per arc, see featureWeights(); > 0, finite, equal in both directions. Several arcs between two faces
+/// count as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a
 /// constrained face (Dirichlet), NaN elsewhere. divergence: #F, or empty for none; non-finite entries count as 0. For
 /// the paper's guidance it is minus the curvature. For guidance by a field it is divergenceOf(field): if the
 /// constraints are values of the field, the field is the solution. componentOf: #F, see Components::componentOf.

@@ -97,13 +97,13 @@ void stretch(std::vector<float>& lengths, const DualGraph& graph, std::span<cons
 
 std::vector<uint32_t> blueNoiseSeeds(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
                                      uint64_t randomSeed) {
-  return blueNoise(domain, arcLengths(domain.graph, domain.geometry), count, existing, randomSeed);
+  return blueNoise(domain, arcLengths(domain.arcAngles.get()), count, existing, randomSeed);
 }
 
 std::vector<uint32_t> weightedBlueNoiseSeeds(const SeedDomain& domain, std::span<const double> density, uint64_t count,
                                              std::span<const uint32_t> existing, uint64_t randomSeed) {
   ASDFVK_CHECK_OP(density.size(), ==, domain.graph.faceCount());
-  std::vector<float> lengths = arcLengths(domain.graph, domain.geometry);
+  std::vector<float> lengths = arcLengths(domain.arcAngles.get());
   stretch(lengths, domain.graph, density);
   return blueNoise(domain, lengths, count, existing, randomSeed);
 }

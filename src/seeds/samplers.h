@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vec3.h"
+#include "mesh/arc_angles.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
@@ -14,10 +15,11 @@
 /// the declaration of that function and a row of kSamplers.
 namespace asdfvk {
 
-/// The faces to select from. Graph, geometry and candidates must outlive this object.
+/// The faces to select from. The members must outlive this object.
 struct SeedDomain {
   const DualGraph& graph;
   const FaceGeometry& geometry;
+  ArcAngles& arcAngles;
   std::span<const uint32_t> candidates;  ///< Faces that can cast rays, ascending, each once.
 };
 

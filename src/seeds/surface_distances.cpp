@@ -5,8 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
-#include "mesh/arc_values.h"
-#include "mesh/curvature.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -30,12 +29,9 @@ constexpr int kMaxQueueRounds = 64;
 
 }  // namespace
 
-std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry) {
-  ASDFVK_CHECK_OP(geometry.areas.size(), ==, graph.faceCount());
-  std::vector<float> lengths(graph.neighbours.size());
-  setForEachPair(graph, std::span(lengths), [&](uint32_t face, uint32_t neighbour) {
-    return limitedLength(lengthAcross(signedDihedralAngle(geometry, face, neighbour)));
-  });
+std::vector<float> arcLengths(std::span<const float> arcAngles) {
+  std::vector<float> lengths(arcAngles.size());
+  forEachInParallel(lengths.size(), [&](size_t arc) { lengths[arc] = limitedLength(lengthAcross(arcAngles[arc])); });
   return lengths;
 }
 

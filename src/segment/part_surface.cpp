@@ -9,7 +9,7 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
-#include "mesh/curvature.h"
+#include "mesh/arc_angles.h"
 
 namespace asdfvk {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "generate/shapes.h"
+#include "mesh/arc_angles.h"
 #include "mesh/face_geometry.h"
 #include "poisson/poisson_solver.h"
 
@@ -26,7 +27,7 @@ struct SampleProblem {
       : mesh(std::move(source)),
         geometry(computeFaceGeometry(mesh)),
         graph(buildDualGraph(mesh)),
-        weights(arcWeights(ArcWeights::Feature, graph, geometry)),
+        weights(featureWeights(arcAngles(graph, geometry))),
         constraints(mesh.faces.size(), kNoValue),
         guide(mesh.faces.size()) {
     for (uint32_t face = 0; face < constraints.size(); ++face) {

@@ -1,4 +1,5 @@
 #include "mesh/curvature.h"
+#include "mesh/arc_angles.h"
 
 #include <doctest/doctest.h>
 

@@ -41,7 +41,8 @@ SeedShares shares(uint64_t count, uint64_t heldOutCount) {
 
 SeedChoice choose(const PreparedMesh& mesh, const Options& options, const SeedShares& shares, const SeedChoice& earlier,
                   std::span<const double> density) {
-  return chooseSeeds(wholeMesh(mesh), mesh.geometry, options, shares, earlier, density);
+  ArcAngles arcAngles(mesh.graph, mesh.geometry);
+  return chooseSeeds(wholeMesh(mesh), mesh.geometry, arcAngles, options, shares, earlier, density);
 }
 
 uint64_t seedCountOf(const SeedCount& request, uint64_t faceCount, Recipe recipe = Recipe::Balanced) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "mesh/arc_angles.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
@@ -84,8 +85,7 @@ inline std::vector<uint32_t> searchComponents(const DualGraph& graph) {
 /// The paper's system: weights 1 / distance.
 inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& geometry,
                                     std::span<const double> values, std::span<const double> divergence = {}) {
-  return buildPoissonSystem(graph, arcWeights(ArcWeights::Distance, graph, geometry), values, divergence,
-                            searchComponents(graph));
+  return buildPoissonSystem(graph, distanceWeights(graph, geometry), values, divergence, searchComponents(graph));
 }
 
 /// An interpolation, and its system by which solutions are judged.
@@ -114,7 +114,7 @@ struct Equation {
 /// The paper's equation: weights 1 / distance.
 inline Equation distanceEquation(const DualGraph& graph, const FaceGeometry& geometry, std::vector<double> values,
                                  std::vector<double> divergence = {}) {
-  return {graph, arcWeights(ArcWeights::Distance, graph, geometry), std::move(values), std::move(divergence)};
+  return {graph, distanceWeights(graph, geometry), std::move(values), std::move(divergence)};
 }
 
 /// A row of faces at unit distances with constraints at the first and the last.

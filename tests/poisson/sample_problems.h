@@ -86,6 +86,10 @@ struct Setting {
   std::vector<double> weights;  ///< One per arc.
 };
 
+inline std::vector<double> weightsOf(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
+  return kind == ArcWeights::Feature ? featureWeights(arcAngles(graph, geometry)) : distanceWeights(graph, geometry);
+}
+
 /// Calls test(setting) for each problem with each kind of weights; a failed check prints both.
 template <typename Test>
 void forEachSetting(const Test& test) {
@@ -93,7 +97,7 @@ void forEachSetting(const Test& test) {
     for (ArcWeights kind : kArcWeights) {
       CAPTURE(problem.name);
       CAPTURE(static_cast<int>(kind));
-      test(Setting{problem, kind, arcWeights(kind, problem.graph, problem.geometry)});
+      test(Setting{problem, kind, weightsOf(kind, problem.graph, problem.geometry)});
     }
 }
 

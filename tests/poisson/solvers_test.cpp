@@ -491,7 +491,7 @@ TEST_CASE("the table of solvers has a default for a device and one for the CPU")
 TEST_CASE("a solver starts from the first guess") {
   SolversUnderTest solvers;
   const SampleProblem problem("torus", torus(14, 10));
-  const std::vector<double> weights = arcWeights(ArcWeights::Feature, problem.graph, problem.geometry);
+  const std::vector<double> weights = featureWeights(arcAngles(problem.graph, problem.geometry));
   const DenseTwin twin(problem.graph, weights, problem.values, {});
   std::vector<double> guess(problem.values.size(), 1.25);
   const auto build = [&] { return Equation(problem.graph, weights, problem.values, {}, guess); };

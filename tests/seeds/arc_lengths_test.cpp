@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "mesh/curvature.h"
+#include "mesh/arc_angles.h"
 #include "seeds/surface.h"
 #include "seeds/surface_distances.h"
 
@@ -47,12 +47,13 @@ TEST_CASE("the dihedral angle is 0 when flat, positive when concave, negative wh
 TEST_CASE("an arc is 1 when flat, and sqrt 2 at 10 degrees concave and 20 convex, at any scale") {
   const auto lengthAt = [](double degrees) {
     const Surface surface(book(degrees));
-    const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry);
+    const std::vector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
     REQUIRE(lengths.size() == 2);
     CHECK(lengths[0] == lengths[1]);
     for (double scale : {1e-12, 1e12}) {
       const Surface other(scaled(book(degrees), scale));
-      for (float length : arcLengths(other.graph, other.geometry)) CHECK(length == doctest::Approx(lengths[0]));
+      for (float length : arcLengths(arcAngles(other.graph, other.geometry)))
+        CHECK(length == doctest::Approx(lengths[0]));
     }
     return static_cast<double>(lengths[0]);
   };
@@ -68,7 +69,7 @@ TEST_CASE("an arc to a degenerate face is 1, and every arc is within the limits"
   mesh.vertices[3] = {0, 0.5, 0};
   const Surface squeezed(mesh);
   REQUIRE(squeezed.geometry.isDegenerate(1));
-  CHECK(arcLengths(squeezed.graph, squeezed.geometry) == std::vector<float>{1, 1});
+  CHECK(arcLengths(arcAngles(squeezed.graph, squeezed.geometry)) == std::vector<float>{1, 1});
 
   const Surface folded(book(180));
   const Surface point([] {
@@ -77,7 +78,7 @@ TEST_CASE("an arc to a degenerate face is 1, and every arc is within the limits"
     return all;
   }());
   for (const Surface* surface : {&folded, &point}) {
-    for (float arc : arcLengths(surface->graph, surface->geometry)) {
+    for (float arc : arcLengths(arcAngles(surface->graph, surface->geometry))) {
       CHECK(arc >= kMinArcLength);
       CHECK(arc <= kMaxArcLength);
     }
@@ -87,13 +88,13 @@ TEST_CASE("an arc to a degenerate face is 1, and every arc is within the limits"
 TEST_CASE("coordinates whose squares overflow or underflow leave every arc finite and positive") {
   for (double scale : {1e-300, 1e300}) {
     const Surface surface(scaled(strip(5), scale));
-    for (float arc : arcLengths(surface.graph, surface.geometry)) CHECK((arc > 0 && arc <= kMaxArcLength));
+    for (float arc : arcLengths(arcAngles(surface.graph, surface.geometry))) CHECK((arc > 0 && arc <= kMaxArcLength));
   }
 }
 
 TEST_CASE("on a cube the arcs across its edges are long and the others are 1") {
   const Surface& cube = generatedSurface("cube", 1200);
-  const std::vector<float> lengths = arcLengths(cube.graph, cube.geometry);
+  const std::vector<float> lengths = arcLengths(arcAngles(cube.graph, cube.geometry));
   const auto flat = std::count_if(lengths.begin(), lengths.end(), [](float arc) { return arc < 1.0001f; });
   const auto edge = std::count_if(lengths.begin(), lengths.end(),
                                   [](float arc) { return std::abs(arc - std::sqrt(1 + 4.5 * 4.5)) < 1e-4; });
@@ -108,7 +109,7 @@ TEST_CASE("both directions of an arc have the length of their angle, also where 
   mesh.faces = {{0, 1, 2}, {0, 2, 1}, {0, 1, 3}, {1, 0, 4}};
   const Surface folded(mesh);
   for (const Surface* surface : {&folded, &generatedSurface("hand", 1000)}) {
-    const std::vector<float> lengths = arcLengths(surface->graph, surface->geometry);
+    const std::vector<float> lengths = arcLengths(arcAngles(surface->graph, surface->geometry));
     for (uint32_t face = 0; face < surface->graph.faceCount(); ++face) {
       for (uint32_t arc = surface->graph.offsets[face]; arc < surface->graph.offsets[face + 1]; ++arc) {
         const double angle = signedDihedralAngle(surface->geometry, face, surface->graph.neighbours[arc]) / kDegree;

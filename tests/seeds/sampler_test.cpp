@@ -80,7 +80,7 @@ TEST_CASE("any count of seeds is exact; they are distinct candidates, ascending"
 
 TEST_CASE("an empty mesh, one face, and no candidate") {
   const Surface none{Mesh{}}, one(strip(1));
-  const SeedDomain noCandidate{one.graph, one.geometry, {}};
+  const SeedDomain noCandidate{one.graph, one.geometry, one.arcAngles, {}};
   forEachSampler([&](auto sample) {
     CHECK(sample(none.domain(), 3, {}, 1).empty());
     CHECK(sample(one.domain(), 1, {}, 1) == Seeds{0});

@@ -10,11 +10,14 @@
 /// A mesh and the input of samplers.
 struct Surface {
   explicit Surface(asdfvk::Mesh triangles);
-  [[nodiscard]] asdfvk::SeedDomain domain() const { return {graph, geometry, candidates}; }
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+  [[nodiscard]] asdfvk::SeedDomain domain() const { return {graph, geometry, arcAngles, candidates}; }
 
   asdfvk::Mesh mesh;
   asdfvk::DualGraph graph;
   asdfvk::FaceGeometry geometry;
+  mutable asdfvk::ArcAngles arcAngles{graph, geometry};
   std::vector<uint32_t> candidates;  ///< All faces that are not degenerate.
 };
 

@@ -28,7 +28,7 @@ struct VulkanEquationKernels {
 
 /// A dual graph with weights, and the matrix of all its equations.
 struct VulkanGraph {
-  /// weights: one per arc, see arcWeights(). Throws Error{EquationLimit}, see requireSystemFits().
+  /// weights: one per arc, see featureWeights(). Throws Error{EquationLimit}, see requireSystemFits().
   VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
               std::span<const double> weights);
 
