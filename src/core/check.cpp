@@ -12,8 +12,4 @@ void failCheck(const char* file, int line, const char* text, const std::string& 
   throw CheckFailure(fmt::format("{}:{}: {} ({} against {})", file, line, text, left, right));
 }
 
-std::string checkedNumber(int64_t value) { return fmt::format("{}", value); }
-std::string checkedNumber(uint64_t value) { return fmt::format("{}", value); }
-std::string checkedNumber(double value) { return fmt::format("{}", value); }
-
 }  // namespace asdfvk
