@@ -1,11 +1,14 @@
 #pragma once
 
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace asdfvk {
 
@@ -36,6 +39,15 @@ class AtomicFile {
   void put(const T& value) {
     std::memcpy(reserve(sizeof(T)), &value, sizeof(T));
     advance(sizeof(T));
+  }
+  /// Appends the shortest text that reads back as the same number, or "nan" for NaN of either sign.
+  template <typename T>
+  void putNumber(T number) {
+    if constexpr (std::is_floating_point_v<T>)
+      if (std::isnan(number)) return write("nan");
+    constexpr size_t kMaxTextSize = 32;
+    char* const begin = reserve(kMaxTextSize);
+    advance(static_cast<size_t>(std::to_chars(begin, begin + kMaxTextSize, number).ptr - begin));
   }
 
   void commit();

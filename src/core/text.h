@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 namespace asdfvk {
@@ -101,19 +98,5 @@ template <typename T>
 
 /// Text of a limit with nine significant digits, which hide the rounding of unit conversions.
 [[nodiscard]] inline std::string limitText(double limit) { return fmt::format("{:.9g}", limit); }
-
-inline constexpr size_t kNumberTextSize = 32;
-
-/// Writes the shortest text that reads back as the same number, or "nan" for NaN of either sign. Returns its end.
-template <typename T>
-[[nodiscard]] char* appendNumber(char* to, T value) {
-  if constexpr (std::is_floating_point_v<T>) {
-    if (std::isnan(value)) {
-      std::memcpy(to, "nan", 3);
-      return to + 3;
-    }
-  }
-  return std::to_chars(to, to + kNumberTextSize, value).ptr;
-}
 
 }  // namespace asdfvk

@@ -7,7 +7,6 @@
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
-#include "core/text.h"
 #include "io/formats.h"
 #include "io/stored_fields.h"
 
@@ -19,20 +18,10 @@ void writeRows(AtomicFile& file, std::string_view keyName, uint64_t rowCount, st
   for (const FieldColumn& column : columns) file.write("," + column.name);
   file.put('\n');
   for (uint64_t row = 0; row < rowCount; ++row) {
-    char* const key = file.reserve(kNumberTextSize);
-    file.advance(static_cast<size_t>(appendNumber(key, row) - key));
+    file.putNumber(row);
     for (const FieldColumn& column : columns) {
-      char* const cell = file.reserve(kNumberTextSize + 1);
-      *cell = ',';
-      char* end = cell + 1;
-      column.putEntry(row, [&]<typename T>(T entry) {
-        if constexpr (sizeof(T) == 1) {
-          end = appendNumber(end, static_cast<unsigned>(entry));
-        } else {
-          end = appendNumber(end, entry);
-        }
-      });
-      file.advance(static_cast<size_t>(end - cell));
+      file.put(',');
+      column.putEntry(row, [&](auto entry) { file.putNumber(entry); });
     }
     file.put('\n');
   }

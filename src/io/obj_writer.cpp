@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
-#include "core/text.h"
 #include "io/formats.h"
 #include "io/result_colours.h"
 
@@ -19,13 +18,6 @@ std::string materialOf(uint32_t part) {
   return name;
 }
 
-template <typename T>
-void putWord(AtomicFile& file, char separator, T number) {
-  char* const word = file.reserve(kNumberTextSize + 1);
-  *word = separator;
-  file.advance(static_cast<size_t>(appendNumber(word + 1, number) - word));
-}
-
 void putColour(AtomicFile& file, const Rgba& colour) {
   for (size_t channel = 0; channel < 3; ++channel) file.write(fmt::format(" {:.4f}", colour[channel] / 255.0));
 }
@@ -34,7 +26,8 @@ void writeVertices(AtomicFile& file, const ResultView& result, const std::vector
   uint64_t numberCount = 0;
   const auto put = [&](auto coordinate) {
     if (numberCount % 3 == 0) file.put('v');
-    putWord(file, ' ', coordinate);
+    file.put(' ');
+    file.putNumber(coordinate);
     if (++numberCount % 3 != 0) return;
     if (!colours.empty()) putColour(file, colours[numberCount / 3 - 1]);
     file.put('\n');
@@ -56,7 +49,10 @@ void writeObj(AtomicFile& file, const ResultView& result) {
     if (parts != nullptr && (face == 0 || (*parts)[face] != (*parts)[face - 1]))
       file.write(fmt::format("usemtl {}\n", materialOf((*parts)[face])));
     file.put('f');
-    for (const uint32_t corner : result.cornersOf(face)) putWord(file, ' ', uint64_t{corner} + 1);
+    for (const uint32_t corner : result.cornersOf(face)) {
+      file.put(' ');
+      file.putNumber(uint64_t{corner} + 1);
+    }
     file.put('\n');
   }
 }

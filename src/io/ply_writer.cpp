@@ -29,15 +29,8 @@ class RowWriter {
   template <typename T>
   void put(T value) {
     if (!isAscii_) return file_.put(value);
-    char* const word = file_.reserve(kNumberTextSize + 1);
-    char* to = word;
-    if (!isFirst_) *to++ = ' ';
-    if constexpr (sizeof(T) == 1) {
-      to = appendNumber(to, static_cast<int>(value));
-    } else {
-      to = appendNumber(to, value);
-    }
-    file_.advance(static_cast<size_t>(to - word));
+    if (!isFirst_) file_.put(' ');
+    file_.putNumber(value);
     isFirst_ = false;
   }
   void put(const FieldColumn& column, uint64_t item) {

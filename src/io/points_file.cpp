@@ -88,11 +88,10 @@ class SwcWriter {
   static constexpr uint32_t kNoPoint = 0xffffffff;
 
   void writeLine(const SkeletonPoint& point, int64_t parent) {
-    char* const line = file_.reserve(8 * kNumberTextSize);
-    char* end = appendNumber(line, ++id_);
+    file_.putNumber(++id_);
     const auto append = [&](auto number) {
-      *end++ = ' ';
-      end = appendNumber(end, number);
+      file_.put(' ');
+      file_.putNumber(number);
     };
     append(0);  // Type 0: undefined.
     append(point.place.x);
@@ -100,8 +99,7 @@ class SwcWriter {
     append(point.place.z);
     append(point.radius);
     append(parent);
-    *end++ = '\n';
-    file_.advance(static_cast<size_t>(end - line));
+    file_.put('\n');
   }
 
   AtomicFile& file_;
