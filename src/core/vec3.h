@@ -6,6 +6,10 @@
 
 namespace asdfvk {
 
+struct LineSegment {
+  Vec3d from, to;
+};
+
 template <typename T>
 constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

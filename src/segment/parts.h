@@ -9,7 +9,7 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
-#include "core/line_segment.h"
+#include "core/vec3.h"
 #include "mesh/components.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "core/line_segment.h"
+#include "core/vec3.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
