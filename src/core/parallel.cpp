@@ -16,10 +16,6 @@ namespace asdfvk {
 
 size_t threadLimit() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
 
-size_t maxThreadCount() {
-  return std::min(threadLimit(), static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
-}
-
 size_t defaultThreadCount() { return static_cast<size_t>(tbb::info::default_concurrency()); }
 
 void forEachRange(size_t count, size_t grain, FunctionRef<void(size_t, size_t)> body) {

@@ -18,8 +18,6 @@ inline constexpr size_t kItemsPerTask = 4096;
 [[nodiscard]] size_t threadLimit();
 /// The number of threads without any limit.
 [[nodiscard]] size_t defaultThreadCount();
-/// Maximum number of threads of a parallel loop that starts here: threadLimit(), or less within callWithThreads().
-[[nodiscard]] size_t maxThreadCount();
 
 /// Calls body(begin, end) in parallel for disjoint ranges whose union is [0, count). Ranges above `grain` may be
 /// divided.
