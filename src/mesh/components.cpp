@@ -1,11 +1,10 @@
 #include "mesh/components.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "mesh/face_geometry.h"
 
@@ -16,46 +15,9 @@ namespace {
 // units in the last place.
 constexpr double kVolumeNoise = 1e-15;
 
-/// Disjoint sets of faces, merged by any number of threads at once; each set is identified by its lowest face (Anderson
-/// and Woll 1991, "Wait-free parallel algorithms for the union-find problem", with links to the lower index).
-class FaceSets {
- public:
-  explicit FaceSets(uint32_t faceCount) : parents_(faceCount) {
-    forEachInParallel(faceCount, [&](uint32_t face) { parents_[face] = face; });
-  }
-
-  [[nodiscard]] uint32_t lowestOf(uint32_t face) {
-    for (;;) {
-      const uint32_t parent = load(face);
-      if (parent == face) return face;
-      const uint32_t grandparent = load(parent);
-      if (parent == grandparent) return parent;
-      parentOf(face).store(grandparent, std::memory_order_relaxed);  // Path halving: any ancestor is valid.
-      face = grandparent;
-    }
-  }
-
-  void join(uint32_t a, uint32_t b) {
-    for (;;) {
-      a = lowestOf(a);
-      b = lowestOf(b);
-      if (a == b) return;
-      if (a < b) std::swap(a, b);
-      uint32_t expected = a;
-      if (parentOf(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
-    }
-  }
-
- private:
-  [[nodiscard]] std::atomic_ref<uint32_t> parentOf(uint32_t face) { return std::atomic_ref<uint32_t>(parents_[face]); }
-  [[nodiscard]] uint32_t load(uint32_t face) { return parentOf(face).load(std::memory_order_relaxed); }
-
-  std::vector<uint32_t> parents_;  ///< #F; the parent of a face is never above the face.
-};
-
 void label(const DualGraph& graph, Components& result) {
   const uint32_t faceCount = graph.faceCount();
-  FaceSets sets(faceCount);
+  DisjointSets sets(faceCount);
   forEachInParallel(faceCount, [&](uint32_t face) {
     for (const uint32_t neighbour : graph.neighboursOf(face))
       if (neighbour < face) sets.join(face, neighbour);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/box3.h"
+#include "core/disjoint_sets.h"
 
 namespace asdfvk {
 namespace {
@@ -29,7 +30,7 @@ struct Edge {
 class SpanningTree {
  public:
   explicit SpanningTree(std::span<const Vec3d> points)
-      : order_(points.size()), groups_(points.size()), nearest_(points.size()) {
+      : order_(points.size()), sets_(points.size()), groups_(points.size()), nearest_(points.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.push_back({.end = static_cast<uint32_t>(points.size())});
     for (uint32_t node = 0; node < nodes_.size(); ++node) split(points, node);
@@ -39,7 +40,6 @@ class SpanningTree {
     const auto scaled = [&](const Vec3d& p) { return greatest > 0 ? p / greatest : p; };
     for (const uint32_t point : order_) points_.push_back(scaled(points[point]));
     for (PointNode& node : nodes_) node.box = {scaled(node.box.min), scaled(node.box.max)};
-    std::iota(groups_.begin(), groups_.end(), 0);
   }
 
   std::vector<std::array<uint32_t, 2>> run() {
@@ -66,14 +66,9 @@ class SpanningTree {
     nodes_[index] = node;
   }
 
-  [[nodiscard]] uint32_t groupOf(uint32_t point) {
-    while (groups_[point] != point) point = groups_[point] = groups_[groups_[point]];
-    return point;
-  }
-
   /// One round of Borůvka's algorithm: adds the shortest edge of each group to another group.
   void joinGroups() {
-    for (uint32_t i = 0; i < groups_.size(); ++i) groups_[i] = groupOf(i);
+    for (uint32_t i = 0; i < groups_.size(); ++i) groups_[i] = sets_.lowestOf(i);
     for (size_t index = nodes_.size(); index-- > 0;) {  // Children follow their parents.
       PointNode& node = nodes_[index];
       node.group = node.left == kNone ? groups_[node.begin] : nodes_[node.left].group;
@@ -100,12 +95,9 @@ class SpanningTree {
     std::sort(best.begin(), best.end(), [](const Edge& a, const Edge& b) {
       return a.square != b.square ? a.square < b.square : a.from < b.from;
     });
-    for (const Edge& edge : best) {
-      const uint32_t a = groupOf(edge.from), b = groupOf(edge.to);
-      if (a == b) continue;  // Equally long edges may close a cycle.
-      groups_[std::max(a, b)] = std::min(a, b);
-      edges_.push_back({order_[edge.from], order_[edge.to]});
-    }
+    for (const Edge& edge : best)
+      // Equally long edges may close a cycle.
+      if (sets_.join(edge.from, edge.to)) edges_.push_back({order_[edge.from], order_[edge.to]});
   }
 
   [[nodiscard]] static double squaredDistance(const Box3d& box, const Vec3d& p) {
@@ -145,9 +137,9 @@ class SpanningTree {
   std::vector<uint32_t> order_;  ///< The caller's point at each position in the tree. All other indices are positions.
   std::vector<Vec3d> points_;
   std::vector<PointNode> nodes_;
-  /// Links of a disjoint-set forest; during the search for edges, the group of each point.
-  std::vector<uint32_t> groups_;
-  std::vector<Edge> nearest_;  ///< Where `to` is of the same group or kNone, `square` is a lower bound.
+  DisjointSets sets_;
+  std::vector<uint32_t> groups_;  ///< The group of each point at the start of the round.
+  std::vector<Edge> nearest_;     ///< Where `to` is of the same group or kNone, `square` is a lower bound.
   std::vector<std::array<uint32_t, 2>> edges_;
 };
 

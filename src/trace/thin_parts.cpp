@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
@@ -179,24 +179,20 @@ class ThinSearch {
     std::sort(references.begin(), references.end(), [](const Reference& a, const Reference& b) {
       return std::tuple(a.line, a.from, a.to, a.piece) < std::tuple(b.line, b.from, b.to, b.piece);
     });
-    std::vector<uint32_t> parents(finished_.size());
-    std::iota(parents.begin(), parents.end(), 0u);
-    const auto rootOf = [&](uint32_t i) {
-      while (parents[i] != i) i = parents[i] = parents[parents[i]];
-      return i;
-    };
+    DisjointSets regions(finished_.size());
     for (size_t i = 1, reaching = 0; i < references.size(); ++i) {
       const Reference &farthest = references[reaching], &other = references[i];
       if (other.line == farthest.line && other.from < farthest.to) {
-        const uint32_t a = rootOf(farthest.piece), b = rootOf(other.piece);
-        parents[std::max(a, b)] = std::min(a, b);
+        regions.join(farthest.piece, other.piece);
         if (other.to <= farthest.to) continue;
       }
       reaching = i;
     }
     uint32_t count = 0;
-    for (uint32_t i = 0; i < finished_.size(); ++i)
-      finished_[i].part.region = rootOf(i) == i ? count++ : finished_[rootOf(i)].part.region;
+    for (uint32_t i = 0; i < finished_.size(); ++i) {
+      const uint32_t lowest = regions.lowestOf(i);
+      finished_[i].part.region = lowest == i ? count++ : finished_[lowest].part.region;
+    }
   }
 
   const WallTree& tree_;
