@@ -62,4 +62,15 @@ using Box3f = Box3<float>;
   return true;
 }
 
+/// Squared distance between a point and a box with the members `min` and `max`; 0 inside.
+template <typename Box>
+[[nodiscard]] double squaredDistanceToBox(const Box& box, const Vec3d& p) {
+  double square = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
+    square += gap * gap;
+  }
+  return square;
+}
+
 }  // namespace asdfvk

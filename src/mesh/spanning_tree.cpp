@@ -100,15 +100,6 @@ class SpanningTree {
       if (sets_.join(edge.from, edge.to)) edges_.push_back({order_[edge.from], order_[edge.to]});
   }
 
-  [[nodiscard]] static double squaredDistance(const Box3d& box, const Vec3d& p) {
-    double square = 0;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
-      square += gap * gap;
-    }
-    return square;
-  }
-
   /// The shortest edge from point i to another group, if its squared length is below `limit`. Otherwise an edge with
   /// the square `limit` and without `to`.
   [[nodiscard]] Edge nearestOfOthers(uint32_t i, double limit) const {
@@ -119,7 +110,7 @@ class SpanningTree {
     stack[stackSize++] = 0;
     while (stackSize > 0) {
       const PointNode& node = nodes_[stack[--stackSize]];
-      if (node.group == groups_[i] || !(squaredDistance(node.box, p) < found.square)) continue;
+      if (node.group == groups_[i] || !(squaredDistanceToBox(node.box, p) < found.square)) continue;
       if (node.left == kNone) {
         for (uint32_t j = node.begin; j < node.end; ++j) {
           const Vec3d way = points_[j] - p;
@@ -127,7 +118,8 @@ class SpanningTree {
         }
         continue;
       }
-      const bool leftFirst = squaredDistance(nodes_[node.left].box, p) < squaredDistance(nodes_[node.left + 1].box, p);
+      const bool leftFirst =
+          squaredDistanceToBox(nodes_[node.left].box, p) < squaredDistanceToBox(nodes_[node.left + 1].box, p);
       stack[stackSize++] = node.left + (leftFirst ? 1 : 0);
       stack[stackSize++] = node.left + (leftFirst ? 0 : 1);
     }

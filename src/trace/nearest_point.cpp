@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/box3.h"
+
 namespace asdfvk {
 namespace {
 
@@ -40,15 +42,6 @@ Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p) {
   for (const Vec3d& candidate : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
     if (length(p - candidate) < length(p - best)) best = candidate;
   return best;
-}
-
-double squaredDistanceToBox(const BvhNode& box, const Vec3d& p) {
-  double square = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
-    square += gap * gap;
-  }
-  return square;
 }
 
 SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,

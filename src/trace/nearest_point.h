@@ -19,9 +19,6 @@ struct SurfacePoint {
 
 [[nodiscard]] Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p);
 
-/// Squared distance between a point and the box of a node; 0 inside.
-[[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);
-
 /// The point of the surface nearest to p. faceOf(primitive face): the face that replaces the primitive face, or kNoFace
 /// to ignore the primitive. The search ends at the first point less than `enough` away. If the nearest point is on an
 /// edge or a vertex, the result has the face with the greatest abs(side). Of faces with equal numbers, the first in the

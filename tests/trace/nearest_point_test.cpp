@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/box3.h"
 #include "core/random.h"
 #include "generate/thickness_parts.h"
 #include "support/shapes.h"
