@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "bvh/leaf_faces.h"
+
 namespace asdfvk {
 namespace {
 
@@ -42,6 +44,11 @@ struct SlabTest {
     return enter <= leave ? enter : kNoHit;
   }
 };
+
+TriangleHit hitFace(const RayFrame& ray, const Bvh& bvh, const TriangleMesh& mesh, uint32_t face) {
+  const auto corner = [&](size_t k) { return bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]]); };
+  return hitTriangle(ray, corner(0), corner(1), corner(2));
+}
 
 struct StackEntry {
   uint32_t node = 0;
@@ -88,7 +95,7 @@ class Walk {
     for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
       const uint32_t face = bvh_.primitiveFaces[primitive];
       if (!counts_(face)) continue;
-      const TriangleHit hit = hitTriangle(ray_, corner(face, 0), corner(face, 1), corner(face, 2));
+      const TriangleHit hit = hitFace(ray_, bvh_, mesh_, face);
       if (hit.distance == kNoHit || hit.distance < contactDistance_) continue;
       const double limit = hit.isOuterSide ? hit.distance + double{kOuterSideFactor} * contactDistance_ : hit.distance;
       if (limit > limit_ || (limit == limit_ && face > best_.face)) continue;
@@ -96,10 +103,6 @@ class Walk {
       best_ = {hit.distance, face};
     }
   }
-  [[nodiscard]] Vec3d corner(uint32_t face, size_t k) const {
-    return bvh_.normalization.toNormalized(mesh_.vertices[mesh_.faces[face][k]]);
-  }
-
   const Bvh& bvh_;
   const TriangleMesh& mesh_;
   RayFrame ray_;
@@ -110,52 +113,21 @@ class Walk {
   double limit_ = kNoHit;  // The distance of the best hit, with the addition on outer sides, for comparisons.
 };
 
-/// Visits nodes in any order up to the first hit between two distances.
-class AnyHitWalk {
- public:
-  AnyHitWalk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction)
-      : bvh_(bvh), mesh_(mesh), ray_(origin, direction), slabs_(origin, direction) {}
-
-  [[nodiscard]] bool run(double begin, double end) const {
-    if (bvh_.nodes.empty()) return false;
-    std::array<uint32_t, kMaxBvhDepth + 1> stack;
-    size_t stackSize = 0;
-    stack[stackSize++] = 0;
-    while (stackSize > 0) {
-      const BvhNode& node = bvh_.nodes[stack[--stackSize]];
-      if (slabs_.entry(node, end) == kNoHit) continue;
-      if (node.isLeaf()) {
-        if (isHit(node, begin, end)) return true;
-        continue;
-      }
-      stack[stackSize++] = node.first + 1;
-      stack[stackSize++] = node.first;
-    }
-    return false;
-  }
-
- private:
-  [[nodiscard]] bool isHit(const BvhNode& leaf, double begin, double end) const {
-    for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
-      const Face& face = mesh_.faces[bvh_.primitiveFaces[primitive]];
-      const double distance = hitTriangle(ray_, corner(face[0]), corner(face[1]), corner(face[2])).distance;
-      if (begin <= distance && distance <= end) return true;
-    }
-    return false;
-  }
-  [[nodiscard]] Vec3d corner(uint32_t vertex) const { return bvh_.normalization.toNormalized(mesh_.vertices[vertex]); }
-
-  const Bvh& bvh_;
-  const TriangleMesh& mesh_;
-  RayFrame ray_;
-  SlabTest slabs_;
-};
-
 }  // namespace
 
 bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, double begin,
                   double end) {
-  return AnyHitWalk(bvh, mesh, origin, direction).run(begin, end);
+  const RayFrame ray(origin, direction);
+  const SlabTest slabs(origin, direction);
+  bool isHit = false;
+  forEachLeafFace(
+      bvh, [&](const BvhNode& node) { return slabs.entry(node, end) != kNoHit; },
+      [&](uint32_t face) {
+        const double distance = hitFace(ray, bvh, mesh, face).distance;
+        isHit = begin <= distance && distance <= end;
+        return !isHit;
+      });
+  return isHit;
 }
 
 RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
