@@ -18,10 +18,6 @@ constexpr size_t kLeastPointCount = 4, kGreatestPointCount = 64, kMaxPointCount 
 /// Position of a point at an end: this share of the way from the corner, which may be sharp, to the barycentre.
 constexpr double kEndShare = 0.25;
 
-double areaOf(const Triangle& triangle) {
-  return 0.5 * length(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-}
-
 /// Adds a sample on each side of a face at p.
 void addSamples(const Triangle& triangle, const Vec3d& p, uint32_t component, std::vector<Sample>& samples) {
   const Vec3d normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
@@ -75,7 +71,7 @@ class Sampler {
   void survey(uint32_t face, State& state) {
     if (closed_.components.components[closed_.components.componentOf[face]].firstFace == face)
       state.ends.fill(size_t{3} * face);
-    state.area += areaOf(closed_.triangle(face));
+    state.area += triangleArea(closed_.triangle(face));
     for (size_t corner = size_t{3} * face; corner < size_t{3} * face + 3; ++corner) {
       for (size_t axis = 0; axis < 3; ++axis) {
         if (cornerAt(corner)[axis] < cornerAt(state.ends[2 * axis])[axis]) state.ends[2 * axis] = corner;
@@ -97,7 +93,7 @@ class Sampler {
 
   void addByArea(uint32_t face, State& state, std::vector<Sample>& samples) {
     const Triangle t = closed_.triangle(face);
-    state.areaBefore += areaOf(t);
+    state.areaBefore += triangleArea(t);
     const auto shareOf = [&](size_t i) { return (static_cast<double>(i) + 0.5) / static_cast<double>(pointCount_); };
     while (state.pointCount < pointCount_ && shareOf(state.pointCount) * state.area < state.areaBefore) {
       // M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018: points spread evenly over a square,
@@ -127,12 +123,6 @@ ClosedComponents::ClosedComponents(const TriangleMesh& mesh_, const Components& 
     if (!components.components[component].isClosed) continue;
     for (const Vec3d& p : triangle(face)) boxes[component].add(p);
   }
-}
-
-std::array<Vec3d, 3> ClosedComponents::triangle(uint32_t face) const {
-  std::array<Vec3d, 3> corners;
-  for (size_t i = 0; i < 3; ++i) corners[i] = normalization.toNormalized(mesh.vertices[mesh.faces[face][i]]);
-  return corners;
 }
 
 std::vector<Sample> samplesOf(const ClosedComponents& closed, std::span<const uint8_t> isWanted) {

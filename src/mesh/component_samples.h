@@ -22,7 +22,9 @@ struct ClosedComponents {
   /// The arrays of the mesh and the components must outlive the object.
   ClosedComponents(const TriangleMesh& mesh, const Components& components);
 
-  [[nodiscard]] std::array<Vec3d, 3> triangle(uint32_t face) const;
+  [[nodiscard]] std::array<Vec3d, 3> triangle(uint32_t face) const {
+    return normalization.normalizedCorners(mesh, face);
+  }
 };
 
 struct Sample {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -44,6 +45,10 @@ struct Normalization {
   double scale = 1;  ///< Normalised units per mesh unit.
 
   [[nodiscard]] Vec3d toNormalized(const Vec3d& p) const { return (p - centre) * scale; }
+  [[nodiscard]] std::array<Vec3d, 3> normalizedCorners(const TriangleMesh& mesh, uint32_t face) const {
+    const auto [a, b, c] = mesh.faces[face];
+    return {toNormalized(mesh.vertices[a]), toNormalized(mesh.vertices[b]), toNormalized(mesh.vertices[c])};
+  }
   /// Clamped to the largest double, which only the lengths of a mesh as wide as the range of double exceed.
   [[nodiscard]] double toMeshLength(double normalizedLength) const {
     return std::min(normalizedLength / scale, std::numeric_limits<double>::max());
@@ -53,5 +58,9 @@ struct Normalization {
 };
 
 [[nodiscard]] Normalization normalizationOf(const Box3d& bounds);
+
+[[nodiscard]] inline double triangleArea(const std::array<Vec3d, 3>& corners) {
+  return 0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
 
 }  // namespace asdfvk

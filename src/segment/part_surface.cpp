@@ -1,7 +1,6 @@
 #include "segment/part_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,17 +15,6 @@ namespace {
 
 constexpr double kLeastShareOfMaximum = 1e-4;
 constexpr double kConcaveFactor = 3;
-
-/// Returns normalised coordinates, in which no area overflows or underflows.
-std::array<Vec3d, 3> cornersOf(const TriangleMesh& mesh, const Normalization& unit, uint32_t face) {
-  const auto [a, b, c] = mesh.faces[face];
-  return {unit.toNormalized(mesh.vertices[a]), unit.toNormalized(mesh.vertices[b]),
-          unit.toNormalized(mesh.vertices[c])};
-}
-
-double areaOf(const std::array<Vec3d, 3>& corners) {
-  return 0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0]));
-}
 
 /// The logarithms of the values. A missing value is replaced by the value of the nearest face with a value.
 std::vector<float> fillLogValues(const DualGraph& graph, std::span<const double> values, double logUnit) {
@@ -86,18 +74,18 @@ PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geomet
   surface.offsets = graph.offsets;
   surface.areas.resize(faceCount);
   surface.centres.resize(faceCount);
-  const double area = orderedSum(faceCount, [&](size_t face) {
-    const auto f = static_cast<uint32_t>(face);
-    return geometry.isDegenerate(f) ? 0 : areaOf(cornersOf(mesh, box, f));
-  });
+  // In normalised coordinates no area overflows or underflows.
+  const auto areaOf = [&](uint32_t face) {
+    return geometry.isDegenerate(face) ? 0 : triangleArea(box.normalizedCorners(mesh, face));
+  };
+  const double area = orderedSum(faceCount, [&](size_t face) { return areaOf(static_cast<uint32_t>(face)); });
   const double unit = area > 0 ? 1 / std::sqrt(area) : 1;
   surface.meshLength = box.toMeshLength(1 / unit);
   surface.logValues = fillLogValues(graph, values, std::log(unit) + std::log(box.scale));
   forEachInParallel(faceCount, [&](uint32_t face) {
     const Vec3d centre = box.toNormalized(geometry.barycentres[face]) * unit;
     surface.centres[face] = isFinite(centre) ? centre : Vec3d{};
-    surface.areas[face] =
-        geometry.isDegenerate(face) ? 0 : static_cast<float>(areaOf(cornersOf(mesh, box, face)) * unit * unit);
+    surface.areas[face] = static_cast<float>(areaOf(face) * unit * unit);
   });
 
   const size_t arcCount = graph.neighbours.size();

@@ -46,8 +46,8 @@ struct SlabTest {
 };
 
 TriangleHit hitFace(const RayFrame& ray, const Bvh& bvh, const TriangleMesh& mesh, uint32_t face) {
-  const auto corner = [&](size_t k) { return bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]]); };
-  return hitTriangle(ray, corner(0), corner(1), corner(2));
+  const auto [a, b, c] = bvh.normalization.normalizedCorners(mesh, face);
+  return hitTriangle(ray, a, b, c);
 }
 
 struct StackEntry {

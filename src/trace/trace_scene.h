@@ -25,9 +25,7 @@ struct TraceScene {
 
 /// Returns normalised coordinates.
 [[nodiscard]] inline PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face) {
-  const Face& corners = scene.mesh.faces[face];
-  const auto corner = [&](size_t k) { return scene.bvh.normalization.toNormalized(scene.mesh.vertices[corners[k]]); };
-  return {{corner(0), corner(1), corner(2)}, scene.geometry.normals[face]};
+  return {scene.bvh.normalization.normalizedCorners(scene.mesh, face), scene.geometry.normals[face]};
 }
 
 }  // namespace asdfvk
