@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
-#include "core/buckets.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
@@ -16,30 +14,6 @@ struct Fingerprint {
   uint32_t vertex;
   auto operator<=>(const Fingerprint&) const = default;
 };
-
-/// For each vertex the lowest vertex at exactly the same point; the vertex itself where there is no other. #V. -0
-/// equals 0. A vertex with a non-finite coordinate equals only itself.
-std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
-  std::vector<uint32_t> lowest(mesh.vertices.size());
-  forEachInParallel(lowest.size(), [&](uint32_t vertex) { lowest[vertex] = vertex; });
-  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 8 + 1);
-  const StagedEntries<Fingerprint> points(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
-    if (!isFinite(mesh.vertices[vertex])) return;
-    const uint64_t hash = hashOf(mesh.vertices[vertex] + Vec3d{});  // -0 becomes 0.
-    put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
-  });
-  points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
-    size_t first = 0;  // First of the entries with the same hash.
-    for (size_t i = 1; i < bucket.size(); ++i) {
-      if (bucket[i].hash != bucket[first].hash) first = i;
-      // `same` is nearly always `first`; different points may have the same hash.
-      size_t same = first;
-      while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
-      lowest[bucket[i].vertex] = bucket[same].vertex;
-    }
-  });
-  return lowest;
-}
 
 /// A face in the bucket of its lowest vertex. otherVertices: its other two vertices, in the order of the winding.
 struct FaceKey {
@@ -84,6 +58,28 @@ bool hasCopyByVertices(const DualGraph& closedGraph) {
 
 }  // namespace
 
+std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
+  std::vector<uint32_t> lowest(mesh.vertices.size());
+  forEachInParallel(lowest.size(), [&](uint32_t vertex) { lowest[vertex] = vertex; });
+  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 8 + 1);
+  const StagedEntries<Fingerprint> points(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
+    if (!isFinite(mesh.vertices[vertex])) return;
+    const uint64_t hash = hashOf(mesh.vertices[vertex] + Vec3d{});  // -0 becomes 0.
+    put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
+  });
+  points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
+    size_t first = 0;  // First of the entries with the same hash.
+    for (size_t i = 1; i < bucket.size(); ++i) {
+      if (bucket[i].hash != bucket[first].hash) first = i;
+      // `same` is nearly always `first`; different points may have the same hash.
+      size_t same = first;
+      while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
+      lowest[bucket[i].vertex] = bucket[same].vertex;
+    }
+  });
+  return lowest;
+}
+
 std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges) {
   const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
   const auto isCopy = [&](uint32_t vertex) { return lowestVertices[vertex] != vertex; };
@@ -94,12 +90,9 @@ std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const 
   return representatives;
 }
 
-FaceCopies::FaceCopies(std::span<const uint32_t> representatives)
-    : first_(representatives.size() + 1), faces_(representatives.size()) {
-  for (const uint32_t representative : representatives) ++first_[representative + 1];
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-  for (uint32_t face = 0; face < faces_.size(); ++face) faces_[next[representatives[face]]++] = face;
+Buckets<uint32_t> groupCopies(std::span<const uint32_t> representatives) {
+  return sortIntoBuckets<uint32_t>(representatives.size(), representatives.size(),
+                                   [&](uint32_t face, auto&& put) { put(representatives[face], face); });
 }
 
 }  // namespace asdfvk

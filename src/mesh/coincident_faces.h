@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/buckets.h"
 #include "core/vec3.h"
 #include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
@@ -24,6 +25,10 @@ namespace asdfvk {
   return h;
 }
 
+/// For each vertex the lowest vertex at exactly the same point; the vertex itself where there is no other. #V. -0
+/// equals 0. A vertex with a non-finite coordinate equals only itself.
+[[nodiscard]] std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh);
+
 /// #F: the representative of each face, which is the face of lowest index with its corners at the same three points in
 /// the same winding. Vertex indices may differ. Points are the same where their coordinates are equal and finite; -0
 /// equals 0. Faces with two corners at one point are compared by vertex indices. A copy is treated as its
@@ -32,19 +37,7 @@ namespace asdfvk {
 /// no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
-/// The copies of each face.
-class FaceCopies {
- public:
-  explicit FaceCopies(std::span<const uint32_t> representatives);
-
-  /// The indices of a representative and its copies, ascending.
-  [[nodiscard]] std::span<const uint32_t> of(uint32_t representative) const {
-    return std::span(faces_).subspan(first_[representative], first_[representative + 1] - first_[representative]);
-  }
-
- private:
-  std::vector<uint32_t> first_;  // #F + 1
-  std::vector<uint32_t> faces_;  // #F
-};
+/// For each representative its own index and those of its copies; nothing for any other face.
+[[nodiscard]] Buckets<uint32_t> groupCopies(std::span<const uint32_t> representatives);
 
 }  // namespace asdfvk

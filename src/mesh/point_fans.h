@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/buckets.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -17,15 +18,12 @@ class PointFans {
   /// The lowest vertex at the position of the given vertex. Its index stands for the point.
   [[nodiscard]] uint32_t pointOf(uint32_t vertex) const { return pointOf_[vertex]; }
   /// Corners 3 face + k at a point, ascending; empty for a vertex that does not stand for a point.
-  [[nodiscard]] std::span<const uint32_t> cornersAt(uint32_t point) const {
-    return std::span(corners_).subspan(first_[point], first_[point + 1] - first_[point]);
-  }
+  [[nodiscard]] std::span<const uint32_t> cornersAt(uint32_t point) const { return corners_[point]; }
   [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(pointOf_.size()); }
 
  private:
   std::vector<uint32_t> pointOf_;  // #V
-  std::vector<uint32_t> first_;    // #V + 1
-  std::vector<uint32_t> corners_;  // 3 #F
+  Buckets<uint32_t> corners_;      // 3 #F, by point.
 };
 
 }  // namespace asdfvk

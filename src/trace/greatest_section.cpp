@@ -24,12 +24,13 @@ constexpr double kFlat = 0x1p-22;
 
 class SolidSurface {
  public:
-  SolidSurface(const TraceScene& scene, const FaceCopies& copies, std::span<const uint32_t> solidOf, uint32_t solid)
+  SolidSurface(const TraceScene& scene, const Buckets<uint32_t>& copies, std::span<const uint32_t> solidOf,
+               uint32_t solid)
       : scene_(scene), copies_(copies), solidOf_(solidOf), solid_(solid) {}
 
   /// The face of the solid among the copies of a primitive, or kNoFace. Touching solids may share primitives.
   [[nodiscard]] uint32_t copyOf(uint32_t primitiveFace) const {
-    for (const uint32_t face : copies_.of(primitiveFace))
+    for (const uint32_t face : copies_[primitiveFace])
       if (solidOf_[face] == solid_) return face;
     return kNoFace;
   }
@@ -69,7 +70,7 @@ class SolidSurface {
 
  private:
   const TraceScene& scene_;
-  const FaceCopies& copies_;
+  const Buckets<uint32_t>& copies_;
   std::span<const uint32_t> solidOf_;
   uint32_t solid_;
 };
@@ -166,7 +167,7 @@ class Search {
 
 std::vector<GreatestSection> findGreatestSections(const TraceScene& scene, std::span<const uint32_t> solidOf,
                                                   std::span<const uint8_t> isWanted, const RunControl& control) {
-  const FaceCopies copies(scene.representatives);
+  const Buckets<uint32_t> copies = groupCopies(scene.representatives);
   std::vector<Box3d> boxes(isWanted.size());
   for (uint32_t face = 0; face < scene.mesh.faceCount(); ++face)
     for (const uint32_t vertex : scene.mesh.faces[face])

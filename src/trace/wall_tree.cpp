@@ -20,14 +20,14 @@ constexpr uint32_t kMaxLeafWallCount = 4;
 
 WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const Solids* solids)
     : scene_(scene), opposing_(opposing), nodes_(scene.bvh.nodes.size()), wallOf_(scene.mesh.faceCount()) {
-  const FaceCopies copies(scene.representatives);
+  const Buckets<uint32_t> copies = groupCopies(scene.representatives);
   const std::vector<uint32_t>& primitives = scene.bvh.primitiveFaces;
   std::vector<uint32_t> wallOfPrimitive(primitives.size() + 1);
   for (size_t i = 0; i < primitives.size(); ++i)
-    wallOfPrimitive[i + 1] = wallOfPrimitive[i] + static_cast<uint32_t>(copies.of(primitives[i]).size());
+    wallOfPrimitive[i + 1] = wallOfPrimitive[i] + static_cast<uint32_t>(copies[primitives[i]].size());
   walls_.resize(wallOfPrimitive.back());
   forEachInParallel(primitives.size(), [&](size_t i) {
-    const std::span<const uint32_t> faces = copies.of(primitives[i]);
+    const std::span<const uint32_t> faces = copies[primitives[i]];
     for (size_t k = 0; k < faces.size(); ++k) {
       wallOf_[faces[k]] = wallOfPrimitive[i] + static_cast<uint32_t>(k);
       walls_[wallOf_[faces[k]]] = wallOf(faces[k]);
