@@ -106,15 +106,6 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
   return std::make_unique<ReferenceTracer>(scene, cone);
 }
 
-double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
-  const Vec3d origin = scene.originOf(seedFace);
-  const RayHit hit =
-      nearestHitFromAnywhere(scene, origin, direction, scene.representatives[seedFace], cone.contactDistance);
-  return isValid(scene, cone, direction, scene.geometry.normals[seedFace], hit)
-             ? scene.bvh.normalization.toMeshLength(hit.distance)
-             : kNoValue;
-}
-
 double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart& start, std::span<ConeHit> hits) {
   std::array<double, kMaxRayCount> distances, weights;
   size_t validCount = 0;

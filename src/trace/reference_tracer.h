@@ -9,11 +9,6 @@ namespace asdfvk {
 [[nodiscard]] RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction,
                                             uint32_t skippedFace, double contactDistance);
 
-/// Length of one ray in the mesh's unit, or kNoValue for an invalid ray (no hit, or a false hit). Precondition: the
-/// seed face is not degenerate.
-[[nodiscard]] double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction,
-                                        uint32_t seedFace);
-
 /// The value of one cone, with the same bits as makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
 double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart& start, std::span<ConeHit> hits = {});
 /// The cone of a face. Precondition: the face is not degenerate.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "brute_force.h"
+#include "reference_ray.h"
 #include "support/shapes.h"
 #include "traced_mesh.h"
 

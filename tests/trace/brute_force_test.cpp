@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "reference_ray.h"
 #include "support/shapes.h"
 #include "traced_mesh.h"
 
