@@ -79,8 +79,8 @@ void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test,
 }
 
 void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
-  for (const auto& [kernelName, kernel] : kernelNames()) {
-    for (const auto& [fetchName, fetch] : fetchNames()) {
+  for (const auto& [kernelName, kernel] : kKernels) {
+    for (const auto& [fetchName, fetch] : kFetches) {
       control.checkpoint(0);
       const VulkanTraceChoice choice{kernel, fetch};
       TracerReport tracer{.backend = "vulkan", .variant = variantOf(choice), .isDefault = choice == report.choice};

@@ -314,8 +314,8 @@ TEST_CASE("the rows have the names of samplers, solvers, backends and kernel var
   CHECK(ofRow(computationRows(), "sampler") == std::set<std::string>(samplers.begin(), samplers.end()));
   CHECK(ofRow(computationRows(), "solver") == withAuto(solverNames()));
   CHECK(ofRow(sessionRows(), "backend") == withAuto(backendNames()));
-  CHECK(ofRow(sessionRows(), "kernel") == namesIn(kernelNames()));
-  CHECK(ofRow(sessionRows(), "fetch") == namesIn(fetchNames()));
+  CHECK(ofRow(sessionRows(), "kernel") == namesIn(kKernels));
+  CHECK(ofRow(sessionRows(), "fetch") == namesIn(kFetches));
 }
 
 TEST_CASE("a kernel variant of auto is the default") {

@@ -12,23 +12,12 @@ namespace {
 
 constexpr uint32_t kMaxSmallSubgroup = 16;
 
-constexpr std::pair<const char*, TraceKernel> kKernels[]{
-    {"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}};
-constexpr std::pair<const char*, BvhFetch> kFetches[]{{"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}};
-
-template <typename T>
-std::optional<T> valueNamed(const std::string& name, VariantNames<T> names) {
+/// Empty for an empty name and for "auto".
+template <typename T, size_t N>
+std::optional<T> requestedChoice(const ChoiceNames<T, N>& names, const std::string& name) {
   if (name.empty() || name == "auto") return std::nullopt;
-  for (const auto& [candidate, value] : names)
-    if (name == candidate) return value;
+  if (const T* const choice = findChoice(names, name)) return *choice;
   throw Error(ErrorCode::UnknownName, fmt::format("no kernel variant is called '{}'", name));
-}
-
-template <typename T>
-std::string nameIn(VariantNames<T> names, T value) {
-  for (const auto& [name, candidate] : names)
-    if (candidate == value) return name;
-  return {};
 }
 
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
@@ -61,15 +50,12 @@ VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceReq
   return choice;
 }
 
-VariantNames<TraceKernel> kernelNames() { return kKernels; }
-VariantNames<BvhFetch> fetchNames() { return kFetches; }
-
 VulkanTraceRequest traceRequestOf(const TraceVariant& variant) {
-  return {valueNamed(variant.kernel, kernelNames()), valueNamed(variant.fetch, fetchNames())};
+  return {requestedChoice(kKernels, variant.kernel), requestedChoice(kFetches, variant.fetch)};
 }
 
 TraceVariant variantOf(const VulkanTraceChoice& choice) {
-  return {nameIn(kernelNames(), choice.kernel), nameIn(fetchNames(), choice.fetch)};
+  return {nameOf(kKernels, choice.kernel), nameOf(kFetches, choice.fetch)};
 }
 
 VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "bvh/bvh.h"
@@ -50,10 +51,9 @@ struct VulkanTraceRequest {
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request,
                                                const Bvh& bvh);
 
-template <typename T>
-using VariantNames = std::span<const std::pair<const char*, T>>;
-[[nodiscard]] VariantNames<TraceKernel> kernelNames();
-[[nodiscard]] VariantNames<BvhFetch> fetchNames();
+inline constexpr ChoiceNames<TraceKernel, 3> kKernels{
+    {{"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}}};
+inline constexpr ChoiceNames<BvhFetch, 2> kFetches{{{"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}}};
 
 /// Parses names; an empty name and "auto" leave a member unset. Throws Error{UnknownName}.
 [[nodiscard]] VulkanTraceRequest traceRequestOf(const TraceVariant& variant);
