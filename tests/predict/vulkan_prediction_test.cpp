@@ -225,7 +225,7 @@ TEST_CASE("a stop ends a prediction on the device between submissions") {
   const test::ValidatedDevice device;
   const SeededMesh seeded(makeAnimal(2000).mesh, 200);
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
-  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, {100, 200});
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, PredictionBatchSize{100, 200});
   const auto predict = [&](const RunControl& control) {
     return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, {}, predictor.get(), control)
         .values;

@@ -116,10 +116,12 @@ TEST_CASE("hits of cones that the reference redoes are the reference's") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const TraceResults reference = hitsByReference(traced);
-  const TraceResults all = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 1}), traced);
+  const TraceResults all =
+      hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, VulkanWorkgroupShape{32, 1, 1}), traced);
   CHECK(all.statistics.redoneConeCount == reference.values.size());
   CHECK(test::haveSameBits(all.hits, reference.hits));
-  const TraceResults some = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 45}), traced);
+  const TraceResults some =
+      hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, VulkanWorkgroupShape{32, 1, 45}), traced);
   CHECK(some.statistics.redoneConeCount > 0);
   CHECK(some.statistics.redoneConeCount < reference.values.size());
   CHECK(differingRays(some.hits, reference.hits) <= reference.hits.size() / 1000);
@@ -145,7 +147,8 @@ TEST_CASE("hits do not depend on where a chunk ends") {
   CHECK(test::haveSameBits(results.hits, expected.hits));
   CHECK(test::haveSameBits(results.values, expected.values));
 
-  const TraceResults redone = hitsByKernel(VulkanConeKernel(small, {kRayCount, true, choice}, {32, 1, 1}), traced);
+  const TraceResults redone =
+      hitsByKernel(VulkanConeKernel(small, {kRayCount, true, choice}, VulkanWorkgroupShape{32, 1, 1}), traced);
   CHECK(test::haveSameBits(redone.hits, hitsByReference(traced).hits));
   CHECK(instance.validationLog()->messages().empty());
 }

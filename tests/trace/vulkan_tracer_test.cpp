@@ -143,10 +143,10 @@ TEST_CASE("cones beyond the iteration guard are redone by the reference and coun
   const std::vector<double> reference = referenceValues(traced);
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
     const ConeKernelRequest request{30, false, choice};
-    const TraceResults all = traceWith(VulkanConeKernel(*device, request, {32, 1, 1}), traced);
+    const TraceResults all = traceWith(VulkanConeKernel(*device, request, VulkanWorkgroupShape{32, 1, 1}), traced);
     CHECK(all.statistics.redoneConeCount == reference.size());
     CHECK(test::haveSameBits(all.values, reference));
-    const TraceResults some = traceWith(VulkanConeKernel(*device, request, {32, 1, 45}), traced);
+    const TraceResults some = traceWith(VulkanConeKernel(*device, request, VulkanWorkgroupShape{32, 1, 45}), traced);
     CHECK(some.statistics.redoneConeCount > 0);
     CHECK(some.statistics.redoneConeCount < reference.size());
     CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);

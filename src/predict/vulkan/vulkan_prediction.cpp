@@ -235,13 +235,9 @@ PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels) 
 }
 
 std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene,
-                                                     const Cone& cone) {
-  return makeVulkanPredictor(kernels, scene, cone, predictionBatchSize(kernels));
-}
-
-std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene,
-                                                     const Cone& cone, const PredictionBatchSize& batchSize) {
-  return std::make_unique<VulkanPredictor>(kernels, scene, cone, batchSize);
+                                                     const Cone& cone,
+                                                     const std::optional<PredictionBatchSize>& batchSize) {
+  return std::make_unique<VulkanPredictor>(kernels, scene, cone, batchSize.value_or(predictionBatchSize(kernels)));
 }
 
 }  // namespace asdfvk

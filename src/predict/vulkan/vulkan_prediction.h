@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "cone/cone.h"
 #include "predict/prediction.h"
@@ -42,10 +43,8 @@ class VulkanPredictionKernels {
 /// Uploads the faces of the scene. Scene, cone and kernels must outlive the result. Values differ from the values of
 /// the CPU by rounding, which moves a few points across the rim of a cone or the bound of the outlier rule. batchSize:
 /// default predictionBatchSize(). Throws Error of kind Device, also where the mesh exceeds a limit of the device.
-[[nodiscard]] std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels,
-                                                                   const TraceScene& scene, const Cone& cone);
-[[nodiscard]] std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels,
-                                                                   const TraceScene& scene, const Cone& cone,
-                                                                   const PredictionBatchSize& batchSize);
+[[nodiscard]] std::unique_ptr<DevicePredictor> makeVulkanPredictor(
+    const VulkanPredictionKernels& kernels, const TraceScene& scene, const Cone& cone,
+    const std::optional<PredictionBatchSize>& batchSize = {});
 
 }  // namespace asdfvk

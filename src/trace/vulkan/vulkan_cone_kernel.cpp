@@ -99,21 +99,14 @@ ComputePipelineDescription describeRays(const ConeKernelRequest& request, const 
                                       /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
 }
 
-VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request)
-    : VulkanConeKernel(device, request,
-                       workgroupShapeFor(device.facts(), request.rayCount, choiceFor(device, request).kernel)) {}
-
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
-                                   const VulkanWorkgroupShape& shape)
-    : VulkanConeKernel(device, request, shape, walkShapeFor(device.facts())) {}
-
-VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
-                                   const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk)
+                                   const std::optional<VulkanWorkgroupShape>& shape,
+                                   const std::optional<VulkanWalkShape>& walk)
     : device_(requireSubgroups(device, choiceFor(device, request).kernel)),
       request_(request),
       choice_(choiceFor(device, request)),
-      shape_(shape),
-      rays_(device, describeRays(request_, choice_, shape_, walk)),
+      shape_(shape.value_or(workgroupShapeFor(device.facts(), request.rayCount, choice_.kernel))),
+      rays_(device, describeRays(request_, choice_, shape_, walk.value_or(walkShapeFor(device.facts())))),
       reduction_(device, describeReduction(request_)) {
   if (request.definition == Definition::Paper) origins_.emplace(device, describeOrigins(choice_));
 }

@@ -29,11 +29,10 @@ struct ConeKernelRequest {
 /// The compiled shaders/trace_*.comp for one device and request; serves any number of meshes.
 class VulkanConeKernel {
  public:
-  VulkanConeKernel(const Device& device, const ConeKernelRequest& request);
-  /// For tests: with given shapes instead of those chosen for the device.
-  VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape);
-  VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape,
-                   const VulkanWalkShape& walk);
+  /// shape, walk: given by tests; otherwise those for the device.
+  VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
+                   const std::optional<VulkanWorkgroupShape>& shape = {},
+                   const std::optional<VulkanWalkShape>& walk = {});
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
