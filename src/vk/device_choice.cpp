@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 
@@ -12,22 +13,6 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kRequiredApiVersion = (1u << 22) | (2u << 12);  // Vulkan 1.2
-
-int rank(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::Discrete:
-      return 0;
-    case DeviceKind::Integrated:
-      return 1;
-    case DeviceKind::Virtual:
-      return 2;
-    case DeviceKind::Other:
-      return 3;
-    case DeviceKind::Cpu:
-      return 4;
-  }
-  return 5;
-}
 
 /// Whether `digits` is a whole number within `text`: "RTX 4090" has the number 4090, but not 90.
 bool holdsNumber(const std::string& text, const std::string& digits) {
@@ -60,19 +45,9 @@ std::string refusal(const DeviceFacts& device, uint32_t index, size_t deviceCoun
 }  // namespace
 
 std::string_view toString(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::Discrete:
-      return "discrete GPU";
-    case DeviceKind::Integrated:
-      return "integrated GPU";
-    case DeviceKind::Virtual:
-      return "virtual GPU";
-    case DeviceKind::Cpu:
-      return "CPU";
-    case DeviceKind::Other:
-      return "other";
-  }
-  return "other";
+  constexpr std::array<std::string_view, 5> kNames{"discrete GPU", "integrated GPU", "virtual GPU", "other", "CPU"};
+  static_assert(static_cast<size_t>(DeviceKind::Cpu) + 1 == kNames.size());
+  return kNames[static_cast<size_t>(kind)];
 }
 
 bool llvmpipeEndsLongLoops(std::string_view driverInfo) {
@@ -96,7 +71,7 @@ DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequ
   for (uint32_t i = 0; i < devices.size(); ++i) {
     choice.reasons.push_back(refusal(devices[i], i, devices.size(), request));
     if (!choice.reasons[i].empty()) continue;
-    if (!choice.index || rank(devices[i].kind) < rank(devices[*choice.index].kind)) choice.index = i;
+    if (!choice.index || devices[i].kind < devices[*choice.index].kind) choice.index = i;
   }
   for (uint32_t i = 0; i < devices.size(); ++i) {
     if (!choice.reasons[i].empty()) continue;

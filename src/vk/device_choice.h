@@ -9,7 +9,8 @@
 
 namespace asdfvk {
 
-enum class DeviceKind { Discrete, Integrated, Virtual, Cpu, Other };
+/// In the order of preference.
+enum class DeviceKind { Discrete, Integrated, Virtual, Other, Cpu };
 enum class DeviceVendor { Nvidia, Amd, Intel, Other };
 
 /// Facts for the choice of a device, and limits. Plain data, so that tests of the choice need no device.
