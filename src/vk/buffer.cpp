@@ -150,18 +150,6 @@ TexelView::TexelView(const Device& device, const Buffer& buffer) : device_(devic
   requireSuccess(vkCreateBufferView(device_, &info, nullptr, &view_), "creating a buffer view");
 }
 
-TexelView::~TexelView() {
-  if (device_) vkDestroyBufferView(device_, view_, nullptr);
-}
-
-TexelView::TexelView(TexelView&& other) noexcept { *this = std::move(other); }
-
-TexelView& TexelView::operator=(TexelView&& other) noexcept {
-  std::swap(device_, other.device_);
-  std::swap(view_, other.view_);
-  return *this;
-}
-
 Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage, MemoryKind kind) {
   Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
   if (buffer.mapped() != nullptr) {

@@ -50,16 +50,15 @@ void requireStorageRange(const Device& device, uint64_t byteCount);
 /// A whole buffer, with VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT, as rgba32ui texels. The buffer must outlive the view.
 class TexelView {
  public:
-  TexelView() = default;
   TexelView(const Device& device, const Buffer& buffer);
-  ~TexelView();
-  TexelView(TexelView&& other) noexcept;
-  TexelView& operator=(TexelView&& other) noexcept;
+  ~TexelView() { vkDestroyBufferView(device_, view_, nullptr); }
+  TexelView(const TexelView&) = delete;
+  TexelView& operator=(const TexelView&) = delete;
 
   [[nodiscard]] VkBufferView handle() const { return view_; }
 
  private:
-  VkDevice device_ = VK_NULL_HANDLE;
+  VkDevice device_;
   VkBufferView view_ = VK_NULL_HANDLE;
 };
 
