@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "segment/alpha_expansion.h"
@@ -157,29 +157,21 @@ void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, 
     std::vector<uint8_t> isLoose(pieces.labels.size(), 1);
     for (const uint32_t anchor : anchors)
       if (anchor != kNoLabel) isLoose[pieces.pieceOf[anchor]] = 0;
-    // Loose piece, neighbouring label, length of the boundary.
-    std::vector<std::tuple<uint32_t, uint32_t, double>> boundaries;
+    std::map<std::pair<uint32_t, uint32_t>, double> boundaries;  // Lengths, by loose piece and neighbouring label.
     for (uint32_t face = 0; face < labels.size(); ++face) {
       const uint32_t piece = pieces.pieceOf[face];
       if (piece == kNoLabel || !isLoose[piece]) continue;
       for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
         const uint32_t other = surface.arcs[arc].face;
         if (labels[other] != labels[face] && labels[other] != kNoLabel && !isLoose[pieces.pieceOf[other]])
-          boundaries.emplace_back(piece, labels[other], double{surface.edgeLengths[arc]});
+          boundaries[{piece, labels[other]}] += double{surface.edgeLengths[arc]};
       }
     }
     if (boundaries.empty()) return;
-    std::stable_sort(boundaries.begin(), boundaries.end(), [](const auto& x, const auto& y) {
-      return std::pair(std::get<0>(x), std::get<1>(x)) < std::pair(std::get<0>(y), std::get<1>(y));
-    });
     std::vector<uint32_t> newLabels = pieces.labels;
     std::vector<double> longest(pieces.labels.size(), -1);
-    for (size_t begin = 0, end = 0; begin < boundaries.size(); begin = end) {
-      const auto [piece, label, first] = boundaries[begin];
-      double length = 0;
-      for (; end < boundaries.size() && std::get<0>(boundaries[end]) == piece && std::get<1>(boundaries[end]) == label;
-           ++end)
-        length += std::get<2>(boundaries[end]);
+    for (const auto& [key, length] : boundaries) {
+      const auto [piece, label] = key;
       if (length <= longest[piece]) continue;
       longest[piece] = length;
       newLabels[piece] = label;

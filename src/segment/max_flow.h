@@ -39,8 +39,6 @@ class MaxFlow {
   /// all minimum cuts, this one has the fewest nodes on the source's side.
   [[nodiscard]] bool isSource(uint32_t node) const { return nodes_[node].tree == Tree::Source; }
 
-  [[nodiscard]] uint32_t nodeCount() const { return static_cast<uint32_t>(nodes_.size()); }
-
  private:
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   static constexpr uint32_t kTerminal = kNone - 1;  ///< Parent of a root.

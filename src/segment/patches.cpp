@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/check.h"
@@ -146,7 +147,7 @@ PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> nor
     if (const double norm = length(patch.normal); norm > 0) patch.normal = patch.normal / norm;
   }
   std::vector<double> nearest(patches.count, std::numeric_limits<double>::infinity());
-  std::vector<PatchData::Border> edges;
+  std::map<std::pair<uint32_t, uint32_t>, PatchData::Border> borders;
   for (uint32_t face = 0; face < surface.faceCount(); ++face) {
     const uint32_t index = patches.patchOf[face];
     if (index == kNoPatch) continue;
@@ -159,23 +160,15 @@ PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> nor
       const uint32_t other = patches.patchOf[surface.arcs[arc].face];
       if (other <= index || other == kNoPatch) continue;  // Each edge is counted once.
       const double length = double{surface.edgeLengths[arc]}, angle = double{surface.angles[arc]};
-      edges.push_back({index, other, length, length * std::max(0.0, angle), length * std::max(0.0, -angle)});
+      PatchData::Border& border = borders[{index, other}];
+      border.a = index;
+      border.b = other;
+      border.length += length;
+      border.concave += length * std::max(0.0, angle);
+      border.convex += length * std::max(0.0, -angle);
     }
   }
-  const auto isBefore = [](const PatchData::Border& x, const PatchData::Border& y) {
-    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-  };
-  std::stable_sort(edges.begin(), edges.end(), isBefore);
-  for (const PatchData::Border& edge : edges) {
-    if (data.borders.empty() || isBefore(data.borders.back(), edge)) {
-      data.borders.push_back(edge);
-      continue;
-    }
-    PatchData::Border& border = data.borders.back();
-    border.length += edge.length;
-    border.concave += edge.concave;
-    border.convex += edge.convex;
-  }
+  for (const auto& [pair, border] : borders) data.borders.push_back(border);
   return data;
 }
 

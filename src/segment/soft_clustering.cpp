@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -143,46 +144,55 @@ class Mixture {
 
   /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
   double expect() {
-    return sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
-      double product = 1;  // A product of likelihoods, because a logarithm per value takes long.
+    const auto logarithmOf = [&](size_t begin, size_t end) {
+      double sum = 0, product = 1;  // A product of likelihoods, because a logarithm per value takes long.
       for (size_t i = begin; i < end; ++i) {
         double* row = &probabilities_[i * gaussians_.size()];
         double total = 0;
         for (size_t c = 0; c < gaussians_.size(); ++c) total += row[c] = gaussians_[c].density(values_[i]);
         if (!(total > 0)) total = row[nearest(values_[i])] = kMinProduct;
         if (product * total < kMinProduct || product * total > 1 / kMinProduct)
-          sum[0] += std::log(std::exchange(product, 1)) + std::log(total);
+          sum += std::log(std::exchange(product, 1)) + std::log(total);
         else
           product *= total;
         const double inverse = 1 / total;
         for (size_t c = 0; c < gaussians_.size(); ++c) row[c] *= inverse;
       }
-      sum[0] += std::log(product);
-    })[0];
+      return sum + std::log(product);
+    };
+    return foldInParallel<double>(values_.size(), logarithmOf, std::plus<>());
   }
 
   /// Sets the most likely Gaussians for the probabilities.
   void maximize() {
+    using Sums = std::array<double, 2>;
     const size_t clusterCount = gaussians_.size();
     for (size_t c = 0; c < clusterCount; ++c) {
-      const auto [share, first] = sumOverBlocks<2>([&](size_t begin, size_t end, size_t, std::array<double, 2>& sum) {
+      const auto sumUp = [&](size_t begin, size_t end) {
+        Sums sums{};
         for (size_t i = begin; i < end; ++i) {
           const double p = probabilities_[i * clusterCount + c];
-          sum[0] += p;
-          sum[1] += p * values_[i];
+          sums[0] += p;
+          sums[1] += p * values_[i];
         }
-      });
+        return sums;
+      };
+      const auto plus = [](const Sums& a, const Sums& b) { return Sums{a[0] + b[0], a[1] + b[1]}; };
+      const auto [share, first] = foldInParallel<Sums>(values_.size(), sumUp, plus);
       if (share == 0) {
         gaussians_[c] = {gaussians_[c].mean, gaussians_[c].deviation, 0};
         continue;
       }
       const double mean = first / share;
-      const double second = sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
+      const auto sumSquares = [&](size_t begin, size_t end) {
+        double sum = 0;
         for (size_t i = begin; i < end; ++i) {
           const double distance = values_[i] - mean;
-          sum[0] += probabilities_[i * clusterCount + c] * distance * distance;
+          sum += probabilities_[i * clusterCount + c] * distance * distance;
         }
-      })[0];
+        return sum;
+      };
+      const double second = foldInParallel<double>(values_.size(), sumSquares, std::plus<>());
       gaussians_[c] = {mean, std::sqrt(second / share), share / static_cast<double>(values_.size())};
     }
   }
@@ -212,20 +222,6 @@ class Mixture {
       return std::abs(value - a.mean) < std::abs(value - b.mean);
     };
     return static_cast<size_t>(std::min_element(gaussians_.begin(), gaussians_.end(), isNearer) - gaussians_.begin());
-  }
-
-  /// Sums N numbers over blocks of fixed size, then over the blocks in order.
-  template <size_t N, typename Body>
-  [[nodiscard]] std::array<double, N> sumOverBlocks(const Body& body) const {
-    constexpr size_t kBlock = 4096;
-    std::vector<std::array<double, N>> sums((values_.size() + kBlock - 1) / kBlock);
-    forEachTask(sums.size(), [&](size_t block) {
-      body(block * kBlock, std::min(values_.size(), (block + 1) * kBlock), block, sums[block]);
-    });
-    std::array<double, N> total{};
-    for (const std::array<double, N>& sum : sums)
-      for (size_t n = 0; n < N; ++n) total[n] += sum[n];
-    return total;
   }
 
   std::span<const double> values_;

@@ -12,8 +12,6 @@ namespace asdfvk {
 struct SoftClustering {
   std::vector<double> means, deviations, weights;  ///< Per cluster. A deviation may be 0; weights sum to 1.
   std::vector<double> probabilities;  ///< #values x #clusters: a row per value, with the probability of each cluster.
-
-  [[nodiscard]] uint32_t clusterCount() const { return static_cast<uint32_t>(means.size()); }
 };
 
 /// Expectation and maximization (A. Dempster, N. Laird, D. Rubin: Maximum Likelihood from Incomplete Data via the EM
