@@ -187,11 +187,4 @@ double residualNorm(const PoissonSystem& system, std::span<const double> residua
   return orderedNorm(residual.size(), [&](size_t row) { return residual[row] / system.diagonal[row]; });
 }
 
-double relativeResidual(const PoissonSystem& system, std::span<const double> solution) {
-  std::vector<double> residual(solution.size());
-  computeResidual(system, solution, residual);
-  const double norm = residualNorm(system, residual);
-  return norm == 0 ? 0 : norm / residualNorm(system, system.rightHandSide);
-}
-
 }  // namespace asdfvk

@@ -85,8 +85,4 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
   return residualNorm(system, system.rightHandSide);
 }
 
-/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and for a residual of 0; infinite where b is 0 and
-/// the residual is not.
-[[nodiscard]] double relativeResidual(const PoissonSystem& system, std::span<const double> solution);
-
 }  // namespace asdfvk

@@ -37,6 +37,15 @@ inline Mesh torus(uint32_t rings, uint32_t sides) {
   return mesh;
 }
 
+/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and for a residual of 0; infinite where b is 0 and
+/// the residual is not.
+inline double relativeResidual(const PoissonSystem& system, std::span<const double> solution) {
+  std::vector<double> residual(solution.size());
+  computeResidual(system, solution, residual);
+  const double norm = residualNorm(system, residual);
+  return norm == 0 ? 0 : norm / rightHandNorm(system);
+}
+
 /// A dual graph and barycentres given by hand; each edge is an arc in both directions.
 struct HandGraph {
   DualGraph graph;

@@ -27,15 +27,16 @@ uint32_t minRowsPerLane(const DeviceFacts& facts) {
 
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
-}  // namespace
-
-uint32_t poissonLaneCount(const DeviceFacts& facts) {
+/// Lanes per workgroup on this device: the specialization constant of the pipelines.
+uint32_t laneCountOn(const DeviceFacts& facts) {
   const uint32_t wanted = facts.kind == DeviceKind::Cpu ? kCpuLaneCount : kGpuLaneCount;
   return std::bit_floor(std::min({wanted, facts.maxWorkgroupInvocations, facts.maxWorkgroupSize}));
 }
 
+}  // namespace
+
 PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
-  const uint32_t laneCount = poissonLaneCount(facts);
+  const uint32_t laneCount = laneCountOn(facts);
   const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * minRowsPerLane(facts));
   return {laneCount, static_cast<uint32_t>(std::clamp<uint64_t>(wanted, 1, kMaxPoissonWorkgroupCount))};
 }
@@ -48,7 +49,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
   const uint64_t byteCount = std::max(sizeof(uint32_t) * tailCount, sizeof(PoissonRow) * unknownCount);
   if (byteCount > facts.maxStorageBufferRange)
     refuse(fmt::format("{} MiB in one buffer, at most {}", (byteCount >> 20) + 1, facts.maxStorageBufferRange >> 20));
-  const uint64_t laneCount = poissonLaneCount(facts);
+  const uint64_t laneCount = laneCountOn(facts);
   const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
   // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
   const uint64_t iterationCount = std::max<uint64_t>(rowsPerLane, minRowsPerLane(facts)) * (longestRow + 1) +
@@ -64,7 +65,7 @@ ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const
           spirv,
           std::vector(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
           sizeof(PoissonPush),
-          {/* kLaneCount= */ poissonLaneCount(facts), /* LOCAL_SIZE_X= */ poissonLaneCount(facts)}};
+          {/* kLaneCount= */ laneCountOn(facts), /* LOCAL_SIZE_X= */ laneCountOn(facts)}};
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, uint32_t count, Buffer columns, Buffer couplings)

@@ -22,8 +22,6 @@ struct PoissonGrid {
   uint32_t workgroupCount = 0;
 };
 
-/// Lanes per workgroup on this device: the specialization constant of the pipelines.
-[[nodiscard]] uint32_t poissonLaneCount(const DeviceFacts& facts);
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
 /// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} if an array exceeds the binding size
