@@ -1,9 +1,18 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "asdf_vk/options.h"
+#include "core/check.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
+
+// Added to the cosine of the angle between opposing walls. Because of this slack, walls at exactly this angle are
+// opposing despite rounding, such as the walls of a hexagonal prism at 120 degrees. The slack is 0.07 degrees at 120
+// and 2.6 at 180 degrees.
+inline constexpr double kOpposingWallSlack = 1e-3;
 
 /// The opposing walls of a face: the faces whose normals differ from its normal by at least an angle. Opposing walls
 /// limit the balls that touch the face from inside (touching_ball.h).
@@ -16,6 +25,10 @@ struct OpposingWalls {
 };
 
 /// Precondition: the angle is in its range.
-[[nodiscard]] OpposingWalls makeOpposingWalls(const ThicknessOptions& options);
+[[nodiscard]] inline OpposingWalls makeOpposingWalls(const ThicknessOptions& options) {
+  const double angleDegrees = options.wallAngleDegrees;
+  ASDFVK_CHECK(angleDegrees > 90 && angleDegrees <= 180);
+  return {std::cos(angleDegrees * std::numbers::pi / 180) + kOpposingWallSlack};
+}
 
 }  // namespace asdfvk

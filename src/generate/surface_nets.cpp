@@ -203,9 +203,8 @@ class SurfaceNets {
   GeneratedShape shape_;
 };
 
-}  // namespace
-
-// The number of crossed edges is about proportional to 1 / spacing^2. The approximation is better for finer lattices.
+/// A lattice with about `quadCount` edges that the surface crosses: within 2 %, or the best of the tested spacings.
+/// The number of crossed edges is about proportional to 1 / spacing^2. The approximation is better for finer lattices.
 BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
   const auto wished = static_cast<double>(quadCount);
   double spacing = field.bounds().diagonal() / 20;
@@ -225,6 +224,8 @@ BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
   }
   return std::move(*best);
 }
+
+}  // namespace
 
 GeneratedShape polygonise(const CapsuleUnion& field, uint64_t faceCount) {
   const BrickLattice lattice = latticeOfSize(field, faceCount / 2);

@@ -2,14 +2,10 @@
 
 #include <cstdint>
 
-#include "generate/brick_lattice.h"
 #include "generate/capsule_union.h"
 #include "generate/generated_shape.h"
 
 namespace asdfvk {
-
-/// A lattice with about `quadCount` edges that the surface crosses: within 2 %, or the best of the tested spacings.
-[[nodiscard]] BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount);
 
 /// The surface of a smooth union of capsules as a closed manifold of about `faceCount` well-shaped triangles, with the
 /// part and diameter of each triangle. Surface nets (Gibson, 1998) on a sparse lattice: a vertex per cell that the

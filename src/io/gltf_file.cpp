@@ -56,6 +56,14 @@ bool isHarmless(std::string_view extension) {
          std::any_of(kPrefixes.begin(), kPrefixes.end(), [&](auto prefix) { return extension.starts_with(prefix); });
 }
 
+/// Empty if there is no such member.
+std::string gltfText(const GltfJson& object, const char* key, std::string_view where) {
+  const GltfJson* const value = gltfMember(object, key, where);
+  if (value == nullptr) return {};
+  if (!value->is_string()) failGltf(where, fmt::format("{} is not a string", key));
+  return value->get<std::string>();
+}
+
 }  // namespace
 
 const GltfJson* gltfMember(const GltfJson& object, const char* key, std::string_view where) {
@@ -82,13 +90,6 @@ const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_v
   const GltfJson* const value = gltfMember(object, key, where);
   if (value != nullptr && !value->is_array()) failGltf(where, fmt::format("{} is not an array", key));
   return value;
-}
-
-std::string gltfText(const GltfJson& object, const char* key, std::string_view where) {
-  const GltfJson* const value = gltfMember(object, key, where);
-  if (value == nullptr) return {};
-  if (!value->is_string()) failGltf(where, fmt::format("{} is not a string", key));
-  return value->get<std::string>();
 }
 
 bool gltfNumbers(const GltfJson& object, const char* key, std::span<double> numbers, std::string_view where) {

@@ -24,8 +24,6 @@ using GltfJson = nlohmann::json;
                                  std::string_view where);
 /// Null if there is no such member.
 [[nodiscard]] const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_view where);
-/// Empty if there is no such member.
-[[nodiscard]] std::string gltfText(const GltfJson& object, const char* key, std::string_view where);
 /// Reads numbers.size() finite numbers into `numbers`. Returns false if there is no such member.
 [[nodiscard]] bool gltfNumbers(const GltfJson& object, const char* key, std::span<double> numbers,
                                std::string_view where);

@@ -61,15 +61,11 @@ SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount) {
       ->window;
 }
 
-void requireValid(const SmoothingOptions::Window& window) {
+std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
+                                      const SmoothingOptions::Window& window) {
   if (window.rings < 1 || window.rings > kMaxBilateralWindow)
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothing window of {} rings is out of range (1 to {})",
                                                          window.rings, kMaxBilateralWindow));
-}
-
-std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
-                                      const SmoothingOptions::Window& window) {
-  requireValid(window);
   ASDFVK_CHECK_OP(values.size(), ==, size_t{graph.faceCount()});
   std::vector<double> from(values.begin(), values.end()), to(values.size());
   for (uint32_t pass = 0; pass < window.passes; ++pass) {

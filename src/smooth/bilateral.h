@@ -28,12 +28,10 @@ inline constexpr uint32_t kMaxBilateralWindow = 4;  ///< Rings.
 [[nodiscard]] SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount);
 
 /// values: #F, finite, or NaN for no value. A face without a value keeps no value and does not influence other faces.
-/// The result has the same bits on any number of threads. Throws the errors of requireValid().
+/// The result has the same bits on any number of threads. Throws Error{OptionOutOfRange} for a number of rings out of
+/// range.
 [[nodiscard]] std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
                                                     const SmoothingOptions::Window& window);
-
-/// Throws Error{OptionOutOfRange} for a number of rings out of range.
-void requireValid(const SmoothingOptions::Window& window);
 
 /// If every edge joins at most two faces, four rings around a face have at most 1 + 3 + 6 + 12 + 24 = 46 faces and 66
 /// arcs. These limits bound the cost of windows where more faces share an edge.
