@@ -19,46 +19,26 @@ const uint kInfinityBits = 0x7f800000u;
 
 uint lengthBits[kRayCount];
 
-uint countBelow(uint bits) {
-  uint count = 0u;
-  for (uint ray = 0u; ray < kRayCount; ++ray) count += lengthBits[ray] < bits ? 1u : 0u;
-  return count;
-}
-
-// Bits of the length with the given rank: the largest number that exceeds at most `rank` lengths.
-uint findRank(uint rank) {
-  uint bits = 0u;
-  for (uint bit = 0x40000000u; bit != 0u; bit >>= 1)
-    if (countBelow(bits | bit) <= rank) bits |= bit;
-  return bits;
-}
-
-uint findNext(uint bits, uint rank) {
-  if (countBelow(bits + 1u) > rank + 1u) return bits;
-  uint next = kNotValid;
-  for (uint ray = 0u; ray < kRayCount; ++ray) next = lengthBits[ray] > bits ? min(next, lengthBits[ray]) : next;
-  return next;
-}
-
-uint deviationBits(uint ray, float median) {
+uint deviationBits(uint ray, float centre) {
   if (lengthBits[ray] == kNotValid) return kNotValid;
-  return floatBitsToUint(abs(uintBitsToFloat(lengthBits[ray]) - median));
+  return floatBitsToUint(abs(uintBitsToFloat(lengthBits[ray]) - centre));
 }
 
-// The mean of the middle two deviations. Each pass determines two bits, which halves the iterations of findRank().
-float medianDeviation(uint validCount, float median) {
+// The mean of the middle two differences from `centre`; with the centre 0, the median of the lengths. Each pass
+// determines two bits, which halves the iterations of a bisection.
+float medianDeviation(uint validCount, float centre) {
   const uint rank = (validCount - 1u) / 2u;
   uint bits = 0u;
   for (int shift = 30; shift >= 0; shift -= 2) {
     const uvec3 limits = bits | uvec3(1u, 2u, 3u) << uint(shift);
     uvec3 counts = uvec3(0u);
-    for (uint ray = 0u; ray < kRayCount; ++ray) counts += uvec3(lessThan(uvec3(deviationBits(ray, median)), limits));
+    for (uint ray = 0u; ray < kRayCount; ++ray) counts += uvec3(lessThan(uvec3(deviationBits(ray, centre)), limits));
     bits = counts.z <= rank ? limits.z : counts.y <= rank ? limits.y : counts.x <= rank ? limits.x : bits;
   }
   uint upToCount = 0u;
   uint next = kNotValid;
   for (uint ray = 0u; ray < kRayCount; ++ray) {
-    const uint own = deviationBits(ray, median);
+    const uint own = deviationBits(ray, centre);
     upToCount += own <= bits ? 1u : 0u;
     next = own > bits ? min(next, own) : next;
   }
@@ -77,10 +57,7 @@ float outlierBound(uint validCount, float mean, float median) {
 }
 
 float weightedMean(uint validCount, float mean) {
-  const uint rank = (validCount - 1u) / 2u;
-  const uint lower = findRank(rank);
-  const uint upper = validCount % 2u == 0u ? findNext(lower, rank) : lower;
-  const float median = 0.5 * (uintBitsToFloat(lower) + uintBitsToFloat(upper));
+  const float median = medianDeviation(validCount, 0.0);
   const float bound = outlierBound(validCount, mean, median);
   float sum = 0.0;
   float weightSum = 0.0;

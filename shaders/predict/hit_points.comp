@@ -23,38 +23,15 @@ shared float middles[2];
 
 PredictionRay loadRay(uint ray) { return decodePredictionRay(tableBlocks[ray]); }
 
-// Each lane computes the ranks of its rays among all rays. The lengths of the two middle ranks determine the median
-// (for an odd count the same length twice). Returns the number of valid rays and their mean length.
-void findMiddles(uint lane, out uint validCount, out float mean) {
-  validCount = 0u;
-  mean = 0.0;
-  for (uint other = 0u; other < kRayCount; ++other) {
-    validCount += lengths[other] >= 0.0 ? 1u : 0u;
-    mean += max(lengths[other], 0.0);
-  }
-  mean /= float(max(validCount, 1u));
-  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
-    const float own = lengths[ray];
-    uint rank = 0u;
-    for (uint other = 0u; other < kRayCount; ++other) {
-      const float l = lengths[other];
-      rank += l >= 0.0 && (l < own || (l == own && other < ray)) ? 1u : 0u;
-    }
-    if (own >= 0.0 && rank == (validCount - 1u) / 2u) middles[0] = own;
-    if (own >= 0.0 && rank == validCount / 2u) middles[1] = own;
-  }
-}
-
-float medianOfMiddles() { return 0.5 * (middles[0] + middles[1]); }
-
-// Like findMiddles(), for the absolute differences from the median.
-void findMiddleDeviations(uint lane, uint validCount, float median) {
+// Each lane computes the ranks of its valid rays among all valid rays, by the absolute differences of the lengths from
+// `centre`. The differences of the two middle ranks determine the median (for an odd count the same one twice).
+void findMiddles(uint lane, uint validCount, float centre) {
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
     if (lengths[ray] < 0.0) continue;
-    const float own = abs(lengths[ray] - median);
+    const float own = abs(lengths[ray] - centre);
     uint rank = 0u;
     for (uint other = 0u; other < kRayCount; ++other) {
-      const float difference = abs(lengths[other] - median);
+      const float difference = abs(lengths[other] - centre);
       rank += lengths[other] >= 0.0 && (difference < own || (difference == own && other < ray)) ? 1u : 0u;
     }
     if (rank == (validCount - 1u) / 2u) middles[0] = own;
@@ -62,8 +39,10 @@ void findMiddleDeviations(uint lane, uint validCount, float median) {
   }
 }
 
+float medianOfMiddles() { return 0.5 * (middles[0] + middles[1]); }
+
 // The largest difference from the median of a length that is kept. Preconditions: a barrier after the lengths are
-// written and, if kIsCgal, after findMiddleDeviations().
+// written and, if kIsCgal, after findMiddles() with the median as the centre.
 float outlierBound(uint validCount, float mean, float median) {
   if (kIsCgal) return push.outlierDeviations * medianOfMiddles();
   float variance = 0.0;
@@ -110,14 +89,19 @@ void main() {
     middles[1] = 0.0;
   }
   barrier();
-  uint validCount;
-  float mean;
-  findMiddles(lane, validCount, mean);
+  uint validCount = 0u;
+  float mean = 0.0;
+  for (uint ray = 0u; ray < kRayCount; ++ray) {
+    validCount += lengths[ray] >= 0.0 ? 1u : 0u;
+    mean += max(lengths[ray], 0.0);
+  }
+  mean /= float(max(validCount, 1u));
+  findMiddles(lane, validCount, 0.0);
   barrier();
   const float median = medianOfMiddles();
   barrier();
   if (kIsCgal) {
-    findMiddleDeviations(lane, validCount, median);
+    findMiddles(lane, validCount, median);
     barrier();
   }
   const float bound = outlierBound(validCount, mean, median);
