@@ -31,7 +31,8 @@ extern "C" {
 /* NOLINTBEGIN(readability-identifier-naming) */
 
 /* Version of the binary interface and of the shared library (libasdf-vk-c.so.1). The loaded library fits this header
- * if asdf_vk_abi() returns ASDF_VK_ABI. Releases with an equal ASDF_VK_ABI only add functions and enumerators. */
+ * if asdf_vk_abi() returns ASDF_VK_ABI. Between releases with an equal ASDF_VK_ABI, only
+ * functions and enumerators are added. */
 #define ASDF_VK_ABI 1
 ASDF_VK_C_API int asdf_vk_abi(void);
 /* Version of asdf-vk as a text: "0.2.0". */
@@ -45,7 +46,7 @@ typedef enum asdf_vk_status {
   ASDF_VK_USAGE =
       1, /* A null argument or an invalid handle; an unknown or contradictory option, or a value out of range. */
   ASDF_VK_INPUT = 2,      /* A mesh or array is unreadable, invalid or too large, or no value can be computed. */
-  ASDF_VK_DEVICE = 3,     /* No usable device, or the device was lost or is too small. */
+  ASDF_VK_DEVICE = 3,     /* No device is usable, or the device was lost or is too small. */
   ASDF_VK_OUTPUT = 4,     /* A file cannot be written. */
   ASDF_VK_INTERNAL = 70,  /* A defect of the library, or a limit of the operating system. */
   ASDF_VK_CANCELLED = 130 /* The progress function requested a stop. */
@@ -76,19 +77,19 @@ typedef struct asdf_vk_result asdf_vk_result;   /* The fields and the report of 
 ASDF_VK_C_API asdf_vk_status asdf_vk_options_create(asdf_vk_options** options);
 /* Sets an option by name and value, for example ("seeds", "10%") or ("thinner-than", "0.8mm"). name: as in
  * docs/options.md, without the leading dashes. value: a text as on the command line, or "on" or "off" for a flag;
- * null restores the default. Contradictory options are errors of the functions that take the options. */
+ * null restores the default. The functions that take the options report contradictory options. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, const char* value);
 ASDF_VK_C_API void asdf_vk_options_destroy(asdf_vk_options* options);
 
 /* Opens the device. options: may hold "backend", "device", "require-gpu" and "threads" only; null: the defaults. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_session_create(const asdf_vk_options* options, asdf_vk_session** session);
-/* text: the first line has the chosen device and the reason, each further line a device that was not chosen. The text
- * describes the devices at the creation of the session. */
+/* text: the first line has the chosen device and the reason. Each further line has a device that was not chosen. The
+ * text describes the devices at the creation of the session. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_session_device(const asdf_vk_session* session, const char** text);
 ASDF_VK_C_API void asdf_vk_session_destroy(asdf_vk_session* session);
 
-/* Makes a scene of a triangle mesh. vertices: 3 vertex_count numbers, x y z per vertex, of the type FLOAT64 or
- * FLOAT32. corners: 3 face_count vertex indices of the type UINT32 or INT32, counter-clockwise seen from outside.
+/* Makes a scene of a triangle mesh. vertices: 3 * vertex_count numbers, x y z per vertex, of the type FLOAT64 or
+ * FLOAT32. corners: 3 * face_count vertex indices of the type UINT32 or INT32, counter-clockwise seen from outside.
  * unit: "um", "mm", "cm", "m", "in", "ft", or null for no unit. Without a unit, a thickness limit such as "0.8mm" is
  * an error. The first computation prepares the mesh. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_scene_create(asdf_vk_session* session, const void* vertices,
@@ -106,9 +107,9 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_scene_create_polygons(asdf_vk_session* sess
 ASDF_VK_C_API asdf_vk_status asdf_vk_scene_read(asdf_vk_session* session, const char* path, asdf_vk_scene** scene);
 
 typedef struct asdf_vk_mesh {
-  const double* vertices; /* 3 vertex_count numbers, x y z per vertex. */
+  const double* vertices; /* 3 * vertex_count numbers, x y z per vertex. */
   size_t vertex_count;
-  const uint32_t* triangles; /* 3 triangle_count vertex indices. */
+  const uint32_t* triangles; /* 3 * triangle_count vertex indices. */
   size_t triangle_count;
   const uint32_t* face_of_triangle; /* triangle_count face indices; null if every face is one triangle. */
   size_t face_count;                /* Faces of the input; a field per face has one item per input face. */
@@ -119,8 +120,8 @@ ASDF_VK_C_API void asdf_vk_scene_destroy(asdf_vk_scene* scene);
 
 /* Progress function of a caller. A computation calls this function about every 50 to 100 ms, in the thread and
  * floating-point environment of the caller. fraction: 0 to 1. stage: "trace", "solve", ..., or "" before the first
- * stage. A return value other than 0 requests a stop. The function must not throw or call longjmp(). A computation
- * that the function starts on the same session fails. */
+ * stage. A return value other than 0 requests a stop. The function must not throw or call longjmp(). If the function
+ * starts a computation on the same session, the new computation fails. */
 typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 
 /* Computes the fields and the report of a scene. options: must not hold options of a session; null: the defaults.
@@ -128,9 +129,9 @@ typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 ASDF_VK_C_API asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk_options* options,
                                              asdf_vk_progress progress, void* user, asdf_vk_result** result);
 
-/* Computes the shape diameter at points, or with ("measure", "thickness") the wall thickness. points, normals: 3
- * point_count numbers each. values: receives point_count numbers in the unit of the mesh; NaN: no value. Only
- * options of rays, thickness and orientation have an effect. See Scene::valuesAt() and Scene::thicknessAt() in
+/* Computes the shape diameter at points, or the wall thickness if `options` has ("measure", "thickness"). points,
+ * normals: 3 * point_count numbers each. values: receives point_count numbers in the unit of the mesh; NaN: no value.
+ * Only options of rays, thickness and orientation have an effect. See Scene::valuesAt() and Scene::thicknessAt() in
  * asdf_vk/scene.h. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options,
                                                const double* points, const double* normals, size_t point_count,
@@ -152,13 +153,13 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_result_field(const asdf_vk_result* result, 
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_find(const asdf_vk_result* result, const char* name,
                                                  asdf_vk_location location, asdf_vk_field* field);
 /* Copies a field into `numbers`, which has room for `capacity` numbers. capacity: at least count * components. Real
- * numbers can be copied as FLOAT64 or FLOAT32, labels as any type except UINT8, flags as any type. As INT32, the
- * label of a face without a segment is -1. */
+ * numbers can be copied as FLOAT64 or FLOAT32. Labels can be copied as any type except UINT8. Flags can be copied as
+ * any type. In an INT32 copy, a face without a segment has the label -1. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_copy(const asdf_vk_result* result, const char* name,
                                                  asdf_vk_location location, asdf_vk_type type, void* numbers,
                                                  size_t capacity);
 /* Returns a value of the report as JSON text. pointer: a JSON Pointer (RFC 6901), for example "/thickness/min"; "" for
- * the whole report. The report has the keys of the program's --json except the names of files (docs/formats.md). */
+ * the whole report. The report has the keys of the program's --json, except the names of files (docs/formats.md). */
 ASDF_VK_C_API asdf_vk_status asdf_vk_result_json(asdf_vk_result* result, const char* pointer, const char** json);
 /* Writes the mesh and all fields. The extension of the path decides the format: .ply .vtu .glb .obj .npy .npz .csv
  * (docs/formats.md). */

@@ -45,7 +45,7 @@ inline constexpr ChoiceNames<CgalExpansion, 2> kCgalExpansions{
 inline constexpr ChoiceNames<PerElement, 2> kPerElements{
     {{"face", PerElement::Faces}, {"vertex", PerElement::Vertices}}};
 
-/// The names with bars between them: "paper|balanced|quality".
+/// The names with bars between them, for example "paper|balanced|quality".
 template <typename T, size_t N>
 [[nodiscard]] std::string joined(const ChoiceNames<T, N>& names) {
   std::string text;
@@ -53,7 +53,7 @@ template <typename T, size_t N>
   return text;
 }
 
-/// The enumerator with the name; null for an unknown name.
+/// Returns the enumerator with the name, or null for an unknown name.
 template <typename T, size_t N>
 [[nodiscard]] const T* findChoice(const ChoiceNames<T, N>& names, std::string_view name) {
   for (const auto& [candidate, value] : names)

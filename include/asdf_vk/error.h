@@ -13,7 +13,7 @@ namespace asdfvk {
 enum class ErrorKind {
   Usage,      ///< An option is out of range or contradicts another.
   Input,      ///< A mesh or array is unreadable, invalid or too large, or no value can be computed.
-  Device,     ///< No usable device, or the device was lost or is too small.
+  Device,     ///< No device is usable, or the device was lost or is too small.
   Output,     ///< A result cannot be written.
   Cancelled,  ///< The caller requested a stop.
 };
@@ -25,15 +25,15 @@ enum class ErrorCode {
   UnknownName,      ///< No sampler, solver, backend, format or shape has this name.
   UnknownFormat,    ///< Neither an option nor the extension of the file names a format.
   UnknownField,     ///< The result has no field of that name.
-  InvalidArgument,  ///< A null pointer or an invalid handle. C interface only.
+  InvalidArgument,  ///< A pointer is null or a handle is invalid. C interface only.
   // Input
   UnreadableInput,  ///< The file cannot be opened or violates its format. The message names the line or byte.
-  EmptyMesh,        ///< The mesh, or the given region of it, has no faces.
+  EmptyMesh,        ///< The mesh, or the given region of the mesh, has no faces.
   ArraySize,        ///< An array has a wrong size, or the entries of firstCorner do not ascend.
   ArrayType,        ///< The element type of an array is not supported. C interface and Python module only.
-  NonFiniteNumber,  ///< A NaN or an infinite number where only finite numbers are allowed.
+  NonFiniteNumber,  ///< A number is NaN or infinite where only finite numbers are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
-  MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
+  MeshTooLarge,     ///< The mesh has more vertices, faces or connections between faces than 32 bits can index.
   FarFromOrigin,    ///< The coordinates are so large that double precision does not resolve the mesh.
   InputTooLarge,    ///< The mesh does not fit into memory.
   NoValues,         ///< No face has a value.
@@ -51,7 +51,7 @@ enum class ErrorCode {
   OutOfDeviceMemory,
   DeviceLost,
   ValidationFailed,  ///< The Vulkan validation layers reported a problem.
-  VulkanFailed,      ///< Any other failure of a Vulkan call.
+  VulkanFailed,      ///< A call of Vulkan failed for another reason.
   ForkedProcess,     ///< The process was forked after the first use. C interface and Python module only.
   // Output
   OutputNotWritable,
@@ -60,7 +60,7 @@ enum class ErrorCode {
 };
 
 [[nodiscard]] ASDFVK_API ErrorKind kindOf(ErrorCode code);
-/// "deviceLost"
+/// The name of an enumerator with a small first letter, for example "deviceLost".
 [[nodiscard]] ASDFVK_API const char* nameOf(ErrorCode code);
 
 /// A named value of an error, for example {"limit", "134217728"}.

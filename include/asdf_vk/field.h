@@ -20,12 +20,13 @@ struct Field {
   /// Real numbers are double in memory and in CSV, and float32 in the other formats. NaN means no value.
   using Values = std::variant<std::vector<double>, std::vector<uint8_t>, std::vector<uint32_t>>;
 
-  std::string name;   ///< Letters, digits and '_'. Unique among the fields of a result that have the same location.
+  /// Letters, digits and '_'. Unique among the face fields, and among the vertex fields, of a result.
+  std::string name;
   std::string label;  ///< Display name: "shape diameter".
   std::string unit;   ///< "length": the unit of the mesh. Empty: no unit, as for flags and indices.
   FieldLocation location = FieldLocation::PerFace;
-  uint32_t componentCount = 1;  ///< 3 for a point.
-  Values values;                ///< Item i has the entries i componentCount .. (i + 1) componentCount - 1.
+  uint32_t componentCount = 1;  ///< Entries per item: 1, or 3 for a point.
+  Values values;                ///< Item i has the entries i * componentCount .. (i + 1) * componentCount - 1.
 
   [[nodiscard]] size_t size() const {  ///< Number of entries, over all components.
     return std::visit([](const auto& entries) { return entries.size(); }, values);
@@ -41,7 +42,7 @@ struct Field {
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name);
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name,
                                                 FieldLocation location);
-/// As findField(), but throws Error{UnknownField} if there is no such field.
+/// Like findField(), but throws Error{UnknownField} if the field does not exist.
 [[nodiscard]] ASDFVK_API const Field& requireField(std::span<const Field> fields, std::string_view name,
                                                    FieldLocation location = FieldLocation::PerFace);
 

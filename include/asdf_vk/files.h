@@ -13,9 +13,9 @@
 namespace asdfvk {
 
 /// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF or 3MF. path: "-" is standard input. The content decides the
-/// format, or the extension if the content is ambiguous (OBJ and binary STL have no magic number). Files that the mesh
-/// file refers to are not opened. Throws Error{UnreadableInput}, whose message has the file, the line or byte, and the
-/// reason; Error{MeshTooLarge}; Error{InputTooLarge}.
+/// format. If the content is ambiguous, the extension decides (OBJ and binary STL have no magic number). Files that the
+/// mesh file refers to are not opened. Throws Error{UnreadableInput}, whose message has the file, the line or byte, and
+/// the reason; Error{MeshTooLarge}; Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
 
 /// Reads a mesh from the bytes of a mesh file, as readMesh() does. extension: "ply", ".OBJ" or empty.
@@ -27,12 +27,12 @@ namespace asdfvk {
 
 struct WriteOptions {
   std::string format;  ///< One of resultFormats(). Empty: the extension decides; not allowed for the path "-".
-  /// Fields to write, in this order; empty: all. A name selects both the face field and the vertex field with this
-  /// name.
+  /// Names of the fields to write, in this order; empty: all fields. A name selects both the face field and the vertex
+  /// field with this name.
   std::vector<std::string> fields = {};
-  bool ascii = false;  ///< Writes PLY as text. Other formats ignore the member.
-  /// Field of one component that decides the colours in .ply, .glb and .obj. Empty: "segment", else the first real
-  /// field.
+  bool ascii = false;  ///< Writes PLY as text. Other formats ignore this option.
+  /// Field of one component that decides the colours in .ply, .glb and .obj. Empty: the field "segment" if it is
+  /// written, else the first field of real numbers.
   std::string colourOf = {};
   bool coloursVertices = false;  ///< Colours the vertices in PLY. GLB and OBJ always have vertex colours.
 };
@@ -45,15 +45,15 @@ struct WriteOptions {
 
 /// Writes the fields; .ply, .vtu, .glb and .obj files also have the mesh. Replaces the file atomically; "-" is standard
 /// output.
-/// - PLY: the first real face field with one component is the face property `quality`, the first such vertex field the
-///   vertex property `quality`. All other fields are properties with their own names.
+/// - PLY: the first real face field with one component is the face property `quality`. The first real vertex field with
+/// one component is the vertex property `quality`. All other fields are properties with their own names.
 /// - VTU, NPZ: all fields. In NPZ, a vertex field with the name of a face field is stored as vertex_NAME.
 /// - NPY: the first field only.
-/// - GLB: a vertex per corner of each triangle, with each field as attribute _NAME. A segment is a primitive with a
-///   material.
+/// - GLB: one vertex per corner of each triangle. Each field is an attribute _NAME of the vertices. Each segment is a
+/// primitive with its own material.
 /// - OBJ: vertex colours, but no values. Each segment is a material in PATH.mtl.
-/// - CSV: a row per face with the first column `face`; without a face field, a row per vertex with the first column
-///   `vertex`.
+/// - CSV: a row per face, with the first column `face`. Without a face field: a row per vertex, with the first column
+/// `vertex`.
 /// In .ply, .vtu and .obj, coordinates are float if float represents all of them exactly, else double. PLY and CSV
 /// split a field of three components into NAME_x, NAME_y and NAME_z. A missing value is NaN in .npy, .npz and .csv, and
 /// 0 in .ply, .vtu and .glb.
@@ -66,13 +66,13 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
                             const WriteOptions& options = {});
 
 /// Writes the skeleton points of the faces, from the face fields "centre" and "sdf" (Options::computesCentres). The
-/// radius of a point is half of the shape diameter. Faces without a value have no point. A .swc file has a minimum
-/// spanning tree of the points per component (face field "component"), or one tree if this field is missing. The root
-/// of a tree is the point with the greatest radius; points of radius 0 are omitted. Any other path becomes a point
-/// cloud in binary PLY: a point has `double x y z`, `float radius`, and `uint part` if there is a face field "segment".
-/// Replaces the file atomically; "-" is standard output. Throws Error{UnknownField} if "centre" or "sdf" is missing;
-/// Error{OptionConflict} if the sizes of the fields do not fit each other or "component" holds real numbers;
-/// Error{ValueOutOfRange} as requireSingles(); Error{OutputNotWritable}.
+/// radius of a point is half of the shape diameter. Faces without a value have no point. A .swc file has one minimum
+/// spanning tree of points per component (face field "component"). Without this field the file has one tree of all
+/// points. The root of a tree is the point with the greatest radius; points of radius 0 are omitted. With any other
+/// extension, the file is a point cloud in binary PLY. A point has `double x y z` and `float radius`, and also `uint
+/// part` if there is a face field "segment". Replaces the file atomically; "-" is standard output. Throws
+/// Error{UnknownField} if "centre" or "sdf" is missing; Error{OptionConflict} if the sizes of the fields do not fit
+/// each other or "component" holds real numbers; Error{ValueOutOfRange} as requireSingles(); Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 
 }  // namespace asdfvk

@@ -32,12 +32,12 @@ using Face = std::array<uint32_t, 3>;
 /// Marks a face without a value: a quiet NaN.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The input faces of a mesh in which not every face is a triangle. Input face i has the corners
-/// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order. A face may have fewer than three corners.
+/// The input faces of a mesh that has faces other than triangles. Input face i has the corners corners[firstCorner[i]]
+/// .. corners[firstCorner[i + 1] - 1], in file order. A face may have fewer than three corners.
 struct Polygons {
   std::vector<uint64_t> firstCorner;  ///< #I+1 indices into `corners`. Empty: every input face is one triangle.
   std::vector<uint32_t> corners;      ///< Vertex indices.
-  std::vector<uint32_t> inputFaceOf;  ///< #F. The input face of each triangle; non-decreasing.
+  std::vector<uint32_t> inputFaceOf;  ///< #F. The input face of each triangle, in non-decreasing order.
 
   [[nodiscard]] bool isEmpty() const { return firstCorner.empty(); }
 };
@@ -47,11 +47,12 @@ struct Mesh {
   std::vector<Vec3d> vertices;  ///< #V, in the unit of the file. Coordinates may be non-finite (Report::defects).
   std::vector<Face> faces;      ///< #F triangles.
   Polygons polygons;            ///< Empty if every input face is a triangle.
-  /// Unit of length that a 3MF or glTF file states: "um", "mm", "cm", "m", "in" or "ft". Otherwise empty.
+  /// Unit of length that a 3MF or glTF file states: "um", "mm", "cm", "m", "in" or "ft"; empty if the file states no
+  /// unit.
   std::string unit = {};
   /// Number of mesh instances in a 3MF or glTF file; 0 for other formats. Instances share no vertices.
   uint32_t statedPartCount = 0;
-  /// Contents of the file that are not part of the surface and were left out: "12 points".
+  /// Contents of the file that are not part of the surface and were left out, for example "12 points".
   std::vector<std::string> skipped = {};
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
@@ -73,7 +74,7 @@ class MeshView {
   MeshView(std::span<const float> positions, std::span<const uint32_t> triangles)
       : floats_(positions), corners_(triangles) {}
   /// Input face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1]. firstCorner: #I+1,
-  /// ascending from 0 to corners.size(). Empty: every three corners are a triangle.
+  /// ascending from 0 to corners.size(). Empty: each three consecutive corners are a triangle.
   MeshView(std::span<const double> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)
       : doubles_(positions), corners_(corners), firstCorner_(firstCorner) {}
   MeshView(std::span<const float> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)

@@ -31,7 +31,7 @@ template <typename HalfEdgeMesh>
   for (size_t i = 0; i < source.n_faces(); ++i) {
     const OpenMesh::FaceHandle handle(static_cast<int>(i));
     if (source.has_face_status() && source.status(handle).deleted())
-      throw Error(ErrorCode::OptionConflict, "the OpenMesh mesh has deleted faces; collect the garbage first");
+      throw Error(ErrorCode::OptionConflict, "the OpenMesh mesh has deleted faces; call garbage_collection() first");
     Face face{};
     size_t corner = 0;
     for (auto vertex = source.cfv_iter(handle); vertex.is_valid(); ++vertex, ++corner)
@@ -42,8 +42,8 @@ template <typename HalfEdgeMesh>
   return mesh;
 }
 
-/// Stores one value per face in the face property `name` of type double, which is created if missing. values: n_faces()
-/// numbers, in the order of the handle indices. Throws Error{ArraySize}.
+/// Stores one value per face in the face property `name` of type double. A missing property is created. values:
+/// n_faces() numbers, in the order of the handle indices. Throws Error{ArraySize}.
 template <typename HalfEdgeMesh>
 void writeFaceProperty(HalfEdgeMesh& target, std::span<const double> values, const std::string& name = "sdf") {
   if (values.size() != target.n_faces())

@@ -38,12 +38,14 @@ inline constexpr uint32_t kMaxRayCount = 1024;
 
 /// Number of seeds. Seeds are the faces that cast rays.
 struct SeedCount {
-  /// Automatic: kAutomaticSeedShare of the faces; with Guidance::Prediction at least kMinAutomaticSeedCount, or all
-  /// faces of a smaller mesh. With fewer seeds a small mesh would lose accuracy and save little time.
+  /// Automatic: kAutomaticSeedShare of the faces. With Guidance::Prediction, the number is at least
+  /// kMinAutomaticSeedCount; in a mesh with fewer faces, all faces are seeds. With fewer seeds, a small mesh would lose
+  /// accuracy and save little time.
   enum class Kind { Automatic, All, Share, Count } kind = Kind::Automatic;
   double share = 0;    ///< Share of the faces that can cast rays, above 0 and at most 1.
   uint64_t count = 0;  ///< At least 1.
-  /// Whether the caller chose the number. If false, computations with RoundOptions start with kFirstRoundShare.
+  /// Whether the caller chose the number. If false, and if RoundOptions are set, the first round has kFirstRoundShare
+  /// of the faces as seeds.
   bool isChosen = false;
 
   [[nodiscard]] static SeedCount automatic() { return {}; }
@@ -57,21 +59,22 @@ inline constexpr uint64_t kMinAutomaticSeedCount = 3000;
 /// Weights of the edges of the dual graph in the Poisson equation.
 enum class ArcWeights {
   Distance,  ///< 1 / distance of the two barycentres (ASDF paper, section 4.1).
-  Feature,   ///< Decreasing with the dihedral angle, faster at concave edges (src/poisson).
+  Feature,   ///< The weight decreases with the dihedral angle, faster at concave edges (src/poisson).
 };
 
 /// Guidance field of the Poisson equation (ASDF paper, section 4.1).
 enum class Guidance {
   None,        ///< No guidance field: harmonic interpolation.
-  Curvature,   ///< The divergence of the field is minus the curvature, as in the paper.
-  Prediction,  ///< The gradient of values predicted from the hits of neighbouring seeds (src/predict).
+  Curvature,   ///< The divergence of the field is minus the curvature, as in the ASDF paper.
+  Prediction,  ///< The field is the gradient of values that the hits of neighbouring seeds predict (src/predict).
 };
 
 struct InterpolationOptions {
   ArcWeights weights = ArcWeights::Feature;
   Guidance guidance = Guidance::Prediction;
   /// Weight of the prediction in the result, 0 to 1: value = (1 - pooling) * interpolated + pooling * predicted. The
-  /// formula also applies to seeds: only 0 keeps the traced values. Above 0 requires Guidance::Prediction.
+  /// formula also applies to seeds, which keep their traced values only if pooling is 0. A pooling above 0 requires
+  /// Guidance::Prediction.
   double pooling = 0;
 };
 
@@ -84,8 +87,8 @@ struct SolverOptions {
 struct SmoothingOptions {
   bool isOn = false;
   struct Window {
-    uint32_t rings = 2;   ///< Rings of the dual graph, 1 to 4.
-    uint32_t passes = 1;  ///< 1 to 100.
+    uint32_t rings = 2;   ///< Rings of neighbouring faces in the window, 1 to 4.
+    uint32_t passes = 1;  ///< How many times the filter is applied, 1 to 100.
     bool operator==(const Window&) const = default;
   };
   std::optional<Window> window;  ///< Unset: the number of faces determines the window.
@@ -94,19 +97,19 @@ struct SmoothingOptions {
 /// Post-processing of the values. Its result is the field "normalized".
 enum class Postprocess {
   None,
-  Cgal,  ///< Fills missing values, filters bilaterally and maps to [0, 1], as CGAL's sdf_values_postprocessing().
+  Cgal,  ///< Fills, filters and maps the values to [0, 1], as CGAL's sdf_values_postprocessing() does.
 };
 
 /// Division of the mesh into segments. Its result is the field "segment".
 enum class Segmentation {
   None,
-  Cgal,   ///< Segments as by CGAL's segmentation_from_sdf_values(). Implies Postprocess::Cgal.
-  Parts,  ///< The parts that people see, from values, creases and lines of sight. Needs no number of parts.
+  Cgal,   ///< The segments of CGAL's segmentation_from_sdf_values(). Implies Postprocess::Cgal.
+  Parts,  ///< Parts as people see them, computed from values, creases and lines of sight.
 };
 
 enum class CgalExpansion {
-  All,    ///< The graph cut expands every cluster, as Shapira et al. 2008 and other versions of CGAL do.
-  First,  ///< The graph cut expands only the cluster of the least values, as CGAL 5.5.1 does.
+  All,    ///< The graph cut expands every cluster, as in Shapira et al. 2008 and in other versions of CGAL.
+  First,  ///< The graph cut expands only the cluster with the least values, as in CGAL 5.5.1.
 };
 
 struct CgalSegmentationOptions {
@@ -121,8 +124,8 @@ struct PartsOptions {
   /// Requested number of parts, 1 to kMaxPartCount. The result has more parts if the mesh has more components, and
   /// fewer if the mesh has fewer faces. Unset: the segmentation chooses the number.
   std::optional<uint32_t> partCount;
-  /// Divides the cost at which the merging of regions stops: a larger value gives more parts. kMinDetail to kMaxDetail;
-  /// must be 1 if partCount is set.
+  /// The cost at which the merging of regions stops is divided by this number. A larger number gives more parts. Range:
+  /// kMinDetail to kMaxDetail; must be 1 if partCount is set.
   double detail = 1;
 };
 inline constexpr uint32_t kMaxPartCount = 100;
@@ -137,13 +140,13 @@ enum class Measure {
 
 enum class LengthUnit { OfMesh, Micrometre, Millimetre, Centimetre, Metre, Inch, Foot };
 
-/// Wall thickness: the diameter of the largest ball that touches the surface at a point from inside and contains no
-/// point of an opposing wall (docs/thickness.md). All faces are measured, whatever Options::seeds is.
+/// Wall thickness at a point of the surface: the diameter of the largest ball that touches the point from inside and
+/// contains no point of an opposing wall (docs/thickness.md). All faces are measured; Options::seeds has no effect.
 struct ThicknessOptions {
   /// Two faces are opposing walls if their normals differ by at least this angle; above 90 and at most 180.
   double wallAngleDegrees = 120;
   /// Limit of the thickness, above 0, in `limitUnit`. The report lists the connected parts of the surface that are
-  /// thinner. Implies Measure::Thickness.
+  /// thinner than the limit. Implies Measure::Thickness.
   std::optional<double> thinnerThan;
   /// Unit of thinnerThan. Units other than OfMesh require a mesh with a unit (Mesh::unit).
   LengthUnit limitUnit = LengthUnit::OfMesh;
@@ -152,11 +155,11 @@ struct ThicknessOptions {
 };
 
 /// Targets that end the rounds. Each round adds seeds and keeps the traced values of earlier rounds. Any target
-/// excludes SeedCount::all(). A maximum error also requires Options::estimatesError.
+/// excludes SeedCount::all(). maxError and maxRelativeError also require Options::estimatesError.
 struct RoundOptions {
   std::optional<double> maxError;  ///< Rounds end when the estimated average error is at most this share of the range.
   std::optional<double> maxRelativeError;   ///< Rounds end when the estimated median of error / value is at most this.
-  std::optional<double> timeBudgetSeconds;  ///< Rounds end this time after the start of compute().
+  std::optional<double> timeBudgetSeconds;  ///< Rounds end this many seconds after the start of compute().
 
   [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
   [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
@@ -174,14 +177,14 @@ enum class Orientation {
 /// Elements of the mesh that the fields of a result describe.
 enum class PerElement {
   Faces,  ///< Input faces.
-  /// Input faces and vertices. A field per vertex has the name of a field per face; its real values are area-weighted
-  /// means over the faces of the vertex.
+  /// Input faces and vertices. Each vertex field has the name of a face field. The real value of a vertex is the
+  /// area-weighted mean over the faces of the vertex.
   Vertices,
 };
 
-/// Options of one computation. A computation throws Error{OptionOutOfRange} for a member out of its range. It throws
-/// Error{OptionConflict} if a member that differs from its default has no effect or contradicts another member.
-/// samplerNames() and solverNames() list the names for `sampler` and `solver`.
+/// Options of one computation. A computation throws Error{OptionOutOfRange} for a member out of its range. A
+/// computation throws Error{OptionConflict} if a member that differs from its default has no effect or contradicts
+/// another member. samplerNames() and solverNames() list the names for `sampler` and `solver`.
 struct Options {
   ConeOptions cone;
   SeedCount seeds;
@@ -203,7 +206,7 @@ struct Options {
   Orientation orientation = Orientation::Keep;
   bool computesCentres = false;  ///< Adds the fields "centre" and "component", for skeletons.
   PerElement per = PerElement::Faces;
-  /// Sizes of two random samples, one of the traced faces and one of all faces. The double-precision reference
+  /// Size of each of two random samples: one of the traced faces, one of all faces. The double-precision reference
   /// recomputes both samples.
   std::optional<uint64_t> checkCount;
   /// Keeps geometry and hierarchy in Result::scene, for a picture. The arrays of the mesh must outlive Result::scene.
@@ -222,10 +225,10 @@ struct Options {
 
 /// Sets of options. The defaults of Options are the recipe Balanced.
 enum class Recipe {
-  Paper,     ///< As the ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
-  Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction. Keeps traced values.
-  /// Balanced with hashed cones and pooling with the prediction. Has the least error, measured against many rays per
-  /// face.
+  Paper,     ///< The method of the ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
+  Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction. Seeds keep their traced values.
+  /// Balanced with hashed cones and pooling with the prediction. The recipe with the least error relative to values
+  /// from many rays per face.
   Quality,
 };
 

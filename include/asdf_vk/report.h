@@ -36,7 +36,7 @@ enum class Stage {
   Write,
 };
 inline constexpr size_t kStageCount = 16;
-/// "read", "geometry", ...
+/// The name of an enumerator with a small first letter, for example "read".
 [[nodiscard]] ASDFVK_API const char* nameOf(Stage stage);
 
 /// Wall-clock seconds of each stage. No time is counted twice. A stage that did not run has 0.
@@ -47,8 +47,8 @@ struct StageSeconds {
   [[nodiscard]] double& operator[](Stage stage) { return seconds[static_cast<size_t>(stage)]; }
 };
 
-/// Defects of a mesh. The faces counted here are triangles, also in a mesh of polygons. Only edges of triangles with
-/// finite corners and three distinct vertices are counted; rays ignore all other triangles.
+/// Defects of a mesh. Faces are counted as triangles, also in a mesh of polygons. An edge is counted only if its
+/// triangles have finite corners and three distinct vertices. Rays ignore all other triangles.
 struct MeshDefects {
   uint64_t zeroAreaFaceCount = 0;        ///< Faces of zero area.
   uint64_t duplicateFaceCount = 0;       ///< Faces with the same corner positions and winding as an earlier face.
@@ -58,7 +58,7 @@ struct MeshDefects {
   uint64_t nonManifoldEdgeCount = 0;     ///< Edges that belong to more than two faces.
   uint64_t inconsistentEdgeCount = 0;    ///< Edges whose two faces traverse them in the same direction.
   uint64_t unreferencedVertexCount = 0;  ///< Vertices that belong to no triangle.
-  uint64_t shortPolygonCount = 0;        ///< Input faces with fewer than three corners, which have no value.
+  uint64_t shortPolygonCount = 0;        ///< Input faces with fewer than three corners. Such faces have no value.
 };
 
 enum class WarningCode {
@@ -68,8 +68,8 @@ enum class WarningCode {
   MissingValues,        ///< Faces have no value. Details: cause, if likely: "inverted", "open", "inverted or open".
   FinishedOnCpu,        ///< The solver on the device reached the precision of float32. The CPU continued in double.
   BackendReplaced,      ///< The device failed. The computation continued with the next backend.
-  PredictedOnCpu,       ///< The device failed to predict values. The CPU predicted them.
-  SolvedOnCpu,          ///< The device failed to solve the equation. The CPU solved it.
+  PredictedOnCpu,       ///< The device failed to predict values. The CPU predicted the values.
+  SolvedOnCpu,          ///< The device failed to solve the equation. The CPU solved the equation.
   NotConverged,         ///< The solver stopped at its iteration limit.
   RangeDominated,       ///< Errors over the range look small, because few faces have most of the range. Details:
                         ///< robustShare.
@@ -77,10 +77,10 @@ enum class WarningCode {
   PartCountDiffers,     ///< The number of parts differs from the requested number.
   OnlySmallComponents,  ///< No component has 1 % of the area, so that each component is a part.
   SkippedContent,       ///< Contents of the file other than the surface were left out.
-  UncertainParts,       ///< The parts depend on the number of patches from which parts are merged.
-  CoarseParts,          ///< The faces are too large for exact boundaries of parts.
+  UncertainParts,  ///< The parts depend on the number of patches, which are the small regions that are merged to parts.
+  CoarseParts,     ///< The faces are too large for exact boundaries of parts.
 };
-/// "missingValues"
+/// The name of an enumerator with a small first letter, for example "missingValues".
 [[nodiscard]] ASDFVK_API const char* nameOf(WarningCode code);
 
 /// A fact about the mesh or the result that a user should know.
@@ -92,11 +92,12 @@ struct Warning {
 
 /// The solution of the Poisson equation.
 struct SolverReport {
-  std::string name;             ///< Name of the solver; "none" if nothing was interpolated.
-  uint32_t iterations = 0;      ///< Iterations of the solver.
-  double relativeResidual = 0;  ///< Recomputed from the solution: in float32 on a device, else in double.
-  bool converged = true;        ///< False if the solver stopped at its iteration limit.
-  bool finishedOnCpu = false;   ///< The solver started on a device in float32 and the CPU finished in double.
+  std::string name;         ///< Name of the solver; "none" if no value was interpolated.
+  uint32_t iterations = 0;  ///< Iterations of the solver.
+  /// Relative residual of the solution, recomputed in float32 on a device, else in double.
+  double relativeResidual = 0;
+  bool converged = true;       ///< False if the solver stopped at its iteration limit.
+  bool finishedOnCpu = false;  ///< The solver started on a device in float32 and the CPU finished in double.
 };
 
 /// The error at a held-out face.
@@ -105,20 +106,21 @@ struct WorstFace {
   double error = 0;   ///< Error divided by the range of the values.
 };
 
-/// Estimate of the error of the result, relative to tracing all faces. A random sample of faces, the held-out faces,
-/// cast rays, but a separate interpolation does not use them. The errors of this interpolation at the held-out faces
-/// are extrapolated to all faces. Faces with larger expected errors are sampled with a higher probability. The result
-/// uses held-out faces as seeds; the estimate corrects for this.
+/// Estimate of the error of the result, compared with a result for which all faces are traced. The held-out faces are a
+/// random sample of the faces. Held-out faces cast rays, but a separate interpolation does not use their values. The
+/// errors of this interpolation at the held-out faces are extrapolated to all faces. Faces with larger expected errors
+/// are sampled with a higher probability. In the result, the held-out faces are seeds; the estimate corrects for this
+/// difference.
 struct ErrorEstimate {
   /// Mean error over all faces, seeds included, divided by the range of the values (ASDF paper, Table 1).
   double average = 0;
   double standardError = 0;  ///< Standard error of the average.
-  /// Mean error divided by the robust range, which is the 99th minus the 1st percentile of the values. Prefer it to
-  /// `average` if the report has the warning rangeDominated. Not finite if the robust range is 0.
+  /// Mean error divided by the robust range, which is the 99th minus the 1st percentile of the values. Prefer this
+  /// member to `average` if the report has the warning rangeDominated. Not finite if the robust range is 0.
   double robustAverage = 0;
   /// Median and 90th percentile of error / value over all faces, seeds included. The median is 0 if at least half of
-  /// the faces are seeds, the percentile if at least 90 %. A quantile is infinite if the face at the quantile has an
-  /// error and the value 0.
+  /// the faces are seeds; the percentile is 0 if at least 90 % of the faces are seeds. A quantile is infinite if the
+  /// face at the quantile has an error and the value 0.
   double relativeMedian = 0, relativePercentile90 = 0;
   double relativeMedianStandardError = 0;  ///< Standard error of the relative median.
   uint64_t heldOutCount = 0;               ///< Number of held-out faces.
@@ -129,16 +131,17 @@ struct ErrorEstimate {
 /// device. A sample of all faces that can cast rays measures the interpolation error. Errors are divided by the range
 /// of the reference values of the compared faces.
 struct CheckReport {
-  /// True if at least one traced face agrees, and at most one face or at most 0.1 % of the traced faces disagree. A ray
-  /// that grazes an edge may hit either face of the edge. Unset if `independent` is false.
+  /// True if at least one traced face agrees, and if the number of disagreeing traced faces is at most 1 or at most 0.1
+  /// %. A ray that grazes an edge may hit either face of the edge. Unset if `independent` is false.
   std::optional<bool> passed;
-  /// False if the reference traced the rays of the result. Then no traced face is compared; only the errors have a
-  /// meaning.
+  /// False if the reference traced the rays of the result. In this case no traced face is compared, and only the errors
+  /// have a meaning.
   bool independent = true;
   uint64_t tracedCount = 0;        ///< Traced faces that were recomputed.
   uint64_t agreeingCount = 0;      ///< Traced faces that differ by at most 1e-4 of the bounding-box diagonal.
   uint64_t noValueAgreeCount = 0;  ///< Traced faces without a value in both computations.
-  /// Median difference of traced faces that have a value in either computation, in bounding-box diagonals.
+  /// Median difference of traced faces that have a value in at least one of the two computations, in bounding-box
+  /// diagonals.
   double medianDifference = 0;
   /// Greatest difference of a traced face, in bounding-box diagonals; infinite if only one of the two values exists.
   double worstDifference = 0;
@@ -174,12 +177,13 @@ inline constexpr double kPartStabilityFactor = 1.25;
 
 /// Sizes and stability of the parts.
 struct PartsReport {
-  /// Numbers of parts if the option detail is divided by 1.25, and if it is multiplied by 1.25. The result is stable if
-  /// both equal the number of segments.
+  /// Numbers of parts if the option detail is divided by 1.25, and if detail is multiplied by 1.25. The result is
+  /// stable if both numbers equal the number of segments.
   uint32_t fewestCount = 0, mostCount = 0;
-  /// The segmentation merges patches to parts. Agreement compares the parts with the parts from other numbers of
-  /// patches, by the mean area-weighted Rand index before small parts are merged and boundaries are cut. 1 means equal
-  /// parts; below about 0.9 the parts depend on the number of patches. Unset with the warning onlySmallComponents.
+  /// The segmentation merges patches, which are small regions, to parts. `agreement` compares the parts with the parts
+  /// from other numbers of patches: the number is the mean of the area-weighted Rand indices. The parts are compared
+  /// before small parts are merged and boundaries are cut. 1 means equal parts; below about 0.9 the parts depend on the
+  /// number of patches. Unset with the warning onlySmallComponents.
   std::optional<double> agreement;
   bool thinShell = false;          ///< The shape is a thin wall around a cavity (warning thinShell).
   std::vector<double> areaShares;  ///< Share of each part in the area of all faces; the sum is 1.
@@ -188,12 +192,12 @@ struct PartsReport {
 /// A region is a connected part of the surface that is thinner than the limit, together with the thin part on the other
 /// side of the same wall. Lengths are in the unit of the mesh.
 struct ThinRegion {
-  bool isSharp = false;    ///< The region contains a sharp edge or tip. If false, it is a thin wall.
+  bool isSharp = false;    ///< The region contains a sharp edge or tip. If false, the region is a thin wall.
   double min = 0;          ///< Least thickness; 0 in a sharp region.
   uint64_t minFace = 0;    ///< Input face with the least thickness.
   Vec3d place, opposite;   ///< Point of least thickness on this face, and its counterpart on the opposing wall.
   uint64_t faceCount = 0;  ///< Number of input faces that have a part in the region.
-  double area = 0;         ///< Area of the thin parts of these faces.
+  double area = 0;         ///< Area of the thin parts of the faces.
   double areaShare = 0;    ///< `area` divided by the area of the mesh, or of the computed region.
 };
 
@@ -205,7 +209,7 @@ struct SharpEdge {
   double length = 0;        ///< Total length of the edges; 0 for a tip.
   uint64_t edgeCount = 0;   ///< Number of edges; 0 for a tip.
   Vec3d place;              ///< Middle of the edge with the least angle, or the tip.
-  uint64_t face = 0;        ///< Input face at this place.
+  uint64_t face = 0;        ///< Input face at `place`.
 };
 
 /// The largest ball inside of a closed component.
@@ -216,23 +220,24 @@ struct SectionBall {
 
 /// Result of comparing the thickness with a limit.
 enum class ThicknessVerdict {
-  Passed,     ///< No point of the surface is thinner.
-  Failed,     ///< A point is thinner. Sharp regions do not count if sharp edges are allowed.
-  NotJudged,  ///< No point was found thinner, but a part of the surface could not be judged.
+  Passed,     ///< No point of the surface is thinner than the limit.
+  Failed,     ///< A point is thinner than the limit. Sharp regions do not count if sharp edges are allowed.
+  NotJudged,  ///< No thinner point was found, but a part of the surface could not be judged.
 };
-/// "passed", "failed", "notJudged"
+/// The name of an enumerator with a small first letter, for example "notJudged".
 [[nodiscard]] ASDFVK_API const char* nameOf(ThicknessVerdict verdict);
 
 /// Input faces for which the comparison with a limit is impossible or uncertain.
 struct UnjudgedFaces {
-  uint64_t openCount = 0;        ///< Faces of open components: closing them may add a thin wall.
+  uint64_t openCount = 0;        ///< Faces of open components, because closing such a component may add a thin wall.
   uint64_t invertedCount = 0;    ///< Faces of closed components that are oriented inwards or inconsistently.
   uint64_t degenerateCount = 0;  ///< Faces without a normal or with a non-finite corner, which are ignored.
-  /// Faces that intersect a face of another solid. Each solid is judged alone, because the union is at least as thick.
+  /// Faces that intersect a face of another solid. Each solid is judged separately, because the union of solids is at
+  /// least as thick.
   uint64_t crossedCount = 0;
   uint64_t selfCrossedCount = 0;  ///< Faces that intersect a face of the same solid: inside and outside are ambiguous.
 
-  /// Whether the surface may have a point that is thinner than the least thickness found.
+  /// Whether the surface may be thinner at some point than the least thickness that was found.
   [[nodiscard]] bool preventVerdict() const { return openCount > 0 || invertedCount > 0 || selfCrossedCount > 0; }
 };
 
@@ -244,7 +249,7 @@ struct ThicknessReport {
   /// The least thickness over all points of the surface. Sharp regions do not count if sharp edges are allowed.
   double min = kNoValue;
   std::optional<uint64_t> minFace;  ///< Input face with the least thickness; unset if no face has a thickness.
-  /// Point of least thickness on this face, and its counterpart on the opposing wall.
+  /// Point of least thickness on minFace, and the opposite point on the opposing wall.
   std::optional<Vec3d> minPlace, minOpposite;
   /// Percentiles of the thickness at the barycentres of the triangles, weighted by area.
   double percentile1 = kNoValue, percentile5 = kNoValue, median = kNoValue, percentile95 = kNoValue, max = kNoValue;
@@ -253,7 +258,8 @@ struct ThicknessReport {
   /// The largest ball inside of a closed component; unset without a closed component.
   std::optional<SectionBall> greatestSection;
   std::vector<SharpEdge> sharpEdges;  ///< Sharp edges and tips, by ascending angle.
-  /// Area of all thin regions, and its share of the area of the mesh or computed region. NaN without a limit.
+  /// Area of all thin regions, and this area divided by the area of the mesh or of the computed region. NaN without a
+  /// limit.
   double thinArea = kNoValue, thinAreaShare = kNoValue;
   /// Thin regions: walls by ascending least thickness, then sharp regions by descending area. Empty without a limit.
   std::vector<ThinRegion> regions;
@@ -275,17 +281,18 @@ struct Report {
   Vec3d size;                    ///< Sides of the bounding box along x, y, z, in the unit of the mesh.
   std::string unit;              ///< Unit of length that the file states, for example "mm"; may be empty.
   uint64_t seedCount = 0;        ///< Triangles that cast rays.
-  uint64_t rayCount = 0;         ///< Rays of all seeds.
-  uint64_t redoneConeCount = 0;  ///< Cones beyond a limit of the device or of float32; the reference traced them.
-  uint64_t noValueCount = 0;     ///< Input faces without a value; with a region, only faces of the region.
+  uint64_t rayCount = 0;         ///< Number of rays that the seeds cast.
+  /// Cones that exceeded a limit of the device or of float32. The reference traced these cones.
+  uint64_t redoneConeCount = 0;
+  uint64_t noValueCount = 0;  ///< Input faces without a value; with a region, only faces of the region.
   /// Interpolated triangles whose value was clamped to the range of the seeds of their component.
   uint64_t clampedCount = 0;
-  uint64_t reversedFaceCount = 0;  ///< Input faces whose orientation was reversed.
-  uint64_t randomSeed = 0;         ///< Start of all random numbers.
-  uint32_t roundCount = 1;         ///< Rounds of seeds.
-  std::string backend;             ///< "vulkan", "cpu" or "reference".
-  std::string device;              ///< Name of the device and its driver, or of the CPU.
-  bool runsOnCpu = false;          ///< The CPU traced: backend "cpu" or "reference", or a CPU device of Vulkan.
+  uint64_t reversedFaceCount = 0;                ///< Input faces whose orientation was reversed.
+  uint64_t randomSeed = 0;                       ///< Start value of all random numbers.
+  uint32_t roundCount = 1;                       ///< Number of rounds in which seeds were added.
+  std::string backend;                           ///< "vulkan", "cpu" or "reference".
+  std::string device;                            ///< Name of the device and its driver, or of the CPU.
+  bool runsOnCpu = false;                        ///< The CPU traced the rays, also as a CPU device of Vulkan.
   std::optional<TraceVariant> traceChoice;       ///< The variant of the Vulkan kernels; unset without Vulkan.
   StageSeconds stageSeconds;                     ///< Seconds by stage; 0 for a stage that did not run.
   double raysPerSecond = 0;                      ///< Rays divided by the seconds of the stage "trace".
@@ -294,7 +301,7 @@ struct Report {
   std::optional<PostprocessReport> postprocess;  ///< Set if the result has the field "normalized".
   /// Number of segments: the field "segment" has the labels 0 to segmentCount - 1. Set if the result has this field.
   std::optional<uint32_t> segmentCount;
-  std::optional<PartsReport> parts;             ///< Set if the segments are parts.
+  std::optional<PartsReport> parts;             ///< Set if the segmentation is "parts".
   std::optional<ThicknessReport> thickness;     ///< Set if the result has the field "thickness".
   std::optional<ErrorEstimate> estimatedError;  ///< Unset if every face is a seed or no estimate was requested.
   std::optional<CheckReport> check;             ///< Unset if no check was requested.

@@ -19,8 +19,8 @@ namespace asdfvk {
 struct SessionOptions {
   /// One of backendNames(). "auto": a Vulkan device (GPUs first, then CPU devices such as lavapipe), else "cpu". If the
   /// device of "auto" fails, the next backend computes the mesh, and the result has WarningCode::BackendReplaced. Later
-  /// meshes use the replaced backend again only if memory was short. "vulkan", "cpu" (float32, SIMD), "reference"
-  /// (double precision): only this backend; Error of kind Device if the backend is not available.
+  /// meshes also use the next backend, except after a lack of device memory. "vulkan", "cpu" (float32, SIMD),
+  /// "reference" (double precision): only this backend; Error of kind Device if the backend is not available.
   std::string backend = "auto";
   /// Vulkan device: an index in listDevices() or a part of a name. Empty: the device of the highest rank.
   std::string device;
@@ -35,12 +35,12 @@ inline constexpr uint32_t kNoSegment = 0xffffffff;
 /// Coordinates are in the unit of the mesh.
 struct ThinSurface {
   std::vector<std::array<Vec3d, 3>> triangles;
-  std::vector<uint32_t> regions;  ///< Per triangle, an index in ThicknessReport::regions.
+  std::vector<uint32_t> regions;  ///< For each triangle, an index in ThicknessReport::regions.
 };
 
 /// Result of a computation. `fields` has face fields with the following names:
-/// - "sdf" and "seed", with Options::measuresDiameter(): the shape diameter in the unit of the mesh; 1 for faces that
-///   cast rays.
+/// - "sdf" and "seed", with Options::measuresDiameter(): the shape diameter in the unit of the mesh; a flag, which is 1
+/// for faces that cast rays.
 /// - "error", with an error estimate: the expected error in the unit of the mesh; 0 at seeds that keep their value.
 /// - "normalized", with Options::postprocesses(): 0 to 1.
 /// - "segment", with Options::segmentation: labels, ascending by the mean value of the segment.
@@ -48,7 +48,7 @@ struct ThinSurface {
 ///   the least one over all points of the face, in the unit of the mesh. A polygon has the least value of its
 ///   triangles.
 /// - "centre" and "component", with Options::computesCentres: the skeleton point (the barycentre, moved inwards along
-///   the normal by half of the shape diameter); the number of the component, whose faces are connected by edges.
+/// the normal by half of the shape diameter); the number of the component. Edges connect the faces of a component.
 /// With PerElement::Vertices, fields per vertex with the same names follow.
 struct Result {
   std::vector<Field> fields;

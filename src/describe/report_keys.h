@@ -29,7 +29,7 @@ void visitNamed(std::string_view names, const Visit& visit, const Members&... me
   (visit(next(), members), ...);
 }
 
-// A member that is not named is an error of the compiler.
+// If a member is not named, the compiler reports an error.
 #define ASDFVK_KEYS(Struct, ...)                                             \
   constexpr const char* structureName(const Struct&) { return #Struct; }     \
   template <typename Visit>                                                  \
