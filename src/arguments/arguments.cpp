@@ -88,7 +88,7 @@ std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<st
   for (size_t i = 0; i < arguments.size(); ++i) {
     const Entry* const entry = hasEnded ? nullptr : withOptionalValue(arguments[i]);
     hasEnded |= arguments[i] == kEndOfOptions;
-    // CLI11 would take the next argument as the value.
+    // After "--name=", CLI11 would take the next argument as the value.
     if (!hasEnded && arguments[i].starts_with("--") && arguments[i].find('=') == arguments[i].size() - 1)
       refuse(arguments[i] + " has no value");
     if (entry == nullptr) {
@@ -162,7 +162,7 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
 }
 
 std::string ArgumentParser::parse(const std::vector<std::string>& arguments) {
-  // Help and version are answered even if CLI11 would refuse another argument.
+  // Requests for help and version are answered even if CLI11 would refuse another argument.
   for (const std::string& text : arguments) {
     if (text == kEndOfOptions) break;
     if (text == "-h" || text == "--help") return shortHelp.empty() ? help() : shortHelp;

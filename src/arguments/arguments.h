@@ -16,7 +16,8 @@ struct Argument {
   std::string placeholder =
       {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
   std::string text = {};  ///< Text of the help.
-  /// Called with the values of each occurrence, or once with all values of a list. Empty: a flag, or an omitted value.
+  /// Called with the values of each occurrence, or once with all values of a list. The values are empty for a flag and
+  /// for an omitted optional value.
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;
@@ -61,11 +62,11 @@ class ArgumentParser {
     std::vector<Argument::Values> given = {};  ///< Values of each occurrence.
   };
   [[nodiscard]] Entry& find(std::string_view name);
-  /// The option that the text names; null if there is none or its value is not optional.
+  /// The option with an optional value that `text` names; null if `text` names no such option.
   [[nodiscard]] const Entry* withOptionalValue(const std::string& text) const;
   /// Joins each optional value to its option by '='. CLI11 would always take the next argument as the value.
   [[nodiscard]] std::vector<std::string> withAttachedValues(const std::vector<std::string>& arguments) const;
-  /// Reads the positional arguments and refuses unknown options. CLI11 would read "[a]" as a list.
+  /// Reads the positional arguments and refuses unknown options. CLI11 would read a file name such as "[a]" as a list.
   void readPositional(const std::vector<std::string>& arguments);
   void read(const std::vector<std::string>& arguments);
 

@@ -96,7 +96,7 @@ std::vector<std::string> readList(const InputRequest& request) {
   std::vector<std::string> paths;
   bool isFirst = true;
   for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');) {
-    if (!request.isNullSeparated) {  // The list may have been written on Windows.
+    if (!request.isNullSeparated) {  // In a list from Windows, lines end with "\r\n".
       if (std::exchange(isFirst, false) && path.starts_with(kByteOrderMark)) path.erase(0, kByteOrderMark.size());
       if (path.ends_with('\r')) path.pop_back();
     }
@@ -117,7 +117,7 @@ void addList(const std::vector<std::string>& paths, std::vector<InputFile>& inpu
   std::vector<fs::path> folders;
   folders.reserve(paths.size());
   for (const std::string& path : paths) {
-    if (path == "-") fail("-", "a list of meshes holds files; give standard input as an argument");
+    if (path == "-") fail("-", "a list of meshes cannot contain standard input; give - as an argument");
     folders.push_back(fs::absolute(path).lexically_normal().parent_path());
   }
   fs::path root = folders.empty() ? fs::path() : folders.front();
@@ -150,8 +150,9 @@ Shard parseShard(const std::string& text) {
   const auto index = numberIn<uint32_t>(std::string_view(text).substr(0, slash)),
              count = numberIn<uint32_t>(std::string_view(text).substr(std::min(slash + 1, text.size())));
   if (!index || !count || *index < 1 || *index > *count || *count > kMaxShardCount)
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("'{}' is not I/N with I from 1 to N, such as 2/7, and N at most {}", text, kMaxShardCount));
+    throw Error(
+        ErrorCode::OptionOutOfRange,
+        fmt::format("'{}' is not I/N, such as 2/7; I is from 1 to N, and N is at most {}", text, kMaxShardCount));
   return {*index, *count};
 }
 
@@ -162,7 +163,7 @@ std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shar
     if (inputs[a].byteCount != inputs[b].byteCount) return inputs[a].byteCount > inputs[b].byteCount;
     return inputs[a].path < inputs[b].path;
   });
-  // Bytes and index of a shard. Among equal loads the lowest index comes first.
+  // Bytes and index of a shard. If several shards have equal bytes, the shard with the lowest index comes first.
   using Load = std::pair<uint64_t, uint32_t>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (uint32_t index = 1; index <= shard.count; ++index) loads.emplace(0, index);

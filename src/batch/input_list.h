@@ -10,14 +10,15 @@ struct InputFile {
   /// Path of the file: an argument, a path below a folder argument, or a line of the list. "-" for standard input.
   std::string path;
   std::string folder;      ///< Folder of the output, relative to the folder of -o; may be empty.
-  uint64_t byteCount = 0;  ///< Size of the file; 0 if it is unknown.
+  uint64_t byteCount = 0;  ///< Size of the file; 0 if unknown.
 };
 
-/// Estimated fixed time of a mesh (opening, preparing, writing), as the size of a file that takes the same time.
+/// Estimated time per mesh that does not depend on its size (opening, preparing, writing). Unit: bytes of a mesh file
+/// that take the same time to compute.
 inline constexpr uint64_t kBytesPerMesh = 16'384;
 
 struct InputRequest {
-  std::vector<std::string> arguments;  ///< Files, "-", and folders if `recurses`.
+  std::vector<std::string> arguments;  ///< Files, "-", and (if `recurses`) folders.
   bool recurses = false;               ///< Whether meshes below folders are inputs.
   std::string list;                    ///< Path of a file with one path per line, "-" for standard input; empty: none.
   bool isNullSeparated = false;        ///< The paths of the list end with a zero byte instead of a line end.
@@ -28,7 +29,7 @@ struct InputRequest {
 /// Returns the inputs: first the arguments in their order, then the list. Meshes below a folder are in ascending order
 /// of their paths. Below folders, results of this program (NAME.asdf.ply), hidden files and hidden folders are ignored,
 /// and links to folders are not followed. For a list, InputFile::folder is relative to the longest common folder of its
-/// paths. A file that does not exist is an input, and so is a dangling link below a folder. Throws
+/// paths. A file that does not exist is also an input, as is a dangling link below a folder. Throws
 /// Error{UnreadableInput} for a folder or list that cannot be read.
 [[nodiscard]] std::vector<InputFile> listInputs(const InputRequest& request);
 
@@ -43,8 +44,8 @@ inline constexpr uint32_t kMaxShardCount = 1'000'000;
 [[nodiscard]] Shard parseShard(const std::string& text);
 
 /// Returns the indices of the inputs of the shard, ascending. Every input is in exactly one shard. To balance the
-/// shards, inputs are assigned from the largest file to the smallest, each to the shard with the fewest bytes so far.
-/// kBytesPerMesh is added to the size of each file. The result depends on paths and sizes only.
+/// shards, inputs are assigned in the order of decreasing file size. Each input goes to the shard with the fewest bytes
+/// so far. kBytesPerMesh is added to the size of each file. The result depends on paths and sizes only.
 [[nodiscard]] std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard);
 
 }  // namespace asdfvk

@@ -12,8 +12,9 @@ namespace asdfvk {
 /// A mesh of a batch and the path of its result.
 struct Job {
   std::string input, output;  ///< Paths; "-" for the standard streams.
-  uint64_t byteCount = 0;     ///< Size of the input file; 0 if it is unknown.
-  bool isStream = false;      ///< Whether the input is no regular file. A worker may be unable to read such a file.
+  uint64_t byteCount = 0;     ///< Size of the input file; 0 if unknown.
+  bool isStream = false;  ///< Whether the input is not a regular file, for example a FIFO. A worker may be unable to
+                          ///< read such a file.
 };
 
 /// The result of a job. The texts are empty or consist of complete lines.
@@ -38,9 +39,9 @@ class JobComputer {
  public:
   virtual ~JobComputer() = default;
   [[nodiscard]] virtual ComputerDescription describe() const = 0;
-  /// Computes a job. Failures are part of the result. next: the following job, whose input may be read ahead, or null.
+  /// Computes a job. Failures are part of the result. next: the following job, or null. Its input may be read ahead.
   [[nodiscard]] virtual JobResult compute(const Job& job, const Job* next) = 0;
-  /// Whether this computer cannot compute further jobs because its device failed or a stop was requested.
+  /// True if this computer can compute no further job, because its device failed or a stop was requested.
   [[nodiscard]] virtual bool isSpent() const = 0;
 };
 

@@ -38,7 +38,8 @@ std::string spreadText(const Spread& spread, double factor, const char* unit) {
 /// Column names and texts of a row of the table.
 using Cells = std::vector<std::pair<std::string, std::string>>;
 
-/// The columns of a record. Objects of null values are left out, because another record may have their keys.
+/// The columns of a record. An object is left out if all its values are null. If another record has such values,
+/// addKeys() adds the columns.
 Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");
@@ -70,7 +71,8 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
   }
 }
 
-/// Adds the keys of `row` that `all` lacks. An object replaces null, because only some meshes may have the object.
+/// Adds the keys of `row` that `all` lacks. Replaces a null of `all` by an object of `row`, because only some meshes
+/// may have the object.
 void addKeys(const Json& row, Json& all) {
   for (const auto& [key, value] : row.items()) {
     Json& known = all[key];

@@ -42,9 +42,9 @@ ASDFVK_JSON(WarningGroup, code, count, inputs)
 struct LogSummary {
   size_t recordCount = 0, invalidLineCount = 0;
   std::map<MeshStatus, uint64_t> statusCounts;
-  uint64_t faceCount = 0;  ///< Sum over the computed meshes: status Done or Skipped.
+  uint64_t faceCount = 0;  ///< Sum over the computed meshes, which have the status Done or Skipped.
   double meshSeconds = 0;  ///< Sum of the total times of the computed meshes.
-  /// Total times, and estimated average errors as shares of the range, of the computed meshes.
+  /// Total times of the computed meshes, and their estimated average errors divided by the range of the values.
   Spread seconds, averageErrors;
   uint64_t peakMemoryBytes = 0;                              ///< Maximum over all meshes.
   std::vector<std::pair<std::string, double>> stageSeconds;  ///< Sum of the seconds of each stage, descending.

@@ -34,7 +34,7 @@ struct MeshRecord {
   std::string time;
   std::optional<std::string> output;               ///< Unset if no output was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
-  /// Values of the JSON report, without lists; null or unset if unknown.
+  /// Values of the JSON report other than lists; null or unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
   std::optional<uint32_t> segmentCount;
   std::string unit;
@@ -50,7 +50,8 @@ struct MeshRecord {
   std::string message;  ///< Message of the error in one line; empty without a failure.
 };
 
-/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". Text order is time order.
+/// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". The alphabetical order of these texts
+/// is the order of the times.
 [[nodiscard]] std::string utcTime();
 
 [[nodiscard]] Json toJson(const MeshRecord& record);
@@ -59,8 +60,8 @@ struct MeshRecord {
 /// the key inputBytes has its bytes in hexadecimal digits.
 [[nodiscard]] std::string toJsonLine(const MeshRecord& record);
 
-/// Parses a record. Unset if the text is not a record, for example an incomplete line. Requires only the keys input,
-/// status, code and message, so that other programs can write records. Ignores unknown keys.
+/// Parses a record. Returns nothing if the text is not a record, for example an incomplete line. Only the keys input,
+/// status, code and message are required, so that other programs can write records. Ignores unknown keys.
 [[nodiscard]] std::optional<MeshRecord> parseRecord(std::string_view json);
 
 void to_json(Json& json, MeshStatus status);
@@ -71,7 +72,7 @@ ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount
             options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
-/// write(). A killed process leaves at most one incomplete line, which the next append() of any process ends.
+/// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.
 class RecordLog {
  public:
   /// Throws Error{OutputNotWritable}.

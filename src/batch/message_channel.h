@@ -32,7 +32,7 @@ class MessageChannel {
   [[nodiscard]] std::optional<std::string> wait();
 
  private:
-  /// Reads bytes once. False if the other end is closed; true also if no bytes have arrived.
+  /// Receives bytes at most once. Returns false if the other end is closed. Returns true also if no bytes have arrived.
   bool read(int flags);
 
   int socket_;

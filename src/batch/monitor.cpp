@@ -57,8 +57,9 @@ void Monitor::note(const std::string& message) {
   writeStandardError(warningLine("", message));
 }
 
-/// Adds a message to the first result of a backend that announce() did not print, for example after a failure of a
-/// device. Adds none without a progress line, because the report of the mesh then has a warning.
+/// If announce() did not print the backend of the result, adds a message to the first result of this backend. Such a
+/// backend runs after a failure of a device, for example. Without a progress line no message is needed, because the
+/// report of the mesh has a warning.
 void Monitor::noteOtherBackend(JobResult& result) {
   const MeshRecord& record = result.record;
   if (!options_.showsProgress || options_.isQuiet || record.backend.empty() || record.status == MeshStatus::Skipped)

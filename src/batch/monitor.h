@@ -31,10 +31,10 @@ class Monitor {
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// Starts the time that rate and summary refer to. Call this after the results of earlier runs were added.
+  /// Starts the clock of the rate and the summary. Precondition: the results of earlier runs were added.
   void beginComputation();
 
-  /// Prints the device lines of the first computer.
+  /// Prints the device lines of the first JobComputer; later calls print nothing.
   void announce(const ComputerDescription& computer);
 
   void note(const std::string& message);
@@ -77,7 +77,8 @@ class Monitor {
   double nextProgressSeconds_ = 0;
   bool isTerminal_, isProgressVisible_ = false;
   std::condition_variable_any wakesTicker_;
-  std::jthread ticker_;  ///< Shows the progress between results. The last member, because it uses the others.
+  /// Shows the progress between results. Last member, because the thread uses the other members.
+  std::jthread ticker_;
 };
 
 }  // namespace asdfvk

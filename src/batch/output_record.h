@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// Whether a record is written beside the output: only for regular and for new files, and not for "-".
+/// Whether a record is written beside the output. Regular files and new files have a record; "-" has none.
 [[nodiscard]] bool hasOutputRecord(const std::filesystem::path& output);
 
 /// Path of the record beside an output: "horse.asdf.ply.json".
@@ -16,16 +16,17 @@ namespace asdfvk {
 
 [[nodiscard]] std::optional<MeshRecord> readOutputRecord(const std::filesystem::path& output);
 
-/// Returns the record beside the output if the output is up to date; else unset. The record must have no failure and
-/// the input hash, options hash, version and commit of `expected`. The bytes of the output must have the recorded hash.
-/// The returned record has the status Skipped, and input, output and time of this run.
+/// Returns the record beside the output if the output is up to date, else nothing. An output is up to date if three
+/// conditions hold. The record has no failure. The record has the input hash, options hash, version and commit of
+/// `expected`. The bytes of the output have the recorded hash. The returned record has the status Skipped, and the
+/// input, output and time of this run.
 [[nodiscard]] std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected,
                                                            const std::filesystem::path& output);
 
 /// Removes the record. Called before the output is written, so that a killed process leaves no outdated record.
 void removeOutputRecord(const std::filesystem::path& output);
 
-/// Removes the output and the record beside it, but nothing if the output does not have the hash of `record`.
+/// Removes the output and the record beside it. If the output does not have the hash of `record`, removes neither.
 void removeOutput(const MeshRecord& record, const std::filesystem::path& output);
 
 /// Removes the output and record of an earlier run after the mesh failed in this run. old: the record of the earlier

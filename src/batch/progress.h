@@ -20,7 +20,7 @@ struct BatchProgress {
   [[nodiscard]] uint64_t finishedCount() const { return doneCount + skippedCount + failedCount + droppedCount; }
   /// Finished share of the batch, 0 to 1, by bytes and number of meshes.
   [[nodiscard]] double share() const;
-  /// Estimated from bytes and number of the meshes that were computed or failed; infinite without such a mesh.
+  /// Estimated from the bytes and the number of meshes that were computed or failed; infinite if there is no such mesh.
   [[nodiscard]] double secondsLeft(double elapsedSeconds) const;
 };
 

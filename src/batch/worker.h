@@ -13,9 +13,10 @@ struct Greeting {
 };
 ASDFVK_JSON(Greeting, settings, threadCount, threadCountOnGpu)
 
-/// Runs this process as a worker. Computes jobs that arrive on standard input, a socket, until the socket is closed or
-/// JobComputer::isSpent(). The process is killed when its parent ends. Redirects standard output to standard error, so
-/// that no library writes answers. open: opens the computer. An OpenFailure is sent as the answer and ends the worker.
+/// Runs this process as a worker. Computes jobs that arrive on standard input, which is a socket. Returns when the
+/// socket is closed or JobComputer::isSpent() is true. The process is killed when its parent ends. Standard output is
+/// redirected to standard error, because output of a library would be read as an answer. open: opens the computer. An
+/// OpenFailure is sent as the answer and ends the worker.
 void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)>& open);
 
 }  // namespace asdfvk

@@ -17,11 +17,11 @@ namespace asdfvk {
 namespace {
 
 constexpr int kPollMilliseconds = 100;
-/// In this time, a mesh may fill 20 MB of memory (2 GB per second).
+/// Between two polls, a mesh may fill 20 MB of memory (2 GB per second).
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
-/// A worker is replaced after a job if it still uses more than this share of the memory for jobs, which is the limit
-/// minus the memory of a ready worker. Otherwise the next job could fail because of earlier jobs.
+/// A worker is replaced after a job if it still uses more than this share of the memory for jobs. The memory for jobs
+/// is the limit minus the memory of a ready worker. Without this rule, the next job could fail because of earlier jobs.
 constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
@@ -30,7 +30,7 @@ struct Worker {
   bool isGivenUp = false;  ///< No further process is started for this worker.
   int failedStarts = 0;    ///< Consecutive failed starts.
   std::optional<size_t> job;
-  Stopwatch watch;          ///< Runs since the greeting or the job was sent.
+  Stopwatch watch;          ///< Measures the time since the greeting or the job was sent.
   uint64_t readyBytes = 0;  ///< Memory when the worker became ready.
   uint64_t peakBytes = 0;
 };
@@ -94,7 +94,7 @@ class WorkerPool {
   }
 
   [[nodiscard]] bool hasGrown(const Worker& worker) const {
-    // No limit, or a limit that a ready worker already exceeds.
+    // There is no limit, or a ready worker without a job already exceeds the limit.
     if (options_.memoryBytes <= worker.readyBytes) return false;
     const auto ready = static_cast<double>(worker.readyBytes);
     const double kept = static_cast<double>(residentBytesOf(worker.process->id())) - ready;
@@ -169,7 +169,7 @@ class WorkerPool {
     giveUp(worker);
   }
 
-  /// Gives up all workers if none was ready before, because other workers would fail in the same way.
+  /// Gives up the worker. If no worker was ready before, gives up all workers, because they would fail in the same way.
   void giveUp(Worker& worker) {
     worker.isGivenUp = true;
     if (!hasStarted_)
@@ -203,7 +203,7 @@ class WorkerPool {
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
   std::vector<Worker> workers_;
-  uint32_t allowedCount_ = 1;  ///< Processes at once.
+  uint32_t allowedCount_ = 1;  ///< Number of processes that may run at the same time.
   bool hasStarted_ = false;    ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
   std::string failure_;  ///< Reason why the last worker could not start.

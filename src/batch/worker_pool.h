@@ -45,7 +45,8 @@ struct JobOutcome {
 
 struct WorkerPoolClient {
   std::function<std::string(size_t job)> request;
-  /// Called with a worker's answer to the greeting. Returns the greatest number of workers; 0: it cannot compute.
+  /// Called with a worker's answer to the greeting. Returns the greatest number of workers; 0 if the worker cannot
+  /// compute.
   std::function<uint32_t(const std::string& answer)> ready;
   /// Called at the end of each job. Returns whether a worker that answered gets further jobs instead of being replaced.
   std::function<bool(const JobOutcome& outcome)> finished;
@@ -54,8 +55,9 @@ struct WorkerPoolClient {
 /// Runs the jobs 0 .. jobCount - 1 in worker processes. Each worker runs one job at a time. Jobs begin in the order of
 /// their numbers. A worker that crashes or exceeds a limit is replaced, so that only its current job fails.
 ///
-/// One worker starts first; the others start when it is ready. A worker is given up, which means not replaced, if
-/// client.ready() returns 0 or three of its starts fail in a row. All are given up if no worker was ready before.
+/// One worker starts first. The other workers start when the first one is ready. A worker is given up (no longer
+/// replaced) if client.ready() returns 0, or if three consecutive starts of the worker fail. If no worker was ready
+/// before, all workers are given up.
 ///
 /// After a stop request no job begins, and workers with a job receive SIGTERM. Returns when all jobs have ended, when
 /// all workers are given up, or, after a stop request, when the current jobs have ended. The result is the reason why

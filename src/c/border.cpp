@@ -69,8 +69,9 @@ asdf_vk_status keepCurrentError() noexcept {
 void requireSameProcess() {
   static const pid_t first = getpid();
   if (getpid() != first)
-    throw Error(ErrorCode::ForkedProcess,
-                "this process was forked after the first use of asdf-vk; fork before it, or start a new program");
+    throw Error(
+        ErrorCode::ForkedProcess,
+        "this process was forked after the first use of asdf-vk; fork before the first use, or start a new program");
 }
 
 }  // namespace

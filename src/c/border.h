@@ -14,7 +14,7 @@
 #include "asdf_vk/run_control.h"
 #include "core/function_ref.h"
 
-/// The border between C and C++, which every function of asdf_vk_c.h crosses.
+/// Conversions between C and C++, which every function of asdf_vk_c.h uses.
 namespace asdfvk::c {
 
 /// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops, and
@@ -24,8 +24,8 @@ asdf_vk_status guarded(FunctionRef<void()> body) noexcept;
 /// Throws Error{InvalidArgument} for null. name: the argument in the message, for example "the output".
 void requireArgument(const void* pointer, const char* name);
 
-/// The number of an enumerator from a caller in C, who may pass any number. Reading a number without an enumerator as
-/// an enumeration is undefined behaviour in C++.
+/// The number of an enumerator. A caller in C may pass any number. Reading a number without an enumerator as an
+/// enumeration is undefined behaviour in C++.
 template <typename Enum>
 [[nodiscard]] int numberOf(const Enum& enumerator) {
   int number = 0;
@@ -34,8 +34,9 @@ template <typename Enum>
   return number;
 }
 
-/// The progress function of a caller as a RunControl. The function is called in the floating-point environment of the
-/// construction. Precondition: constructed before guarded() changes the environment. Must outlive the control.
+/// The progress function of a caller as a RunControl. The function is called in the floating-point environment in which
+/// this object was constructed. Preconditions: the object is constructed before guarded() changes the environment; the
+/// object outlives the control.
 class ProgressCall {
  public:
   ProgressCall(asdf_vk_progress callback, void* user) : callback_(callback), user_(user) { std::fegetenv(&callers_); }
@@ -53,7 +54,7 @@ class ProgressCall {
   std::stop_source source_{std::nostopstate};
 };
 
-/// A number that no handle of any type had before.
+/// Returns a number that no handle of any type had before.
 [[nodiscard]] uintptr_t nextHandle();
 [[noreturn]] void failHandle(const void* handle, const char* type);
 
@@ -94,8 +95,8 @@ class Handles {
   std::map<const Object*, std::shared_ptr<Object>> objects_;
 };
 
-/// The table of all handles of a type. It is never destroyed, because its objects hold devices, which may be unusable
-/// at the end of the process.
+/// The table of all handles of a type. The table is never destroyed, because its objects hold devices, which may be
+/// unusable at the end of the process.
 template <typename Object>
 [[nodiscard]] Handles<Object>& handles() {
   static auto* const table = new Handles<Object>(Object::kType);

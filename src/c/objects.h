@@ -35,7 +35,8 @@ struct asdf_vk_scene {
   std::shared_ptr<asdf_vk_session> session;
   std::shared_ptr<const asdfvk::Mesh> mesh;
   asdfvk::Orientation orientation = asdfvk::Orientation::Keep;
-  /// Empty before the first computation. A list can be moved to asdf_vk_session::released without an allocation.
+  /// Empty before the first computation. The type is a list, because list elements can be moved to
+  /// asdf_vk_session::released without an allocation.
   std::list<asdfvk::Scene> prepared;
 
   asdf_vk_scene(std::shared_ptr<asdf_vk_session> s, asdfvk::Mesh m)
@@ -67,8 +68,8 @@ struct asdf_vk_result {
 
 namespace asdfvk::c {
 
-/// The settings of a session or of a computation. options: null: the defaults. Throws Error{OptionConflict} for an
-/// option of the other object, and the errors of complete() and requireValid().
+/// The settings of a session or of a computation; null: the defaults. Throws Error{OptionConflict} for an option of a
+/// computation in the options of a session, and vice versa. Throws the errors of complete() and requireValid().
 [[nodiscard]] SessionSettings sessionSettings(const asdf_vk_options* options);
 [[nodiscard]] ComputationSettings computationSettings(const asdf_vk_options* options);
 

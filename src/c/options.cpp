@@ -8,7 +8,7 @@ namespace {
 
 constexpr OptionSpelling kSpelling = OptionSpelling::Name;
 
-/// Null for an unknown name, and for options of the program only (with an empty keyword).
+/// Returns null for an unknown name, and for an option that only the program has (its keyword is empty).
 const OptionRow* rowOf(OptionRows rows, std::string_view name) {
   const OptionRow* const row = findOption(rows, name);
   return row == nullptr || isOfProgram(*row) ? nullptr : row;
@@ -24,7 +24,8 @@ void setText(const OptionRow& row, void* target, const std::string& text) {
   setOption(row, target, isOn, text, kSpelling);
 }
 
-/// Sets the options in the order of the rows. other: rows of refused options. use: the object of the refused options.
+/// Sets the options in the order of the rows. other: rows of options that are refused. use: the object that has the
+/// refused options, for the message.
 GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle, OptionRows other, const char* use) {
   GivenOptions given{.names = {}, .spelling = kSpelling};
   if (handle == nullptr) return given;
@@ -84,7 +85,7 @@ asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, c
   return guarded([&] {
     const auto object = handles<asdf_vk_options>().get(options);
     requireArgument(name, "the name of the option");
-    ComputationSettings computation;  // Only to check the value.
+    ComputationSettings computation;  // Used only to check the value.
     SessionSettings session;
     const OptionRow* const ofComputation = rowOf(computationRows(), name);
     const OptionRow* const ofSession = rowOf(sessionRows(), name);

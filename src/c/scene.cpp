@@ -205,7 +205,8 @@ asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* op
     if (pointCount > 0) requireArgument(values, "the output");
     const Options given = computationSettings(options).options;
     if (given.measure == Measure::Both)
-      throw Error(ErrorCode::OptionConflict, "measure=both is for faces; points have one measure at a time");
+      throw Error(ErrorCode::OptionConflict,
+                  "measure=both is for faces only; at points, measure either the diameter or the thickness");
     const RunControl control = call.control();
     const SessionUse use(*used->session);
     Scene& prepared = preparedScene(*used, given.orientation, control);

@@ -17,7 +17,7 @@ inline constexpr int kCancelledCode = 130;
 /// ends exits with kCancelledCode and leaves no half-written file. Precondition: no other Interrupt exists.
 class Interrupt {
  public:
-  /// isWorker: ignores signals after the first one, because the main process ends workers. Prints nothing.
+  /// isWorker: prints nothing, and ignores signals after the first one, because the main process ends workers.
   explicit Interrupt(bool isWorker = false);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;

@@ -52,7 +52,8 @@ void secureStandardStreams() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // open() returns the lowest free number, that of the missing stream. O_RDONLY: writing to the stream still fails.
+    // open() returns the lowest free descriptor, which is that of the missing stream. With O_RDONLY, writing to the
+    // stream still fails.
     if (open("/dev/null", O_RDONLY) != stream) return;
   }
 }

@@ -28,7 +28,8 @@ void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();
 
-/// A progress bar in one line. Appears after one second. Redrawn at most ten times per second. Cleared at destruction.
+/// A progress bar in one line. The bar appears after one second and is redrawn at most ten times per second. The
+/// destructor clears the bar.
 class ProgressBar {
  public:
   /// write: writes a text to the terminal. now: returns a time in seconds.
