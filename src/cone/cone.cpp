@@ -19,15 +19,16 @@ constexpr size_t kRunLength = 8;
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
 
 struct Ray {
-  double azimuth = 0;  // Radians, 0 .. 2 pi.
-  double angle = 0;    // To the axis, in radians.
+  double azimuth = 0;  // Angle about the axis, in radians, 0 .. 2 pi.
+  double angle = 0;    // Angle to the axis, in radians.
   Vec3d direction;
   double weight = 0;
   double solidAngle = 1;
 };
 
-// Reorders rays so that each run of kRunLength is a compact patch of the cone: sectors of azimuth with `rows` runs
-// each, by increasing angle to the axis. One row is used unless the sectors would be slivers.
+// Reorders the rays so that each run of kRunLength rays is a compact patch of the cone. Runs are grouped into sectors
+// of azimuth. A sector has `rows` runs, ordered by increasing angle to the axis. `rows` is chosen so that patches are
+// about square.
 void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
   const double runCount = std::ceil(static_cast<double>(rays.size()) / kRunLength);
   const double squareSectorCount = 2 * std::numbers::pi * std::sin(halfAngle / 2) / halfAngle;
@@ -60,7 +61,7 @@ std::vector<Ray> paperRays(uint32_t count, double halfAngle) {
 
 // Ray i passes through the disk that closes the cone, at the share i / count of the radius of the disk.
 std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
-  // The mean, in steps, of the radii from 0 to half a step, which the ray on the axis represents.
+  // The ray on the axis represents the radii from 0 to half a step. Their mean is a quarter of a step.
   constexpr double kAxisRadius = 0.25;
   std::vector<Ray> rays(count);
   for (size_t i = 0; i < rays.size(); ++i) {
@@ -81,8 +82,8 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
 
 }  // namespace
 
-/// Distance of a point on a face from the plane of the face after rounding to float32. Rays at the rim of the cone
-/// leave the plane at the smallest angle, and so have the longest path within this distance.
+/// Distance of a point on a face from the plane of the face after rounding to float32. Rays at the rim of the cone have
+/// the smallest angle to the plane. Therefore rays at the rim have the longest path within this distance.
 constexpr double kFloatPlaneError = 0x1p-22;
 constexpr double kMaxContactDistance = 0x1p-16;
 
@@ -99,7 +100,7 @@ Cone makeCone(const ConeOptions& options) {
       std::clamp(kFloatPlaneError / std::cos(cone.halfAngleRadians), kContactDistance, kMaxContactDistance);
   cone.rotation = options.rotation;
   if (isCgal) {
-    // The greatest negative number that is normal in float32: an angle of 90 degrees is not acute.
+    // The greatest negative normal number of float32. With this bound, an angle of 90 degrees is not acute.
     cone.falseHitCosine = -static_cast<double>(std::numeric_limits<float>::min());
     cone.outliers = {.spread = OutlierRule::Spread::MedianDeviation, .deviations = 1.5, .slack = 0};
   }

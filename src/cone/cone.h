@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// Lengths are outliers if they differ from the median by more than a multiple of the spread.
+/// A length is an outlier if it differs from the median by more than `deviations` times the spread (plus a slack).
 struct OutlierRule {
   enum class Spread {
     StandardDeviation,  ///< Population standard deviation about the mean.
@@ -23,13 +23,13 @@ struct OutlierRule {
   double slack = static_cast<double>(kOutlierSlack);  ///< Added to the largest difference, in units of the median.
 };
 
-/// The rays of every cone and the rules for their hits: a definition of the shape diameter as data. Rays are in the
+/// The rays that all cones have, and the rules for their hits. These data define the shape diameter. Rays are in the
 /// frame of the cone (z = the axis). Rays are ordered by azimuth, in sectors, so that each aligned group of 8 rays is a
-/// compact patch of the cone. Up to about 50 rays at 120 degrees, a sector is one group; with more rays, the groups of
-/// a sector are ordered by the angle to the axis. directions, weights and solidAngles have rayCount entries.
+/// compact patch of the cone. With up to about 50 rays at 120 degrees, a sector has one group. With more rays, a sector
+/// has several groups, ordered by the angle to the axis. directions, weights and solidAngles have rayCount entries.
 struct Cone {
   Definition definition = Definition::Paper;  ///< Selects the frame and the vector that falseHitCosine refers to.
-  std::vector<Vec3d> directions;              ///< Unit.
+  std::vector<Vec3d> directions;              ///< Unit vectors.
   std::vector<double> weights;                ///< Paper: 1 / angle to the axis, in 1 / radians. Cgal: 1.
   std::vector<double> solidAngles;  ///< Solid angle that each ray represents, up to a common factor; Paper: 1.
   double falseHitCosine = 0;        ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
@@ -45,8 +45,8 @@ struct Cone {
 /// tangent of the angle to the axis. Precondition: 1 to kMaxRayCount rays.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
-/// Paper: the normals of hit face and seed face differ by less than the false-hit angle. Cgal: the angle between the
-/// ray and the normal of the hit face is not acute.
+/// Whether a hit is false. Paper: the normals of hit face and seed face differ by less than the false-hit angle. Cgal:
+/// the angle between the ray and the normal of the hit face is not acute.
 [[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& direction,
                                      const Vec3d& hitNormal) {
   const double cosine = cone.definition == Definition::Paper ? dot(seedNormal, hitNormal) : -dot(direction, hitNormal);
@@ -73,7 +73,7 @@ struct ConeFrame {
 /// Rotation by which paperConeFrame() turns the frame about its axis, in radians, 0 to 2 pi.
 [[nodiscard]] double coneRotation(const Cone& cone, uint64_t key);
 
-/// The frame of the rays at a unit normal, by Definition::Paper: coneFrame(-normal), turned about its axis by
+/// The frame of the rays at a unit normal in Definition::Paper: coneFrame(-normal), turned about its axis by
 /// coneRotation(). key: the number that ConeRotation::Hashed hashes; for a face its index.
 [[nodiscard]] ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key);
 
@@ -82,8 +82,8 @@ struct LengthWindow {
   [[nodiscard]] bool keeps(double length) const { return std::abs(length - median) <= bound; }
 };
 
-/// The median of the lengths (for an even count the mean of the middle two), and the bound of the rule. Precondition: 1
-/// to kMaxRayCount lengths.
+/// The median of the lengths (for an even count the mean of the middle two). `bound` is the greatest difference from
+/// the median that the rule allows. Precondition: 1 to kMaxRayCount lengths.
 [[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule);
 
 /// The shape diameter: the weighted mean of the lengths in keptWindow(). Returns kNoValue if there are no lengths, or

@@ -10,7 +10,8 @@
 namespace asdfvk {
 namespace {
 
-// For an even count the mean of the middle two. Reorders `lengths`, which is not empty.
+// Returns the median; for an even count, the mean of the middle two. Reorders `lengths`. Precondition: `lengths` is not
+// empty.
 double takeMedian(std::span<double> lengths) {
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
@@ -18,7 +19,7 @@ double takeMedian(std::span<double> lengths) {
   return 0.5 * (*middle + *std::max_element(lengths.begin(), middle));
 }
 
-/// Reorders and overwrites `lengths`.
+/// Returns the median of the absolute differences from `median`. Reorders and overwrites `lengths`.
 double takeMedianDeviation(std::span<double> lengths, double median) {
   for (double& length : lengths) length = std::abs(length - median);
   return takeMedian(lengths);

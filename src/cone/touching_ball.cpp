@@ -14,9 +14,9 @@ double diameterThrough(const Vec3d& v, const Vec3d& axis) {
   return depth > 0 ? dot(v, v) / depth : kInfinity;
 }
 
-/// The t in [0, 1] with the least diameter through a + t edge. With A = a . axis, B = edge . axis, C = |a|^2, D = a .
-/// edge and E = |edge|^2, the diameter is stationary where B E t^2 + 2 A E t = B C - 2 A D. The root with the greater
-/// depth is the minimum. Precondition: both ends are deeper than 0.
+/// Returns the t in [0, 1] for which the ball through a + t edge has the least diameter. Let A = a . axis, B = edge .
+/// axis, C = |a|^2, D = a . edge and E = |edge|^2. The diameter is stationary where B E t^2 + 2 A E t = B C - 2 A D.
+/// The root with the greater depth is the minimum. Precondition: both ends have a depth above 0.
 double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
   const double depth = dot(a, axis), slope = dot(edge, axis), square = dot(edge, edge);
   const Vec3d turned = depth * edge - slope * a;
@@ -25,7 +25,8 @@ double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
   return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0;
 }
 
-/// A lower bound is compared with `diameter` plus a margin for rounding, so that walls in any order give the same bits.
+/// Adds a margin for rounding. Lower bounds are compared with this number, so that walls in any order give the same
+/// bits.
 double withRounding(double diameter) { return diameter * (1 + 1e-9); }
 
 /// The part of a triangle that is deeper than minDepth: up to four corners with their depths.
@@ -95,7 +96,7 @@ class LeastBall {
   [[nodiscard]] bool mayImprove(double bound) const { return !(bound > limit_); }
 
   /// For a point p of the face, boundAt(offsetOf(p)) is the diameter of the ball at p that touches the plane of the
-  /// wall: a lower bound for the balls that touch the wall.
+  /// wall. This diameter is a lower bound for balls at p that touch the wall.
   [[nodiscard]] double offsetOf(const Vec3d& p) const { return dot(wall_.normal, part_.corners().front() - p); }
   [[nodiscard]] double boundAt(double offset) const { return planeDiameter(axis_, wall_.normal, offset); }
 
@@ -107,7 +108,8 @@ class LeastBall {
   }
 
   /// The least ball at a point of the face. The diameter is a convex function of the point of the wall. Therefore, if
-  /// the ball touches the plane of the wall outside of the wall, the least ball touches an edge that faces this place.
+  /// the ball touches the plane of the wall outside of the wall, the least ball touches an edge whose outer side has
+  /// this place.
   void offerPoint(const Vec3d& p, double offset) {
     const double side = offset < 0 ? -1 : 1, radius = std::abs(offset) / (1 + side * dot(wall_.normal, axis_));
     const Vec3d touched = p + radius * (axis_ + side * wall_.normal);

@@ -18,9 +18,9 @@ struct PlaneTriangle {
   Vec3d normal;
 };
 
-/// The diameter of the ball that touches a face at a point and touches a plane; NaN or infinite if no ball does. axis:
-/// inward unit normal of the face. normal: unit normal of the plane. offset: signed distance from the point to the
-/// plane along `normal`. The diameter is linear in the offset on either side of 0.
+/// The diameter of the ball that touches a face at a point and touches a plane; NaN or infinite if there is no such
+/// ball. axis: inward unit normal of the face. normal: unit normal of the plane. offset: signed distance from the point
+/// to the plane along `normal`. The diameter is linear in the offset on either side of 0.
 [[nodiscard]] inline double planeDiameter(const Vec3d& axis, const Vec3d& normal, double offset) {
   return offset < 0 ? -2 * offset / (1 - dot(normal, axis)) : 2 * offset / (1 + dot(normal, axis));
 }
@@ -29,15 +29,15 @@ struct PlaneTriangle {
 /// is |v|^2 / dot(v, m), where v = q - p for a point p of the face and a point q of the wall, and m = -face.normal. The
 /// result has the least diameter over all p and q. Points of the wall with a depth dot(v, m) of at most `minDepth`,
 /// which is above 0, are ignored. If the least diameter is above `limit`, the diameter of the result is any number
-/// above `limit`, or infinite. For all greater limits, the diameter has the same bits.
+/// above `limit`, or infinite. All limits of at least the least diameter give the same bits.
 ///
 /// The balls of diameter T that touch the face fill a convex set: the face, shifted by T/2 along m and then extended by
-/// T/2. For the least diameter, a wall has exactly one point in common with this set: a corner of the wall, or a point
-/// at which the ball touches the face at a corner or an edge. Each case has a closed form, so that the result is exact.
+/// T/2. For the least diameter, the wall has exactly one point in common with this set. This point is a corner of the
+/// wall, or the ball touches the face at a corner or an edge. Each case has a closed form, so that the result is exact.
 [[nodiscard]] TouchingBall leastTouchingBall(const PlaneTriangle& face, const PlaneTriangle& wall, double minDepth,
                                              double limit = std::numeric_limits<double>::infinity());
 
-/// The least such ball that touches the face at the given point.
+/// The least ball that touches the face at `point` and has a point of the wall on its surface.
 [[nodiscard]] TouchingBall leastTouchingBall(const Vec3d& point, const Vec3d& faceNormal, const PlaneTriangle& wall,
                                              double minDepth, double limit);
 

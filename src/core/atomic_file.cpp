@@ -31,7 +31,8 @@ namespace {
 std::array<std::atomic<const char*>, 64> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
-/// ".asdf-vk-HOST-". The host is needed because process numbers are unique within one machine or container only.
+/// Returns ".asdf-vk-HOST-". The name of the host is needed because process numbers are unique only within one machine
+/// or container.
 const std::string& temporaryPrefix() {
   static const std::string prefix = [] {
     std::array<char, HOST_NAME_MAX + 1> host{};
@@ -174,7 +175,8 @@ void AtomicFile::withdrawTemporary() noexcept {
     announced_.reset();
     return;
   }
-  // The signal handler has taken the name, may still read the name, and ends the process.
+  // The signal handler has taken the name and ends the process. The name is not freed, because the handler may still
+  // read the name.
   (void)announced_.release();
 }
 

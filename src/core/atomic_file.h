@@ -13,9 +13,9 @@
 namespace asdfvk {
 
 /// Atomic replacement of a file: bytes go to a temporary file beside the target, which commit() renames to the target.
-/// Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
-/// file keeps its mode. A symbolic link is followed, also if its target does not exist. Targets that are not regular
-/// files (/dev/null, a FIFO) and "-" (standard output) are written directly. Every failure throws
+/// Without a commit(), or after a failure, the temporary file is removed and the previous file is unchanged. An
+/// existing file keeps its mode. Symbolic links are followed, also to a target that does not exist. Targets that are
+/// not regular files (/dev/null, a FIFO) and "-" (standard output) are written directly. Every failure throws
 /// Error{OutputNotWritable} with the error text of the operating system.
 class AtomicFile {
  public:
@@ -24,7 +24,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Returns memory for `size` bytes, at most kMaxReserve, for the caller to write. advance() appends the written
+  /// Returns memory for `size` bytes, at most kMaxReserve, into which the caller writes. advance() appends the written
   /// bytes.
   [[nodiscard]] char* reserve(size_t size) {
     if (size > kBufferSize - used_) flush();
@@ -53,7 +53,7 @@ class AtomicFile {
   void commit();
 
   /// Commits two files. Both temporary files are complete before the first is renamed. If the second cannot be renamed,
-  /// the target of the first is removed, unless it replaced a file.
+  /// the target of the first is removed; a target that replaced a file remains.
   static void commitBoth(AtomicFile& first, AtomicFile& second);
 
   static constexpr size_t kMaxReserve = size_t{1} << 16;

@@ -54,8 +54,8 @@ struct Box3 {
 using Box3d = Box3<double>;
 using Box3f = Box3<float>;
 
-/// Whether `inner` lies inside `outer` with a distance of more than `margin` between corresponding sides. A negative
-/// margin lets `inner` extend beyond `outer` by less than -margin.
+/// Whether `inner` lies inside `outer` with a distance of more than `margin` between corresponding sides. With a
+/// negative margin, `inner` may extend beyond `outer` by less than -margin.
 [[nodiscard]] inline bool containsBy(double margin, const Box3d& outer, const Box3d& inner) {
   for (size_t axis = 0; axis < 3; ++axis)
     if (!(inner.min[axis] - outer.min[axis] > margin && outer.max[axis] - inner.max[axis] > margin)) return false;

@@ -24,8 +24,8 @@ struct Buckets {
   }
 };
 
-/// Entries grouped by bucket number, for callers that read each bucket once and keep none. A radix sort in two steps;
-/// the second step works on runs of buckets that fit into a cache. The sort avoids atomic operations, which wait for
+/// Groups entries by bucket number, for callers that read each bucket once and keep no bucket. A radix sort in two
+/// steps. In the second step, each run of buckets fits into a cache. The sort avoids atomic operations, which wait for
 /// memory. Time: linear for small buckets, n log n in the worst case. The result does not depend on the number of
 /// threads. Entry has operator<. Its default constructor should leave the entry uninitialised.
 template <typename Entry>
@@ -60,7 +60,7 @@ class StagedEntries {
 
   [[nodiscard]] uint32_t count() const { return runBegins_.back(); }
 
-  /// Calls visit(bucket, entries) once for each bucket with an entry, entries ascending, in parallel.
+  /// Calls visit(bucket, entries) once for each non-empty bucket, in parallel. The entries are ascending.
   template <typename Visit>
   void forEachBucket(const Visit& visit) const {
     PerThread<std::vector<Entry>> scratches;
@@ -111,7 +111,8 @@ class StagedEntries {
   static void sort(std::span<Entry> entries) {
     constexpr size_t kWorthParallelSort = size_t{1} << 16;
     if (entries.size() >= kWorthParallelSort) {
-      // Isolated: the thread must not start another run during the sort, which would overwrite the scratch memory.
+      // Isolated, because the thread must not start another run during the sort: that run would overwrite the scratch
+      // memory.
       callIsolated([&] { sortInParallel(entries.begin(), entries.end()); });
     } else if (entries.size() > 1) {
       std::sort(entries.begin(), entries.end());

@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// Escapes text for an element or a quoted attribute of HTML: markup becomes character references, control characters
-/// other than line ends become spaces, and each byte of invalid UTF-8 becomes U+FFFD.
+/// Escapes text for an element or a quoted attribute of HTML. Markup becomes character references. Control characters
+/// other than line ends become spaces. Each byte of invalid UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string escapedForHtml(std::string_view text);
 
 /// Escapes JSON for a script element: <, > and & become \uXXXX. Precondition: the JSON is in ASCII.

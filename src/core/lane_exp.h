@@ -60,7 +60,7 @@ template <typename Doubles>
   return sum;
 }
 
-/// exp(x) for -512 < x <= 0. Fast on instruction sets with fused multiply-add only.
+/// exp(x) for -512 < x <= 0. Fast only on instruction sets with fused multiply-add.
 template <typename Doubles>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Doubles expOfNegative(const Doubles& x) {
   constexpr size_t kCount = kLaneCount<Doubles>;

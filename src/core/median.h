@@ -7,7 +7,8 @@
 
 namespace asdfvk {
 
-/// The median; for an even count the upper of the middle two. Reorders the numbers, at least one and none of them NaN.
+/// The median; for an even count the upper of the middle two. Reorders the numbers. Preconditions: at least one number,
+/// no NaN.
 [[nodiscard]] inline double upperMedian(std::vector<double>& numbers) {
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());

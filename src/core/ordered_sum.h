@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// The sum of term(0) .. term(count - 1). Blocks of fixed size are summed in parallel, and the sums of the blocks are
-/// added in order, so that the result has the same bits on any number of threads.
+/// The sum of term(0) .. term(count - 1). Blocks of fixed size are summed in parallel, and then the sums of the blocks
+/// are added in order. Therefore the result has the same bits on any number of threads.
 template <typename Term>
 [[nodiscard]] double orderedSum(size_t count, const Term& term) {
   constexpr size_t kBlockSize = 8192;
@@ -28,7 +28,7 @@ inline constexpr double kMinPlainSquare = 1e-200, kMaxPlainSquare = 1e300;
 template <typename Entry>
 [[nodiscard]] double orderedNorm(size_t count, const Entry& entry) {
   const double squared = orderedSum(count, [&](size_t i) { return entry(i) * entry(i); });
-  // If the sum is between these bounds, no square has overflowed, and squares that underflowed do not matter.
+  // If the sum is between these bounds, no square has overflowed, and squares that underflowed are negligible.
   if (squared > kMinPlainSquare && squared < kMaxPlainSquare) return std::sqrt(squared);
   double largest = 0;
   for (size_t i = 0; i < count; ++i) {

@@ -68,7 +68,7 @@ BackgroundTask::BackgroundTask(std::function<void()> body) : state_(std::make_un
 BackgroundTask::~BackgroundTask() {
   try {
     wait();
-  } catch (...) {  // The caller has this exception from wait() already, or is handling another exception.
+  } catch (...) {  // The caller has already received this exception from wait(), or is handling another exception.
   }
 }
 

@@ -16,11 +16,11 @@ namespace asdfvk {
 inline constexpr size_t kItemsPerTask = 4096;
 
 [[nodiscard]] size_t threadLimit();
-/// The number of threads without any limit.
+/// The number of threads if no limit exists.
 [[nodiscard]] size_t defaultThreadCount();
 
-/// Calls body(begin, end) in parallel for disjoint ranges whose union is [0, count). Ranges above `grain` may be
-/// divided.
+/// Calls body(begin, end) in parallel for disjoint ranges whose union is [0, count). Ranges of more than `grain` items
+/// may be divided.
 void forEachRange(size_t count, size_t grain, FunctionRef<void(size_t begin, size_t end)> body);
 
 /// A loop that runs many times over the same items. Each thread gets the same ranges in each run, so that the data of

@@ -13,8 +13,8 @@
 /// Compilers split a vector that is wider than the registers.
 ///
 /// dispatch() calls code for several instruction sets. In this code, functions that take or return vectors are always
-/// inlined: they are compiled for the instruction set of the caller, and need no calling convention. Definitions must
-/// precede callers: otherwise GCC ignores the attribute.
+/// inlined. Such functions are compiled for the instruction set of the caller, and need no calling convention. A
+/// definition must precede its callers, because GCC ignores the attribute in any other order.
 #define ASDFVK_ALWAYS_INLINE __attribute__((always_inline))
 
 namespace asdfvk {
@@ -24,7 +24,7 @@ using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
 using Double4 = double __attribute__((vector_size(32)));
 
-/// The vector of signed integers with the lane count and size of V. As a mask: -1 for true, 0 for false.
+/// The vector of signed integers with the lane count and size of V. In a mask, -1 is true and 0 is false.
 template <typename V>
 using IntsOf = decltype(V{} == V{});
 
@@ -43,15 +43,16 @@ template <typename V, typename Number>
   return vector;
 }
 
-/// Writes kLaneCount<V> numbers, at any alignment. Number must have the size of the elements, but may be another type:
-/// the elements of a mask of doubles are long with GCC and long long with Clang.
+/// Writes kLaneCount<V> numbers, at any alignment. Number must have the size of the elements, but may be a different
+/// type: the elements of a mask of doubles are long with GCC and long long with Clang.
 template <typename V, typename Number>
 ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   static_assert(sizeof(Number) == sizeof(NumberOf<V>));
   std::memcpy(numbers, &vector, sizeof vector);
 }
 
-/// The number in every lane, by a shuffle: GCC 12 compiles `number - V{}` for 64-byte vectors element by element.
+/// A vector with `number` in every lane. Uses a shuffle, because GCC 12 compiles `number - V{}` for 64-byte vectors
+/// element by element.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V broadcast(NumberOf<V> number) {
   V first{};
@@ -62,13 +63,13 @@ template <typename V>
   (std::make_index_sequence<kLaneCount<V>>());
 }
 
-/// The minimum per lane; the lane of b where both are equal or one is NaN.
+/// The minimum per lane; takes the lane of b if both are equal or one is NaN.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V min(const V& a, const V& b) {
   return a < b ? a : b;
 }
 
-/// The maximum per lane; the lane of b where both are equal or one is NaN.
+/// The maximum per lane; takes the lane of b if both are equal or one is NaN.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V max(const V& a, const V& b) {
   return a > b ? a : b;
@@ -136,14 +137,14 @@ template <typename Floats>
   return y * (1.500881f - 0.5f * x * y * y);
 }
 
-/// 1 / sqrt(x) to a relative error of 1e-6, by a second Newton step.
+/// 1 / sqrt(x) with a relative error of 1e-6, by a second Newton step.
 template <typename Floats>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats rsqrt(const Floats& x) {
   const Floats y = approximateRsqrt(x);
   return y * (1.5000006f - 0.5f * x * y * y);
 }
 
-/// exp(-x) to a relative error of 1e-4, for x from 0 to 80.
+/// exp(-x) with a relative error of 1e-4, for x from 0 to 80.
 template <typename Floats>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats expNegative(const Floats& x) {
   const Floats exponent = 127.0f - x * 1.44269504f;  // The bias makes the sum positive: truncation rounds down.

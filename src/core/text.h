@@ -27,7 +27,7 @@ namespace asdfvk {
   return text;
 }
 
-/// "sdf, seed" for the names "sdf" and "seed" with the separator ", ".
+/// Joins names: "sdf, seed" for the names "sdf" and "seed" with the separator ", ".
 template <typename Names>
 [[nodiscard]] std::string joined(const Names& names, std::string_view separator) {
   std::string text;
@@ -65,14 +65,14 @@ template <typename Names>
   return lines;
 }
 
-/// 96966 as "96,966".
+/// The number with commas: "96,966" for 96966.
 [[nodiscard]] inline std::string groupDigits(uint64_t number) {
   std::string text = std::to_string(number);
   for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
   return text;
 }
 
-/// "1 vertex", "1,234 vertices". Without a plural, an s is appended to the singular.
+/// A count with its noun: "1 vertex", "1,234 vertices". If `plural` is empty, the plural is the singular with an s.
 [[nodiscard]] inline std::string counted(uint64_t count, std::string_view singular, std::string_view plural = {}) {
   if (count == 1 || !plural.empty()) return fmt::format("{} {}", groupDigits(count), count == 1 ? singular : plural);
   return fmt::format("{} {}s", groupDigits(count), singular);
@@ -87,8 +87,8 @@ template <typename T>
   return value;
 }
 
-/// Text of a diameter, thickness or area in a report, a picture or a legend: four significant digits. Up to nine digits
-/// are used if the text of a different length would equal the text of `limit`.
+/// Text of a diameter, thickness or area in a report, a picture or a legend: four significant digits. A length that
+/// differs from `limit` gets up to nine digits, if fewer digits would give the text of `limit`.
 [[nodiscard]] inline std::string lengthText(double length, std::optional<double> limit = {}) {
   for (int digits = 4; limit && digits <= 9; ++digits)
     if (std::string text = fmt::format("{:.{}g}", length, digits); text != fmt::format("{:.{}g}", *limit, digits))
@@ -96,7 +96,7 @@ template <typename T>
   return fmt::format("{:.4g}", length);
 }
 
-/// Text of a limit with nine significant digits, which hide the rounding of unit conversions.
+/// Text of a limit. The text has nine significant digits, so that rounding errors of unit conversions are not visible.
 [[nodiscard]] inline std::string limitText(double limit) { return fmt::format("{:.9g}", limit); }
 
 }  // namespace asdfvk

@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// An allocator that leaves new elements uninitialised: parallel code that writes them is the first to access the
-/// memory.
+/// An allocator that leaves new elements uninitialised. Therefore the threads that write the elements are the first to
+/// access the memory.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T>);  // Elements need no constructor call.

@@ -18,7 +18,7 @@ class WeightedSample {
     for (const Entry& entry : entries_) sum_ += entry.weight;
   }
 
-  /// The smallest number x such that the numbers up to x have at least this share of all weights.
+  /// The smallest number x for which the numbers up to x have at least this share of the sum of all weights.
   [[nodiscard]] double quantile(double share) const {
     double below = 0;
     for (const Entry& entry : entries_) {
