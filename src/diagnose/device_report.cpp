@@ -21,7 +21,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either of its faces.
+constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either face of the edge.
 constexpr int kRunCount = 3;
 
 struct TestTorus : GeneratedMesh {
@@ -45,8 +45,8 @@ void runTest(Report& report, const std::function<void()>& test) {
   }
 }
 
-/// Rays per second. The rate of a short run measures the overhead; therefore the number of faces is doubled until a run
-/// takes secondsPerRun. The faces are spread over the mesh.
+/// Returns the rays per second. In a short run, the overhead takes most of the time. Therefore the number of faces is
+/// doubled until a run takes secondsPerRun. The faces are spread over the mesh.
 double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
   constexpr size_t kFirstFaceCount = 2048;
   const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;

@@ -50,16 +50,16 @@ struct DeviceReport {
   std::vector<TracerReport> tracers;
   std::vector<SolverCheckReport> solvers;
 
-  /// The fastest variant of the device that passed; null if none did.
+  /// The fastest variant of the device that passed; null if no variant passed.
   [[nodiscard]] const TracerReport* fastest() const;
   /// True if nothing failed, and the requested backend or the default variant of the device passed.
   [[nodiscard]] bool passed() const;
 };
 
-/// Measures the backend of the options; for "auto" the Vulkan device and, for comparison, the CPU. A Vulkan device is
-/// measured with every kernel variant and every solver, whatever SessionOptions::variant is. secondsPerRun: a shorter
-/// run is repeated with more faces, up to all of the mesh. Throws Error of kind Device if the options exclude every
-/// device and backend, and Error{Cancelled}.
+/// Measures the backend of the options. For "auto", measures the Vulkan device and, for comparison, the CPU. A Vulkan
+/// device is measured with every kernel variant and every solver, whatever SessionOptions::variant is. A run that takes
+/// less than secondsPerRun is repeated with more faces, at most with all faces of the mesh. Throws Error of kind Device
+/// if the options exclude every device and backend, and Error{Cancelled}.
 [[nodiscard]] DeviceReport reportDevice(const SessionOptions& options, const RunControl& control,
                                         double secondsPerRun = 0.15);
 

@@ -6,7 +6,8 @@
 
 namespace asdfvk {
 
-/// Returns a page of docs/man with its marks (@VERSION@, ...) replaced. help: the text of ArgumentParser::help().
+/// Returns a page of docs/man in which the marks (@VERSION@, ...) are replaced. help: the text of
+/// ArgumentParser::help().
 [[nodiscard]] std::string manPage(const std::string& page, const std::string& version, const std::string& help,
                                   const std::vector<std::pair<int, std::string>>& exitCodes);
 

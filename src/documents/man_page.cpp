@@ -21,7 +21,7 @@ std::string plain(const std::string& text) {
   return result;
 }
 
-/// Converts the help of an ArgumentParser to headings, and options in bold with their texts.
+/// Converts the help of an ArgumentParser to man format. Group titles become headings, and options become bold.
 std::string optionSections(const std::string& help) {
   std::string sections, line;
   bool hasBegun = false;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr size_t kWorstFaceCount = 5;
 
-// The held-out faces are seeds of the result. This lowers the error of the result by about these powers of the number
-// of seeds. The powers differ between meshes (docs/experiments.md).
+// The held-out faces are seeds of the result, so that its error is lower. The error is assumed to be proportional to
+// (number of seeds)^-kGainExponent. The true exponents differ between meshes (docs/experiments.md).
 constexpr double kGainExponent = 0.12, kGainExponentWithoutPrediction = 0.5;
 
-/// Range of the traced values. The range of the function is wider where its extremes were not traced.
+/// Range of the traced values. The range of the function is wider if its extremes were not traced.
 double tracedRange(const EstimateInput& input) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   for (const uint32_t face : input.traced.faces)
@@ -28,7 +28,7 @@ double tracedRange(const EstimateInput& input) {
   return high > low ? high - low : 0;
 }
 
-/// From the 1st to the 99th percentile of the values. Precondition: a face has a value.
+/// The 99th minus the 1st percentile of the values. Precondition: a face has a value.
 double robustRange(std::span<const double> values) {
   std::vector<double> present;
   std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
@@ -79,11 +79,12 @@ std::vector<WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement
   return worst;
 }
 
-/// 0 / 0 is 0: a value without an error.
+/// An error of 0 gives 0, also for the value 0.
 double relativeError(double error, double value) { return error == 0 ? 0 : error / std::abs(value); }
 
 /// Estimates quantiles of the relative errors. The errors of seeds are known. A held-out face represents interpolated
-/// faces, in proportion to its sampling weight. interpolatedCount: number of interpolated faces with a value.
+/// faces; their number is proportional to its sampling weight. interpolatedCount: number of interpolated faces with a
+/// value.
 void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measurement>& measured, double gain,
                             size_t interpolatedCount, ErrorEstimate& estimate) {
   WeightedSample errors;
@@ -107,7 +108,8 @@ void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measur
   estimate.relativePercentile90 = errors.quantile(0.9);
   // Woodruff 1952: the standard error of the share of faces below the median, mapped through the quantiles.
   const double interpolatedShare = static_cast<double>(interpolatedCount) / static_cast<double>(count);
-  const double medianShare = std::clamp(1 - 0.5 / interpolatedShare, 0.0, 1.0);  // Share of the interpolated faces.
+  // Quantile among the interpolated faces.
+  const double medianShare = std::clamp(1 - 0.5 / interpolatedShare, 0.0, 1.0);
   const double deviation = interpolatedShare * std::sqrt(medianShare * (1 - medianShare) * squareSum) / weightSum;
   const double spread = (errors.quantile(std::min(1.0, 0.5 + deviation)) - errors.quantile(0.5 - deviation)) / 2;
   estimate.relativeMedianStandardError = std::hypot(spread, (1 - gain) / gain * estimate.relativeMedian);

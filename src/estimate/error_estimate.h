@@ -10,14 +10,15 @@
 
 namespace asdfvk {
 
-/// Input of the error estimate. Values are #F unless stated.
+/// Input of the error estimate. Arrays without a stated size are #F.
 struct EstimateInput {
   const TracedSeeds& traced;  ///< All seeds, held-out faces included.
   const HeldOutFaces& heldOut;
-  std::span<const double> withoutHeldOut;  ///< #H: values of the held-out faces, interpolated without them.
-  /// Error indicator, or empty for a constant one. It distributes the errors measured at held-out faces over all faces:
-  /// a ratio estimate (Cochran 1977, chapter 6). If it was also the sampling density, this is the estimate of Hansen
-  /// and Hurwitz 1943.
+  /// #H: values at the held-out faces, interpolated without the traced values of these faces.
+  std::span<const double> withoutHeldOut;
+  /// Error indicator; empty: the same for all faces. The indicator distributes the errors measured at held-out faces
+  /// over all faces: a ratio estimate (Cochran 1977, chapter 6). If the indicator was also the sampling density, the
+  /// estimate is that of Hansen and Hurwitz 1943.
   std::span<const double> indicator;
   std::span<const double> result;  ///< Interpolated from all seeds.
   bool predicts = true;            ///< Whether the interpolation used predictions.
@@ -28,8 +29,8 @@ struct EstimatedErrors {
   std::vector<double> expected;  ///< #F, in the unit of the mesh; 0 where a face has no value.
 };
 
-/// Error of the result, from the errors at held-out faces. estimate.heldOutCount is 0 if fewer than two held-out faces
-/// have a value and a positive weight, or if the range of values is not positive.
+/// Error of the result, from the errors at held-out faces. estimate.heldOutCount is 0 in two cases: fewer than two
+/// held-out faces have a value and a positive weight; the range of values is not positive.
 [[nodiscard]] EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& input);
 
 }  // namespace asdfvk

@@ -9,7 +9,8 @@
 namespace asdfvk {
 namespace {
 
-// Added to each entry, in units of the mean. It is the whole indicator of a face whose seeds agree exactly.
+// Number that is added to each entry, in units of the mean. If the seeds of a face agree exactly, this number is its
+// whole indicator.
 constexpr double kFloor = 0.5;
 
 /// #S: mean absolute difference between the value of a seed and the values of its neighbours; NaN for a seed without a

@@ -7,14 +7,14 @@
 namespace asdfvk {
 namespace {
 
-/// Inclusion probabilities: in proportion to the indicator, at most 1.
+/// Inclusion probabilities. A probability is proportional to the indicator times the represented count, and at most 1.
 class InclusionProbabilities {
  public:
-  /// The sum of the probabilities is `count`. Precondition: it is below the number of candidates.
+  /// The sum of the probabilities is `count`. Precondition: `count` is below the number of candidates.
   InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
                          std::span<const uint32_t> representedCounts)
       : indicator_(indicator), representedCounts_(representedCounts) {
-    for (bool grows = true; grows;) {  // Until no further probability reaches 1.
+    for (bool grows = true; grows;) {  // Repeated until no further probability reaches 1.
       double sum = 0, remaining = static_cast<double>(count);
       for (const uint32_t face : candidates)
         if (of(face) < 1)
@@ -42,13 +42,14 @@ std::vector<uint32_t> samplePivotally(std::span<const uint32_t> candidates, cons
                                       Random random) {
   std::vector<uint32_t> sample;
   uint32_t holder = 0;
-  double held = 0;  // Inclusion probability of the holder, given the decisions on all earlier faces.
+  double held = 0;  // Inclusion probability of `holder`, given the decisions on all earlier faces. Of two faces, one is
+                    // decided and the other becomes `holder`.
   for (const uint32_t face : candidates) {
     const double own = probabilities.of(face), sum = held + own, number = random.real();
-    if (sum < 1) {  // One of the two receives the probability of the other.
+    if (sum < 1) {  // `holder` or `face` receives the probability of both; the other is not sampled.
       if (number * sum >= held) holder = face;
       held = sum;
-    } else {  // One of the two is sampled, the other keeps the rest.
+    } else {  // `holder` or `face` is sampled; the other keeps the rest of the probability.
       const bool takesHolder = number * (2 - sum) < 1 - own;
       sample.push_back(takesHolder ? holder : face);
       if (takesHolder) holder = face;

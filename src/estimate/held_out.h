@@ -6,11 +6,13 @@
 
 namespace asdfvk {
 
-/// Random sample of faces for the unbiased measurement of the error of an interpolation that does not use them.
+/// Random sample of faces. At these faces, the error of an interpolation that does not use them is measured without
+/// bias.
 struct HeldOutFaces {
   std::vector<uint32_t> faces;
-  /// Sampling weight c / p - 1, divided by the number of candidates per held-out face: the number of interpolated faces
-  /// that the face stands for. p: inclusion probability; c: number of faces that the face represents.
+  /// Sampling weight of each face: (c / p - 1) / (number of candidates per held-out face). p: inclusion probability of
+  /// the face. c: its entry in representedCounts. c / p - 1 is the number of interpolated faces for which the face
+  /// stands.
   std::vector<double> weights;
 
   void append(const HeldOutFaces& further);
@@ -21,11 +23,12 @@ struct HeldOutFaces {
   return (randomSeed ^ 0x7072'6f62'6500'0000u) + earlierHeldOutCount;
 }
 
-/// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is proportional to
-/// its error indicator, times the number of faces that it represents, but at most 1. Ordered pivotal method (Deville
-/// and Tille 1998, "Unequal probability sampling without replacement through a splitting method"; Chauvet 2012).
-/// Neighbours in the list exclude each other, so that the sample is spread over the list. indicator: #F, above 0.
-/// representedCounts: #F, or empty for 1. Returns ascending faces if the candidates are ascending.
+/// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is at most 1, and
+/// proportional to its error indicator times its representedCounts. Ordered pivotal method (Deville and Tille 1998,
+/// "Unequal probability sampling without replacement through a splitting method"; Chauvet 2012). Neighbours in the list
+/// exclude each other, so that the sample is spread over the list. indicator: #F, above 0. representedCounts: #F, the
+/// number of faces that each face represents (itself and faces that get its value); empty: 1 for each face. Returns
+/// ascending faces if the candidates are ascending.
 [[nodiscard]] HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator,
                                          uint64_t count, uint64_t randomSeed,
                                          std::span<const uint32_t> representedCounts = {});

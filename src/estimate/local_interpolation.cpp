@@ -11,13 +11,13 @@
 namespace asdfvk {
 namespace {
 
-// Residual at which the iteration ends, relative to the residual of the start. The measured error is the difference
-// between start and solution. kLocalReduction is therefore the relative precision of the measured error.
+// Residual at which the iteration ends, relative to the initial residual. The measured error is the difference between
+// the initial values and the solution. kLocalReduction is therefore the relative precision of the measured error.
 constexpr double kLocalReduction = 3e-3;
 constexpr uint32_t kMaxLocalIterations = 1000;
 constexpr uint32_t kConstrainedRow = std::numeric_limits<uint32_t>::max();
 
-/// Rows of a few faces: a hash table with open addressing.
+/// Maps a few faces to their rows: a hash table with open addressing.
 class PatchRows {
  public:
   void clear() {
@@ -84,11 +84,11 @@ class Patch {
 
   const SolvedInterpolation& solved_;
   PatchRows rows_;
-  std::vector<uint32_t> faces_;  // The unknowns, the centre first, and then faces at the boundary.
+  std::vector<uint32_t> faces_;  // First the unknowns, beginning with the centre; then faces at the boundary.
   size_t unknownCount_ = 0;
   std::vector<uint32_t> offsets_;
   std::vector<Column> columns_;
-  std::vector<double> diagonal_, residual_, solution_;  // residual_ begins with the residual of the start.
+  std::vector<double> diagonal_, residual_, solution_;  // residual_ is at first the initial residual.
   std::vector<double> preconditioned_, direction_, product_;
   bool isDetermined_ = false;  // Whether a boundary value was found.
 };
@@ -154,7 +154,7 @@ void Patch::addRow(uint32_t face) {
   solution_.push_back(own);
 }
 
-/// Returns the scalar product of the direction and its product.
+/// Computes product_, the matrix times the direction. Returns the scalar product of product_ and the direction.
 double Patch::multiply() {
   double curvature = 0;
   for (size_t row = 0; row < unknownCount_; ++row) {
@@ -179,7 +179,7 @@ double Patch::step(double length) {
   return squared;
 }
 
-/// The value at the centre: conjugate gradients with the diagonal as preconditioner.
+/// Returns the value at the centre. Uses conjugate gradients with the diagonal as preconditioner.
 double Patch::solve() {
   double squared = step(0);
   const double target = kLocalReduction * kLocalReduction * squared;

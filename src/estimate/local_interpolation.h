@@ -19,7 +19,7 @@ struct SolvedInterpolation {
   std::span<const double> solution;     ///< The solution with all seeds; `constraints` has fewer seeds.
 };
 
-/// The values that the interpolation has at `faces` with `constraints` only. The effect of a constraint decays within a
+/// The values of the interpolation at `faces` if it has `constraints` only. The effect of a constraint decays within a
 /// few cells of other constraints. The equation is therefore solved around each of the faces separately, up to the
 /// nearest kLocalConstraintCount constraints. Farther away, values are taken from `solution`. Returns #faces, NaN where
 /// no constraint and no solution is near. The result does not depend on the number of threads.

@@ -23,7 +23,7 @@ class References {
     makeReferenceTracer(scene, cone)->trace(faces_, {values_}, control);
   }
 
-  /// Precondition: the face is one of these faces.
+  /// Returns the reference value of a face. Precondition: the face is one of `ascendingFaces`.
   [[nodiscard]] double operator[](uint32_t face) const {
     return values_[static_cast<size_t>(std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin())];
   }
@@ -46,7 +46,7 @@ std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<
   return all;
 }
 
-/// The part of the report about traced faces.
+/// Computes the part of the report about traced faces.
 void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, const TracedSeeds& traced,
                    const References& references, double diagonal, const TriangleMesh& mesh) {
   std::vector<double> differences;
@@ -72,7 +72,7 @@ void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, cons
   report.passed = report.missCount() < report.tracedCount && report.missCount() <= allowed;
 }
 
-/// The part of the report about all faces.
+/// Computes the part of the report about all faces.
 void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, const ComputedValues& computed,
                    const References& references) {
   double low = kInfinity, high = -kInfinity, sum = 0, interpolatedSum = 0;

@@ -10,15 +10,16 @@
 
 namespace asdfvk {
 
-/// A computed result. Views only.
+/// Views of a computed result.
 struct ComputedValues {
   const TracedSeeds& traced;
   std::span<const double> values;  ///< #F, final.
   bool tracedByReference = false;
 };
 
-/// Compares values with those of the double-precision reference, at up to `count` random traced faces and up to `count`
-/// random faces among all that can cast rays. A face that is in both samples is traced once. traceableFaces: ascending.
+/// Compares values with the values of the double-precision reference. The compared faces are up to `count` random
+/// traced faces, and up to `count` random faces of all faces that can cast rays. A face that is in both samples is
+/// traced once. traceableFaces: ascending.
 [[nodiscard]] CheckReport checkAgainstReference(const TraceScene& scene, const Cone& cone,
                                                 std::span<const uint32_t> traceableFaces,
                                                 const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
