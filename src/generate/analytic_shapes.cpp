@@ -7,7 +7,8 @@
 namespace asdfvk {
 namespace {
 
-/// Rings of 6 ringCount vertices along z, closed by two discs whose k-th ring has 6 k vertices.
+/// A cylinder mesh. The mantle consists of layers along z, with 6 * ringCount vertices each. Two discs close the
+/// mantle; ring k of a disc has 6 k vertices.
 class CylinderGrid {
  public:
   CylinderGrid(double radius, double length, uint32_t ringCount, uint32_t layerCount)
@@ -69,7 +70,8 @@ class CylinderGrid {
 }  // namespace
 
 GeneratedShape makeCylinder(uint64_t faceCount, double radius, double length) {
-  // The discs have 12 r^2 faces, a layer of the mantle 12 r. r is chosen for equal edges, the layers for faceCount.
+  // With r rings, the two discs have 12 r^2 faces, and a layer of the mantle has 12 r faces. r is chosen for equally
+  // long edges, and the number of layers for faceCount.
   const double layersPerRing = length / radius * (3 / std::numbers::pi);
   const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
   const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));

@@ -136,7 +136,7 @@ void BlockSolid::addLattice(const std::array<uint32_t, 3>& cellCounts,
       }
 }
 
-/// Per block, the numbers of parts of its edges along each axis.
+/// For each block, the numbers of parts of its edges along each axis.
 std::vector<std::array<uint32_t, 3>> BlockSolid::divide(double longestEdge) const {
   EdgeSets sets;
   const auto forEachEdge = [](const Block& block, uint32_t axis, const auto& visit) {

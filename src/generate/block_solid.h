@@ -13,7 +13,8 @@ namespace asdfvk {
 
 /// Division of the surface of a BlockSolid into triangles. The shape of the surface does not depend on the division.
 struct SurfaceDivision {
-  /// Longest edge of the parts of a block; the diagonals of the quads may be longer. Infinite: the coarsest mesh.
+  /// Edges of blocks are divided into parts of at most this length; the diagonals of the quads may be longer. Infinite:
+  /// the coarsest mesh.
   double longestEdge = std::numeric_limits<double>::infinity();
   uint64_t diagonalSeed = 1;    ///< Random seed for the diagonal at which each quad is cut.
   bool otherDiagonals = false;  ///< Cuts each quad at its other diagonal instead.
@@ -24,8 +25,9 @@ struct SurfaceDivision {
 class BlockSolid {
  public:
   /// Adds a block per cell of a lattice. Lattice point (i, j, k), from (0, 0, 0) to the three cell counts, is at
-  /// position(i, j, k). Leaves out cells for which `isFilled` returns false. Equal positions become one corner: a
-  /// lattice can close to a ring, continue another lattice, collapse sides of its blocks, and be mirrored.
+  /// position(i, j, k). Leaves out cells for which `isFilled` returns false. Equal positions become one corner.
+  /// Therefore a lattice can close to a ring, continue another lattice, or have collapsed sides. A lattice can also be
+  /// mirrored.
   void addLattice(const std::array<uint32_t, 3>& cellCounts,
                   const std::function<Vec3d(uint32_t i, uint32_t j, uint32_t k)>& position,
                   const std::function<bool(uint32_t i, uint32_t j, uint32_t k)>& isFilled = {});

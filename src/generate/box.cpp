@@ -9,8 +9,8 @@
 namespace asdfvk {
 namespace {
 
-/// The squares on the surface of a box of nx x ny x nz cells, two triangles each: bottom and top, then the rims from
-/// bottom to top.
+/// The surface of a box of nx x ny x nz cells, with two triangles per square. The bottom and the top come first, and
+/// then the rims from bottom to top.
 Mesh boxMesh(const Vec3d& size, uint32_t nx, uint32_t ny, uint32_t nz) {
   CornerWelder welder(2 * (uint64_t{nx} * ny + uint64_t{ny} * nz + uint64_t{nz} * nx));
   Mesh mesh;

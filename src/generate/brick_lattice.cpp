@@ -43,7 +43,7 @@ uint64_t keyOf(int32_t x, int32_t y, int32_t z) {
   return bits(x) | bits(y) << 21 | bits(z) << 42;
 }
 
-// A lattice with fewer points has all bricks, so that repairs of coarse lattices may add points anywhere.
+// A lattice with fewer points than this stores all its bricks. Repairs of coarse lattices may then add points anywhere.
 constexpr double kSmallLattice = 64.0 * 64.0 * 64.0;
 const double kSqrt3 = std::sqrt(3.0);
 
@@ -160,7 +160,7 @@ CellCorners BrickLattice::corners(const Brick& brick) const {
 
 void BrickLattice::makeWellComposed() {
   using Flips = std::vector<Coordinates>;
-  // Terminates: every round adds points.
+  // The loop ends, because every round adds points.
   for (;;) {
     std::vector<Flips> flipsOf(bricks_.size());
     forEachBrick(bricks_.size(), [&](size_t i) {

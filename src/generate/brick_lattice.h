@@ -13,7 +13,8 @@ namespace asdfvk {
 
 /// mask: which of the eight corners of a lattice cell are inside (bit i + 2 j + 4 k: corner (i, j, k)). A well-composed
 /// mask has no two inside corners and no two outside corners that touch only across a diagonal of a side or of the
-/// cell. Returns -1 for such a mask, else an outside corner whose addition is a step towards such a mask.
+/// cell. Returns -1 for a well-composed mask. For other masks, returns an outside corner; adding it is a step towards a
+/// well-composed mask.
 [[nodiscard]] int32_t cornerToFill(uint32_t mask);
 
 inline constexpr int32_t kBrickEdge = 8;
@@ -57,7 +58,7 @@ class CellCorners {
   std::array<bool, (kBrickEdge + 1) * (kBrickEdge + 1) * (kBrickEdge + 1)> flags_{};
 };
 
-/// Calls use(axis, x, y, z, isInside) for the crossed lattice edges that start at a point of the brick.
+/// Calls use(axis, x, y, z, isInside) for the lattice edges that start at a point of the brick and cross the surface.
 template <typename Use>
 void forEachCrossedEdge(const CellCorners& signs, const Use& use) {
   forEachPoint([&](int32_t x, int32_t y, int32_t z) {
@@ -70,9 +71,9 @@ void forEachCrossedEdge(const CellCorners& signs, const Use& use) {
 
 /// Points of a cubic lattice inside a shape. Bricks that the surface cannot reach (Lipschitz bound) are not stored.
 ///
-/// The set of inside points is made well-composed (see cornerToFill(); Latecki, 1997). This is necessary and sufficient
-/// for the boundary of the voxels of the points to be a closed 2-manifold at any resolution. All radii are raised to at
-/// least half the diagonal of a cell, so that parts thinner than a cell stay connected.
+/// The set of inside points is made well-composed (see cornerToFill(); Latecki, 1997). If and only if the set is
+/// well-composed, the boundary of the voxels of its points is a closed 2-manifold. All radii are raised to at least
+/// half the diagonal of a cell, so that parts thinner than a cell stay connected.
 class BrickLattice {
  public:
   BrickLattice(const CapsuleUnion& field, double spacing);
@@ -81,7 +82,7 @@ class BrickLattice {
   [[nodiscard]] const std::vector<Brick>& bricks() const { return bricks_; }
   [[nodiscard]] Vec3d position(const Brick& brick, double x, double y, double z) const;
   [[nodiscard]] CellCorners corners(const Brick& brick) const;
-  /// Index of the brick at these brick coordinates; -1 if it is not stored.
+  /// Index of the brick at these brick coordinates; -1 if the brick is not stored.
   [[nodiscard]] int64_t find(int32_t x, int32_t y, int32_t z) const;
   /// Number of lattice edges that the surface crosses, which is the number of quads of the surface.
   [[nodiscard]] uint64_t crossedEdgeCount() const;

@@ -16,8 +16,9 @@ void forEachBit(uint64_t bits, Use use) {
   for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
 }
 
-// Cubic smooth minimum of a and b, with two continuous derivatives: below min(a, b) by at most blend / 6 if |a - b| <
-// blend, else equal to min(a, b). `share` is the derivative with respect to b; that with respect to a is 1 - share.
+// Cubic smooth minimum of a and b, with two continuous derivatives. If |a - b| < blend, the smooth minimum is less than
+// min(a, b) by at most blend / 6; else it equals min(a, b). `share` is the derivative with respect to b. 1 - share is
+// the derivative with respect to a.
 struct SmoothMinimum {
   double value, share;
 };
@@ -57,8 +58,8 @@ CapsuleUnion::CapsuleUnion(std::vector<Capsule> capsules) : capsules_(std::move(
   bounds_ = {bounds_.min - margin, bounds_.max + margin};
 }
 
-// The distance to the ball at s along the axis, |p - c(s)| - r(s), is convex in s. Its minimum is ahead of the foot of
-// the perpendicular, in the direction of growing radius.
+// The distance to the ball at s along the axis, |p - c(s)| - r(s), is convex in s. From the foot of the perpendicular,
+// the minimum is in the direction of growing radius.
 CapsuleUnion::Nearest CapsuleUnion::nearest(const Axis& axis, const Vec3d& p) {
   const Vec3d fromOrigin = p - axis.origin;
   const double along = dot(fromOrigin, axis.direction);

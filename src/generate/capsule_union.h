@@ -55,8 +55,8 @@ class CapsuleUnion {
     double length = 0;
     double radius = 0;       ///< Radius at the origin.
     double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
-    /// Distance along the axis from the projection of a point to the centre of the ball nearest to the point, divided
-    /// by the distance of the point from the axis.
+    /// Ratio of two distances: along the axis, from the projection of a point to the centre of the ball nearest to the
+    /// point; and from the point to the axis.
     double lean = 0;
     double blend = 0;
     uint32_t part = 0;

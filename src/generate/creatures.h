@@ -17,7 +17,7 @@ namespace asdfvk {
 /// Parts: 0 torso, 1 neck, 2 head. Left and right: 3, 4 upper arm; 5, 6 forearm; 7, 8 hand; 9, 10 thigh; 11, 12 shin;
 /// 13, 14 foot.
 [[nodiscard]] CapsuleUnion figureField();
-/// A tree of tubes: 31 branches in five levels. Each branch is a part; depth-first numbers from the root.
+/// A tree of tubes: 31 branches in five levels. Each branch is a part. Parts are numbered depth-first from the root.
 [[nodiscard]] CapsuleUnion treeField();
 
 [[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount);

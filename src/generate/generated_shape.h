@@ -11,13 +11,13 @@ namespace asdfvk {
 /// A closed, manifold triangle mesh, oriented outwards, with the part and diameter of each face.
 struct GeneratedShape {
   Mesh mesh;
-  std::vector<uint32_t> part;  ///< #F, part of the face; 0 where a shape has one part only.
+  std::vector<uint32_t> part;  ///< #F, part of each face; all 0 for a shape with one part.
   /// #F, true local diameter of the shape at the face, in the unit of the mesh; 0: unknown.
   std::vector<float> diameter;
 };
 
 /// Range of requested face counts. The count of a result is within about 15 % of the requested count. Below some
-/// hundred faces, it is the closest count that the shape allows.
+/// hundred faces, the result has the closest count that the shape allows.
 inline constexpr uint64_t kMinFaceCount = 20;
 inline constexpr uint64_t kMaxFaceCount = 50'000'000;
 

@@ -18,7 +18,8 @@ namespace {
 constexpr uint32_t kNone = ~uint32_t{0};
 constexpr int kEveningRounds = 4;
 
-/// The cells of a brick that the surface crosses ("crossed" cells), and the indices of its first vertex and first quad.
+/// The cells of a brick that the surface crosses ("crossed" cells), and the indices of the first vertex and of the
+/// first quad of the brick.
 struct BrickCells {
   std::array<uint64_t, 8> crossed{};
   std::array<uint16_t, 8> countBefore{};  ///< Number of crossed cells of the brick below layer z.
@@ -61,7 +62,7 @@ class SurfaceNets {
             const uint32_t mask = signs.mask(x, y, z);
             if (mask == 0 || mask == 0xff) continue;
             cells.crossed[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
-            ++cells.firstVertex;  // A count; the prefix sums below replace it by an index.
+            ++cells.firstVertex;  // Here a count. The prefix sums below replace the count by an index.
           }
       }
       forEachCrossedEdge(signs, [&](int, int32_t, int32_t, int32_t, bool) { ++cells.firstQuad; });
@@ -105,7 +106,7 @@ class SurfaceNets {
       forEachCell(i, [&](int32_t x, int32_t y, int32_t z) {
         shape_.mesh.vertices[vertex] = lattice_.position(brick, x + 0.5, y + 0.5, z + 0.5);
         const uint32_t mask = signs.mask(x, y, z);
-        // For each axis, the corners of the lower and of the upper side of a cell.
+        // For each axis, the masks of the corners of the lower and of the upper side of a cell.
         constexpr std::array<uint32_t, 6> kSides{0x55, 0xaa, 0x33, 0xcc, 0x0f, 0xf0};
         for (size_t side = 0; side < 6; ++side) {
           const uint32_t onSide = mask & kSides[side];
@@ -198,7 +199,7 @@ class SurfaceNets {
   const CapsuleUnion& field_;
   const BrickLattice& lattice_;
   std::vector<BrickCells> cells_;
-  /// Per vertex: the vertices of the cells across the six sides of its cell; kNone where there is none.
+  /// For each vertex: the vertices of the six cells beside the cell of the vertex; kNone for a cell without a vertex.
   std::vector<std::array<uint32_t, 6>> neighbours_;
   GeneratedShape shape_;
 };

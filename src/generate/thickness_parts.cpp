@@ -11,8 +11,9 @@
 #include "core/text.h"
 
 // The least thickness of a part is the diameter of the smallest ball between two of its planar walls. For parallel
-// walls this is their distance. For walls that diverge from the edge of one wall, it is the distance of this edge from
-// the other wall. For walls at the angle h to a middle plane that diverge from a top of width c, it is c / cos(h).
+// walls, the diameter is the distance of the walls. For walls that diverge from the edge of one wall, the diameter is
+// the distance of this edge from the other wall. Walls that diverge from a top of width c, at the angle h to their
+// middle plane, have the diameter c / cos(h).
 
 namespace asdfvk {
 namespace {
@@ -35,7 +36,7 @@ ThicknessPart makeWedge(double firstHeight, double lastHeight) {
           .sharpLength = 20};
 }
 
-/// A wedge with a sharp edge. Far from this edge is a pocket; its floor is 0.7 thick.
+/// A wedge with a sharp edge, and with a pocket far from this edge. The floor of the pocket is 0.7 thick.
 ThicknessPart makeBlade() {
   constexpr std::array<double, 4> kXs{0, 45, 55, 60}, kYs{0, 6, 14, 20};
   const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
@@ -116,7 +117,7 @@ auto revolved(uint32_t sideCount, const std::vector<double>& heights, const Radi
   };
 }
 
-/// A drafted cup of 24 sides with an open top. Its wall is 1 thick at the top; the inside has more draft.
+/// A drafted cup of 24 sides with an open top. The wall is 1 thick at the top; the inside has more draft.
 ThicknessPart makeRoundCup() {
   constexpr uint32_t kSideCount = 24;
   constexpr double kHeight = 12, kOuterSlope = 0.02, kInnerSlope = 0.04;
@@ -178,8 +179,9 @@ ThicknessPart makeBracket(uint32_t sideCount) {
   return soundPart(std::move(solid), kWall);
 }
 
-/// A plate with a hole of radius 5 near an edge. sideCount: number of sides of the hole, a multiple of 4. At the
-/// ligament the hole has a corner if sideCount is a multiple of 8, otherwise the middle of a side.
+/// A plate with a hole of radius 5 near an edge. sideCount: number of sides of the hole, a multiple of 4. If sideCount
+/// is a multiple of 8, the hole has a corner at the ligament. For other counts, the middle of a side is at the
+/// ligament.
 ThicknessPart makeLigament(uint32_t sideCount) {
   constexpr double kRadius = 5, kLigament = 0.6, kThickness = 4;
   const double nearest = kRadius * (sideCount % 8 == 0 ? 1 : apothemFactor(sideCount));

@@ -30,14 +30,14 @@ struct PartMesh {
   std::vector<Face> faces;
 };
 
-/// Limit of the memory of all instances, in bytes, unless 64 times the size of the file is more.
+/// The memory limit of all instances is the greater of this number of bytes and 64 times the size of the file.
 inline constexpr uint64_t kMaxInstanceBytes = uint64_t{1} << 30;
 
 /// Joins the placed parts of a file into one mesh. Parts share no vertices, so that each part is a separate component.
 class AssembledMesh {
  public:
   /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} if 32-bit indices
-  /// do not suffice, Error{InputTooLarge} if instances exceed both kMaxInstanceBytes and 64 times the file.
+  /// do not suffice, Error{InputTooLarge} if instances exceed the memory limit.
   AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize);
 
   /// Reverses the faces of a mirrored part, so that its outside stays outside.

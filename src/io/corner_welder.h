@@ -8,10 +8,10 @@
 namespace asdfvk {
 
 /// Assigns one index to equal points. Indices ascend in the order of first appearance. -0 equals 0, and a point with a
-/// NaN equals no point. For formats without indices, or with several indices per point.
+/// NaN equals no point. Used for formats without indices, and for formats with several indices per point.
 class CornerWelder {
  public:
-  /// Expected number of distinct points, for the initial capacity.
+  /// expectedPointCount: estimated number of distinct points, for the initial capacity.
   explicit CornerWelder(uint64_t expectedPointCount);
 
   /// Throws Error{MeshTooLarge} for more than kMaxIndexCount points.

@@ -1,5 +1,5 @@
 // Comma-separated values: a header line, then a row per face or per vertex. The first column, `face` or `vertex`,
-// numbers the rows from 0. Numbers have the shortest text that reads back the same.
+// numbers the rows from 0. A number is written as the shortest text that reads back as the same number.
 #include <fmt/core.h>
 
 #include <string>

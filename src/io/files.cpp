@@ -48,11 +48,11 @@ UnsetVector<char> bytesOf(const std::filesystem::path& path) {
   struct stat status {};
   if (::fstat(descriptor.value(), &status) != 0) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
   if (S_ISDIR(status.st_mode)) failInput("is a directory, not a file");
-  // A device such as /dev/zero has no end.
+  // Rejected, because a device such as /dev/zero has no end.
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
     failInput("is a device, not a file");
   constexpr size_t kMaxRead = size_t{1} << 30, kFirstOfPipe = size_t{1} << 16;  // Linux reads at most 2 GiB at once.
-  // One byte more than the file: the read that finds the end needs no larger buffer.
+  // One byte more than the file, so that the read that detects the end needs no larger buffer.
   UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
   for (size_t size = 0;;) {
     if (size == bytes.size()) bytes.resize(2 * size);
@@ -76,7 +76,7 @@ std::vector<std::string> namesOf(HasOperation hasOperation) {
   return names;
 }
 
-/// For example "stl, ply or off".
+/// The names of the formats that have the operation, for example "stl, ply or off".
 std::string listOf(HasOperation hasOperation) {
   const std::vector<std::string> names = namesOf(hasOperation);
   std::string text;
@@ -158,7 +158,7 @@ void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::s
   AtomicFile file(path);
   format.write(file, result);
   if (!beside) return file.commit();
-  AtomicFile::commitBoth(*beside, file);  // The second file refers to the first.
+  AtomicFile::commitBoth(*beside, file);  // `file` refers to `beside`.
 }
 
 }  // namespace asdfvk

@@ -14,10 +14,12 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// How certainly the content has a format. Match::Certain overrides the extension, which overrides Match::Possible.
+/// How certainly the content has a format. The extension overrides Match::Possible; Match::Certain overrides the
+/// extension.
 enum class Match { None, Possible, Certain };
 
-/// A file format, defined as kNAMEFormat in src/io/NAME_*.cpp. A null function: the format lacks the operation.
+/// A file format, defined as kNAMEFormat in src/io/NAME_*.cpp. A function is null if the format does not have the
+/// operation.
 struct FileFormat {
   std::string_view name;                       ///< Lower case.
   std::array<std::string_view, 4> extensions;  ///< Lower case, without the dot; unused entries are empty.
@@ -25,21 +27,21 @@ struct FileFormat {
   Match (*detect)(std::span<const char> bytes) = nullptr;
 
   /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Polygons are triangulated and
-  /// stored in Mesh::polygons (mesh/input_faces.h). Memory: at most 64 times the size of the input and a few MB. Throws
-  /// Error{UnreadableInput} for a file that is truncated, has further bytes after its end, has an index out of range,
-  /// or has no face with three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h.
+  /// stored in Mesh::polygons (mesh/input_faces.h). Memory: at most 64 times the size of the input, plus a few MB.
+  /// Throws Error{UnreadableInput} for a file that is truncated, has further bytes after its end, has an index out of
+  /// range, or has no face with three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h.
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
-  /// Writes the second file, besidePathOf(), which the first file names by ResultView::besideName(). Called if
-  /// needsBeside(result) is true and the first file has a name. Null for a format of one file.
+  /// Writes the second file, at besidePathOf(). The first file refers to the second one by ResultView::besideName().
+  /// Called if needsBeside(result) is true and the first file has a name. Null for a format of one file.
   void (*writeBeside)(AtomicFile& file, const ResultView& result) = nullptr;
   bool (*needsBeside)(const ResultView& result) = nullptr;
   bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
 };
 
-/// For example "horse.obj.mtl" for "horse.obj".
+/// The path of the second file of a result, for example "horse.obj.mtl" for "horse.obj".
 [[nodiscard]] std::filesystem::path besidePathOf(const std::filesystem::path& path);
 
 /// The formats are in the order of detection.
@@ -48,8 +50,8 @@ struct FileFormat {
 /// extension: in upper or lower case, with or without the dot. Null if unknown.
 [[nodiscard]] const FileFormat* formatOfExtension(std::string_view extension);
 
-/// Returns the first format with Match::Certain, otherwise the format of the extension, otherwise the first format with
-/// Match::Possible, otherwise null.
+/// Tests in this order: the first format with Match::Certain, the format of the extension, the first format with
+/// Match::Possible. Returns null if there is none of these.
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 
 }  // namespace asdfvk

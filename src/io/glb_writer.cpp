@@ -2,8 +2,8 @@
 // faces flat. Without parts there is one primitive, whose COLOR_0 shows the field. With the field "segment" each part
 // is a primitive with a material, in the order of the part numbers. There is then no COLOR_0, because viewers multiply
 // COLOR_0 with the colour of the material. Blender ignores the colours of materials if COLOR_0 exists. The fields are
-// attributes _NAME in float32, 0 for no value. The attribute _FACE, which is exact up to 16,777,216, is the input face
-// if triangles are not in the order of input faces.
+// attributes _NAME in float32, 0 for no value. If triangles are not in the order of input faces, the attribute _FACE
+// has the input face; this attribute is exact up to 16,777,216.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -101,9 +101,9 @@ class GlbWriter {
     json.append((4 - json.size() % 4) % 4, ' ');
     const uint64_t size = 12 + 8 + json.size() + (binarySize > 0 ? 8 + binarySize : 0);
     if (size > std::numeric_limits<uint32_t>::max())
-      throw Error(
-          ErrorCode::OutputNotWritable,
-          fmt::format("the result takes {} MiB, a GLB file at most 4096; write .ply, or fewer fields", size >> 20));
+      throw Error(ErrorCode::OutputNotWritable,
+                  fmt::format("the result needs {} MiB, but a GLB file has at most 4096; write .ply, or fewer fields",
+                              size >> 20));
     file_.write("glTF");
     file_.put(uint32_t{2});
     file_.put(static_cast<uint32_t>(size));
@@ -194,7 +194,7 @@ class GlbWriter {
                              }});
   }
 
-  /// The box of a group, as it is written.
+  /// The bounding box of a group, in the coordinates of the file.
   [[nodiscard]] Box3f boxOf(const GlbGroup& group) const {
     Box3f box;
     for (uint64_t i = group.begin; i < group.end; ++i)

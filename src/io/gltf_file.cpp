@@ -119,7 +119,7 @@ uint32_t GltfAccessor::wholeAt(const Elements& elements, uint64_t i) {
 }
 
 const char* GltfAccessor::elementAt(uint64_t i) const {
-  uint64_t low = 0, high = sparseCount_;  // Bounds of the first sparse index that is not below i.
+  uint64_t low = 0, high = sparseCount_;  // Bounds of the position of the first sparse index that is not below i.
   while (low < high) {
     const uint64_t middle = (low + high) / 2;
     wholeAt(sparseIndices_, middle) < i ? low = middle + 1 : high = middle;
@@ -261,7 +261,7 @@ void GltfFile::readBuffers() {
     } else if (i == 0 && hasBinary_) {
       contents = binary_;
     } else {
-      // A compressed view may refer to a buffer without data. A use without the extension is an error.
+      // A compressed view may refer to a buffer without data. Any other use of this buffer is an error.
       buffers_.emplace_back();
       continue;
     }

@@ -22,7 +22,7 @@ using GltfJson = nlohmann::json;
 /// Returns a non-negative integer, or `fallback` if there is no such member. Throws if both are missing.
 [[nodiscard]] uint64_t gltfWhole(const GltfJson& object, const char* key, std::optional<uint64_t> fallback,
                                  std::string_view where);
-/// Null if there is no such member.
+/// Returns null if there is no such member.
 [[nodiscard]] const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_view where);
 /// Reads numbers.size() finite numbers into `numbers`. Returns false if there is no such member.
 [[nodiscard]] bool gltfNumbers(const GltfJson& object, const char* key, std::span<double> numbers,
@@ -31,7 +31,8 @@ using GltfJson = nlohmann::json;
 class GltfAccessor {
  public:
   [[nodiscard]] uint64_t count() const { return count_; }
-  /// Preconditions: i < count(); vectorAt() only after GltfFile::vectors(), indexAt() only after GltfFile::indices().
+  /// Preconditions: i < count(). vectorAt() needs an accessor from GltfFile::vectors(), indexAt() an accessor from
+  /// GltfFile::indices().
   [[nodiscard]] Vec3d vectorAt(uint64_t i) const;
   [[nodiscard]] uint32_t indexAt(uint64_t i) const;
 
@@ -54,13 +55,13 @@ class GltfAccessor {
 
 class GltfFile {
  public:
-  /// The bytes must outlive the file.
+  /// `bytes` must outlive this object.
   explicit GltfFile(std::span<const char> bytes);
 
   [[nodiscard]] const GltfJson& document() const { return document_; }
   [[nodiscard]] uint64_t size() const { return size_; }
   [[nodiscard]] uint64_t countOf(const char* array) const;
-  /// Item of an array of the document, for example of "nodes".
+  /// Returns an item of an array of the document, for example of "nodes".
   [[nodiscard]] const GltfJson& item(const char* array, uint64_t index, std::string_view where) const;
 
   /// Opens the accessor of the given index for vectors of three numbers, or for indices.
@@ -80,7 +81,7 @@ class GltfFile {
 
   uint64_t size_;
   GltfJson document_;
-  std::span<const char> binary_;  ///< The BIN chunk; empty if there is none.
+  std::span<const char> binary_;  ///< The BIN chunk; empty if the file has none.
   bool hasBinary_ = false;
   std::vector<std::vector<char>> decoded_;  ///< The bytes of data URIs.
   std::vector<std::span<const char>> buffers_;

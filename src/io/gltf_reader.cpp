@@ -65,7 +65,7 @@ class GltfReader {
     }
     if (faceCount == 0) failWithoutFaces(meshCount);
     AssembledMesh assembled(vertexCount, faceCount, file_.size());
-    std::vector<std::optional<PartMesh>> parts(meshCount);  // Parts that later nodes use again.
+    std::vector<std::optional<PartMesh>> parts(meshCount);  // Parts that later nodes may use again.
     forEachInstance([&](uint64_t mesh, const Placement& placement) {
       if (!parts[mesh]) parts[mesh] = partOf(mesh);
       assembled.add(*parts[mesh], placement);
@@ -125,7 +125,7 @@ class GltfReader {
     if (gltfMember(node, "mesh", where) != nullptr) {
       const uint64_t mesh = gltfWhole(node, "mesh", std::nullopt, where);
       (void)file_.item("meshes", mesh, where);
-      // The joints place a mesh with a skin; the node of the mesh does not.
+      // The joints determine the place of a mesh with a skin; the node of the mesh has no effect.
       const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
       skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
       morphCount_ += isFirstPass_ && (hasWeights(node) || hasWeights(file_.item("meshes", mesh, where))) ? 1 : 0;
@@ -248,7 +248,7 @@ class GltfReader {
         const uint64_t b = primitive.mode == kTriangles ? a + 1 : i + 1;
         const bool isOdd = primitive.mode == kTriangleStrip && i % 2 == 1;
         const std::array vertices{vertexAt(a), vertexAt(isOdd ? b + 1 : b), vertexAt(isOdd ? b : b + 1)};
-        // Triangles with two equal indices connect strips and are not faces.
+        // In a strip, triangles with two equal indices only connect pieces of the strip and are not faces.
         if (primitive.mode == kTriangleStrip &&
             (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]))
           continue;

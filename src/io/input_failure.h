@@ -6,14 +6,16 @@
 
 namespace asdfvk {
 
-// Every reader throws Error{UnreadableInput} with one line: the place and the reason. Lines count from 1, bytes from 0.
+// Every reader throws Error{UnreadableInput} with one line: the place and the reason. Lines are numbered from 1, bytes
+// from 0.
 [[noreturn]] void failInput(std::string_view reason);
 [[noreturn]] void failAtLine(uint64_t line, std::string_view reason);
 [[noreturn]] void failAtByte(uint64_t byte, std::string_view reason);
 
-/// Text of the file for a message: at most 60 characters; bytes other than printable ASCII are replaced by '?'.
+/// Returns a text of the file in a form for messages: at most 60 characters; bytes other than printable ASCII are
+/// replaced by '?'.
 [[nodiscard]] std::string printable(std::string_view token);
-/// printable() in quotes.
+/// Returns printable(token) in quotes.
 [[nodiscard]] std::string quoted(std::string_view token);
 
 }  // namespace asdfvk

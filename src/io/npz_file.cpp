@@ -20,13 +20,13 @@ namespace {
 
 constexpr uint32_t kLocalSignature = 0x04034b50, kCentralSignature = 0x02014b50, kEndSignature = 0x06054b50;
 constexpr uint64_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22;
-// First word of the comment if the names of member and field differ.
+// First word of the comment of a member whose name differs from the name of its field.
 constexpr std::string_view kRenamed = "vertex ";
 constexpr uint16_t kZipVersion = 20;
 // 1980-01-01, the first date of the format. The current date would make the bytes of a result vary.
 constexpr uint16_t kFirstDate = 0x21;
 
-/// earlier: the checksum of the previous parts.
+/// Returns the checksum of all parts up to `part`. earlier: the checksum of the previous parts.
 uint32_t checksumOf(std::span<const char> part, uint32_t earlier = 0) {
   if (part.empty()) return earlier;  // zlib would start again at a null pointer.
   return static_cast<uint32_t>(::crc32_z(earlier, reinterpret_cast<const Bytef*>(part.data()), part.size()));
@@ -59,7 +59,7 @@ void putCentralHeader(AtomicFile& file, const ZipMember& member) {
   file.write(member.kind);
 }
 
-/// The sizes and checksums are not yet set.
+/// Returns a member per field, without sizes and checksums.
 std::vector<ZipMember> namedMembers(FieldReferences fields) {
   std::set<std::string_view> faceNames;
   for (const Field& field : fields)
@@ -75,7 +75,7 @@ std::vector<ZipMember> namedMembers(FieldReferences fields) {
       member.kind = std::string(kRenamed) + field.name;
     }
     if (!names.insert(member.name).second)
-      throw Error(ErrorCode::OptionConflict, fmt::format("two fields would have the name {} in the .npz", member.name));
+      throw Error(ErrorCode::OptionConflict, fmt::format("two fields have the same name {} in the .npz", member.name));
   }
   return members;
 }

@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-// The keywords of versions 3.0 and 2.11, in ASCII order for the binary search.
+// The keywords of OBJ 3.0 and 2.11, in ASCII order for the binary search.
 constexpr std::array kKeywords = std::to_array<std::string_view>({
     "bevel",  "bmat",   "bsp",   "bzp",        "c_interp", "call",     "cdc",    "cdp",  "con",       "csh",
     "cstech", "cstype", "ctech", "curv",       "curv2",    "d_interp", "deg",    "end",  "f",         "fo",

@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-/// For example "part_3". Some readers end a name at a blank.
+/// The name of a material, for example "part_3". The name has no blank, because some readers end a name at a blank.
 std::string materialOf(uint32_t part) {
   std::string name = nameOfPart(part);
   std::replace(name.begin(), name.end(), ' ', '_');

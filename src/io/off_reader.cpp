@@ -17,10 +17,10 @@ namespace {
 /// The keyword of an OFF file, and the numbers after the coordinates of each vertex.
 struct OffHeader {
   std::string_view keyword = "OFF";
-  bool hasColours = false;          ///< 3 or 4 numbers.
-  bool hasNormals = false;          ///< 3 numbers.
-  bool hasTexture = false;          ///< 2 numbers.
-  bool hasFourCoordinates = false;  ///< 4OFF, nOFF, 4nOFF.
+  bool hasColours = false;          ///< A vertex has 3 or 4 numbers for a colour.
+  bool hasNormals = false;          ///< A vertex has 3 numbers for a normal.
+  bool hasTexture = false;          ///< A vertex has 2 numbers for texture coordinates.
+  bool hasFourCoordinates = false;  ///< The keyword contains 4OFF, nOFF or 4nOFF.
 
   [[nodiscard]] bool allowsExtraCount(uint64_t count) const {
     const uint64_t fixed = (hasNormals ? 3u : 0u) + (hasTexture ? 2u : 0u);
@@ -137,9 +137,8 @@ Mesh parseOff(std::span<const char> bytes) {
   const uint64_t faceCount = readCount(text, "the face count");
   if (!text.atLineEnd()) static_cast<void>(readCount(text, "the edge count"));
   text.requireLineEnd("the counts");
-  // The shortest vertex has six bytes, "0 0 0
-  // ", the shortest face two, "0
-  // ". The last line may have no line break.
+  // The shortest line of a vertex, "0 0 0", has six bytes with its line break; the shortest line of a face, "0", has
+  // two. The last line may have no line break.
   const uint64_t remaining = text.remaining() + 1;
   if (vertexCount > remaining / 6 || faceCount > (remaining - 6 * vertexCount) / 2)
     failAtLine(text.line(), fmt::format("{} and {} do not fit into the remaining {}; "

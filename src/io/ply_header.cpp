@@ -184,7 +184,8 @@ class HeaderParser {
     header_.vertexCount = assignRoles(header_.elements);
   }
 
-  /// Bytes of the next line break. If lines end with CR alone, an LF after end_header belongs to the body.
+  /// Returns the number of bytes of the next line break. If lines end with CR alone, an LF after end_header belongs to
+  /// the body.
   [[nodiscard]] uint64_t breakLength() const {
     if (text_.remaining() == 0) return 0;
     const char* at = text_.position();
@@ -201,7 +202,8 @@ class HeaderParser {
 }  // namespace
 
 uint64_t PlyElement::minRowSize(PlyEncoding encoding) const {
-  if (encoding == PlyEncoding::Ascii) return 2 * properties.size();  // A digit and a blank per number or list length.
+  if (encoding == PlyEncoding::Ascii)
+    return 2 * properties.size();  // A number or a list length has at least a digit and a blank.
   uint64_t size = 0;
   for (const PlyProperty& property : properties) size += sizeOf(property.list.value_or(property.type));
   return size;

@@ -36,8 +36,9 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
   PlyRole role = PlyRole::Other;
-  std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};  ///< Properties x, y, z of Vertices.
-  size_t indices = kNoProperty;  ///< Property vertex_indices or vertex_index of Faces and Strips.
+  /// Indices of the properties x, y, z of Vertices.
+  std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};
+  size_t indices = kNoProperty;  ///< Index of the property vertex_indices or vertex_index of Faces and Strips.
 
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const;
 };

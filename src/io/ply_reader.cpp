@@ -45,7 +45,8 @@ class TriangleStrip {
   uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
 };
 
-/// Reads the rows of all elements. Compares the count of an element with the rest of the file, then allocates memory.
+/// Reads the rows of all elements. Before memory is allocated, the count of an element is compared with the rest of the
+/// file.
 template <typename Source>
 class PlyBody {
  public:

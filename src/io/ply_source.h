@@ -14,7 +14,7 @@
 
 namespace asdfvk {
 
-/// at: may be unaligned.
+/// Reads a number at the address `at`, which may be unaligned.
 template <typename T, bool kIsSwapped>
 [[nodiscard]] T loadScalar(const char* at) {
   std::array<char, sizeof(T)> bytes;
@@ -24,7 +24,7 @@ template <typename T, bool kIsSwapped>
   return std::bit_cast<T>(bytes);
 }
 
-/// double and int64_t hold every value of the integer types.
+/// Reads a number of a PLY type. Out: double or int64_t, which hold every value of the integer types.
 template <typename Out, bool kIsSwapped>
 [[nodiscard]] Out loadPly(const char* at, PlyType type) {
   switch (type) {
@@ -45,15 +45,15 @@ template <typename Out, bool kIsSwapped>
     case PlyType::Float64:
       break;
   }
-  // This type is read after the switch, because a default case would cause a warning of GCC 14.
+  // Float64 is read after the switch, because a default case would cause a warning of GCC 14.
   return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
 }
 
 // PlyAsciiSource and PlyBinarySource read the numbers after a PLY header through the same functions. expected: name of
 // the number in the error message of a truncated file. fail() reports the position of the last number.
 
-/// Rows of text. A row may continue on further lines, but begins on a new line: thus an error message names the line of
-/// a row with a wrong number of values.
+/// Rows of text. A row may continue on further lines, but must begin on a new line. If a row has too many values, the
+/// error message therefore has the line of this row.
 class PlyAsciiSource {
  public:
   PlyAsciiSource(std::span<const char> bytes, const PlyHeader& header)
@@ -119,8 +119,8 @@ class PlyBinarySource {
   }
 
   std::span<const char> bytes_;
-  uint64_t at_;    ///< The next byte.
-  uint64_t last_;  ///< First byte of the last number.
+  uint64_t at_;    ///< Position of the next byte.
+  uint64_t last_;  ///< Position of the first byte of the last number.
 };
 
 }  // namespace asdfvk

@@ -89,9 +89,9 @@ class ElementFields {
   }
 
  private:
-  const Field* main_;  ///< May be null.
+  const Field* main_;  ///< Null if the element has no main field.
   std::vector<FieldColumn> columns_;
-  std::vector<Rgba> colours_;  ///< Empty where the element has none.
+  std::vector<Rgba> colours_;  ///< Empty if the element has no colours.
 };
 
 class PlyWriter {

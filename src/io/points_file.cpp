@@ -1,5 +1,5 @@
-// Writes skeleton points: as a binary PLY with the element `vertex` (double x y z, float radius, and uint part if there
-// are segments), or as trees in SWC, the text format of neurons (Cannon et al. 1998).
+// Writes skeleton points as binary PLY, or as trees in SWC, the text format of neurons (Cannon et al. 1998). The PLY
+// has the element `vertex` with double x y z and float radius; with segments, also uint part.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kNoPart = std::numeric_limits<uint32_t>::max();
 
-/// The page has the same colours (src/page/browser/colour_maps.js).
+/// The colours of parts. The page has the same colours (src/page/browser/colour_maps.js).
 constexpr std::array<Rgba, 12> kPartColours{{{78, 121, 167, 255},
                                              {242, 142, 43, 255},
                                              {89, 161, 79, 255},

@@ -10,16 +10,17 @@
 
 namespace asdfvk {
 
-/// One of twelve colours; for later parts, a darker shade of one. Grey for no part (4294967295).
+/// The colour of a part. The first twelve parts have different colours; later parts have darker shades of these
+/// colours. No part (4294967295) is grey.
 [[nodiscard]] Rgba colourOfPart(uint32_t part);
-/// For example "part 3"; "no part" for 4294967295.
+/// The name of a part, for example "part 3"; "no part" for 4294967295.
 [[nodiscard]] std::string nameOfPart(uint32_t part);
 
 /// The colour of each entry of a field of one component. Real numbers have the colours of the colour map over
 /// percentileRange(), labels the colours of colourOfPart(); set flags are blue.
 [[nodiscard]] std::vector<Rgba> coloursOf(const Field& field);
 
-/// coloursOf() per vertex. From a field per face, a vertex gets the mean value or the least label of its faces.
+/// coloursOf() per vertex. If the field is per face, a vertex gets the mean value or the least label of its faces.
 [[nodiscard]] std::vector<Rgba> vertexColoursOf(const ResultView& result, const Field& field);
 
 /// The linear light of a screen colour (sRGB, IEC 61966-2-1); 0 to 1 for each channel.

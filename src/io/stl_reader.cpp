@@ -1,6 +1,6 @@
 // STL, in ASCII or binary. A binary file is recognised by the exact size that its face count implies. STL has no
-// indices, so corners at the same point become one vertex; otherwise no face would have a neighbour. The reader ignores
-// normals and attribute bytes: the order of the corners decides which side is outside.
+// indices. Corners at the same point become one vertex, because without common vertices no face would have a neighbour.
+// The reader ignores normals and attribute bytes: the order of the corners decides which side is outside.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -30,8 +30,8 @@ uint64_t binaryFaceCount(std::span<const char> bytes) {
   return count;
 }
 
-/// Whether the size is exactly that of a binary STL. A text never has this size: four printable bytes at the place of
-/// the face count would be a huge count.
+/// Whether the size is exactly the size of a binary STL with this face count. A text never has this size, because four
+/// printable bytes mean a count of more than 500 million faces.
 bool hasBinarySize(std::span<const char> bytes) {
   return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + binaryFaceCount(bytes) * kFaceSize;
 }
@@ -83,7 +83,7 @@ void requireKeyword(TextScanner& text, std::string_view keyword) {
 
 Face readFacet(TextScanner& text, CornerWelder& welder) {
   requireKeyword(text, "normal");
-  // The normal may have any words: some programs write 1.#IND for a face of zero area.
+  // The words of the normal may be anything, because some programs write 1.#IND for a face of zero area.
   for (int i = 0; i < 3; ++i) static_cast<void>(text.word("a number of the normal"));
   requireKeyword(text, "outer");
   requireKeyword(text, "loop");
@@ -124,7 +124,7 @@ Match detectStl(std::span<const char> bytes) {
 }
 
 Mesh parseStl(std::span<const char> bytes) {
-  // Binary files may begin with "solid" too; a text has no zero byte.
+  // Binary files may also begin with "solid", but have a zero byte; a text has none.
   const std::string_view beginning(bytes.data(), std::min<size_t>(bytes.size(), 1024));
   const bool hasZeroByte = beginning.find('\0') != std::string_view::npos;
   if (hasBinarySize(bytes) || hasZeroByte || !beginsWithSolid(bytes)) return parseBinary(bytes);

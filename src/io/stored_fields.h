@@ -35,7 +35,7 @@ struct FieldColumn {
 [[nodiscard]] std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                                  std::initializer_list<std::string_view> reservedNames);
 
-/// Formats without NaN store 0 for no value.
+/// Returns 0 for NaN, for formats that cannot store NaN.
 [[nodiscard]] inline float withoutNan(double value) { return value == value ? static_cast<float>(value) : 0.0f; }
 [[nodiscard]] inline uint8_t withoutNan(uint8_t value) { return value; }
 [[nodiscard]] inline uint32_t withoutNan(uint32_t value) { return value; }
@@ -62,7 +62,7 @@ class ResultView {
   /// The field whose colours a viewer shows first; null if no field has colours. Throws Error{UnknownField} or
   /// Error{OptionConflict} for a colourOf that cannot be shown.
   [[nodiscard]] const Field* shownField() const;
-  /// The labels of the face field "segment"; null if it is not written.
+  /// The labels of the face field "segment"; null if this field is not written.
   [[nodiscard]] const std::vector<uint32_t>* parts() const;
   /// Name of the second file; empty if there is none.
   [[nodiscard]] const std::string& besideName() const { return besideName_; }
@@ -87,7 +87,7 @@ class ResultView {
     for (const float coordinate : mesh_.floats()) put(static_cast<T>(coordinate));
   }
 
-  /// The default field of viewers: the first field at `location` with real values and one component.
+  /// The field that viewers show by default: the first field at `location` with real values and one component.
   [[nodiscard]] const Field* mainField(FieldLocation location) const;
 
  private:

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// Whether a decimal number outside of the range of double is too small, not too large. from_chars reports both as out
-/// of range.
+/// Whether a decimal number outside of the range of double is too small (and not too large). from_chars reports the
+/// same error for both.
 bool isTiny(std::string_view number) {
   const size_t exponentAt = number.find_first_of("eE");
   int64_t exponent = 0;

@@ -8,7 +8,7 @@
 namespace asdfvk {
 
 struct TextSyntax {
-  char comment = '\0';              ///< Starts a comment that ends with the line; '\0': no comments.
+  char comment = '\0';              ///< Character that starts a comment up to the end of the line; '\0': no comments.
   bool backslashContinues = false;  ///< A backslash directly before a line break joins the two lines.
 };
 
@@ -20,7 +20,7 @@ class TextScanner {
   /// Skips a UTF-8 byte order mark at the beginning.
   explicit TextScanner(std::span<const char> bytes, TextSyntax syntax = {}, uint64_t firstLine = 1);
 
-  /// The line of the last word, or of the end of a look-ahead.
+  /// The line of the last word. After atLineEnd() or atEnd(), the line at which the skipped text ends.
   [[nodiscard]] uint64_t line() const { return line_; }
   [[nodiscard]] const char* position() const { return at_; }
   [[nodiscard]] uint64_t remaining() const { return static_cast<uint64_t>(end_ - at_); }
@@ -42,8 +42,8 @@ class TextScanner {
   /// The next word of this line; empty where there is none.
   [[nodiscard]] std::string_view wordOnLine() { return atLineEnd() ? std::string_view() : scanWord(); }
   [[nodiscard]] std::string_view word(std::string_view expected);
-  /// Decimal, with or without exponent, or inf or nan. Numbers below the range of double are 0, numbers above are
-  /// errors.
+  /// Reads a decimal number, with or without an exponent, or inf or nan. Numbers that are too small for double become
+  /// 0; numbers that are too large are errors.
   [[nodiscard]] double number(std::string_view expected);
   [[nodiscard]] int64_t integer(std::string_view expected);
 
@@ -95,7 +95,7 @@ class TextScanner {
   uint64_t line_;
 };
 
-/// Empty if the text has no word.
+/// The first word of a text; empty if the text has no word.
 [[nodiscard]] std::string_view firstWord(std::span<const char> bytes, char comment = '\0');
 
 }  // namespace asdfvk

@@ -1,5 +1,5 @@
-// 3MF (core specification 1.3, production extension 1.1): the objects of the build items, with their components and
-// transforms, in the unit of the file. Each item is a part, and each of its components too. Colours, materials and
+// 3MF (core specification 1.3, production extension 1.1): reads the objects of the build items, with their components
+// and transforms, in the unit of the file. Each build item and each component is a part. Colours, materials and
 // metadata are ignored. Supports and beam lattices are left out; Mesh::skipped lists them. Only files within the
 // archive are opened.
 #include <fmt/core.h>
@@ -70,10 +70,10 @@ class ThreeMfReader {
 
   Mesh read();
 
-  /// The index of the model at a path within the archive. The model is not read yet.
+  /// Returns the index in models_ of the model at a path within the archive. Adds a new model without reading it.
   size_t modelAt(std::string_view path);
   [[nodiscard]] ModelFile& model(size_t index) { return models_[index]; }
-  /// Adds to the memory of all instances. Throws Error{InputTooLarge} above the limit.
+  /// Adds `bytes` to the memory of the mesh. Throws Error{InputTooLarge} above the limit.
   void charge(uint64_t bytes);
   void countLattice() { ++latticeCount_; }
 
@@ -117,7 +117,8 @@ class ModelReader {
 
  private:
   ModelFile& model() { return archive_.model(index_); }
-  /// Whether the current element is `name` of the core specification. Several prefixes may stand for its namespace.
+  /// Whether the current element is `name` of the core specification. Several prefixes may stand for the core
+  /// namespace.
   [[nodiscard]] bool isCore(std::string_view name) const {
     const std::string_view found = xml_.name();
     if (!found.ends_with(name)) return false;
@@ -262,7 +263,7 @@ class ModelReader {
   }
 
   void readTriangle(PartMesh& mesh) {
-    constexpr uint64_t kSurveyBytes = 60;  // Memory of weldIfOpen() per face.
+    constexpr uint64_t kSurveyBytes = 60;  // Memory that weldIfOpen() needs per face.
     archive_.charge(sizeof(Face) + kSurveyBytes);
     Face face;
     constexpr std::array<std::string_view, 3> kNames{"v1", "v2", "v3"};
@@ -277,8 +278,8 @@ class ModelReader {
     xml_.skipElement();
   }
 
-  /// Joins equal vertices if the mesh is open. Some writers split vertices, which the specification forbids; faces
-  /// would then have no neighbours.
+  /// Joins equal vertices if the mesh is open. Some writers split vertices, which the specification forbids. Faces
+  /// without common vertices would have no neighbours.
   static void weldIfOpen(PartMesh& mesh) {
     TriangleMesh view;
     view.vertices = mesh.vertices;
@@ -300,7 +301,7 @@ class ModelReader {
 
 void ThreeMfReader::charge(uint64_t bytes) {
   chargedBytes_ += bytes;
-  constexpr uint64_t kMaxBytesPerByte = 20;  // Growing arrays need three times their size for a moment.
+  constexpr uint64_t kMaxBytesPerByte = 20;  // A growing array temporarily needs three times its size.
   const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * archive_.bytes().size());
   if (chargedBytes_ > limit)
     throw Error(ErrorCode::InputTooLarge, fmt::format("its mesh needs more than {} MiB of memory", limit >> 20));
@@ -392,7 +393,7 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
 
 Mesh ThreeMfReader::read() {
   const size_t root = modelAt(rootPath());
-  for (size_t i = 0; i < models_.size(); ++i) readModel(i);  // Models name further models.
+  for (size_t i = 0; i < models_.size(); ++i) readModel(i);  // Reading a model may add further models.
   ObjectCounts all;
   for (const ObjectUse& item : models_[root].items) {
     const ObjectCounts counts = countsOf(item, 0);

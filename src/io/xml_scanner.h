@@ -10,8 +10,8 @@
 
 namespace asdfvk {
 
-/// Reads the tags of an XML document in pieces and skips the text between the tags. Rejects UTF-16, malformed
-/// documents, and document types, which could define entities. Memory: some 100 KB.
+/// Reads the tags of an XML document in pieces and skips the text between the tags. Rejects UTF-16 and malformed
+/// documents. Also rejects document types, because they could define entities. Memory: some 100 KB.
 class XmlScanner {
  public:
   /// Reads up to `size` bytes; fewer only at the end of the document.
@@ -60,7 +60,7 @@ class XmlScanner {
   std::vector<std::pair<std::string_view, std::string_view>> attributes_;
 };
 
-/// Decodes the five entities of XML and the references to a space. Empty for other references.
+/// Decodes the five entities of XML and the references to a space. Returns nothing if the text has other references.
 [[nodiscard]] std::optional<std::string> xmlDecoded(std::string_view text);
 
 }  // namespace asdfvk

@@ -20,11 +20,11 @@ struct ZipEntry {
 /// Reads the directory of a ZIP archive (PKWARE APPNOTE 6.3, with ZIP64). Throws Error{UnreadableInput}.
 class ZipArchive {
  public:
-  /// The bytes must outlive the archive.
+  /// `bytes` must outlive this object.
   explicit ZipArchive(std::span<const char> bytes);
 
   [[nodiscard]] std::span<const ZipEntry> entries() const { return entries_; }
-  /// Ignores the case of ASCII letters. Null if there is no such entry.
+  /// Ignores the case of ASCII letters. Returns null if there is no such entry.
   [[nodiscard]] const ZipEntry* find(std::string_view name) const;
   [[nodiscard]] std::span<const char> bytes() const { return bytes_; }
 
@@ -36,7 +36,7 @@ class ZipArchive {
 /// Reads a file of an archive piece by piece. Verifies size and checksum at the end.
 class ZipStream {
  public:
-  /// The entry must outlive the stream. Throws Error{UnreadableInput} for an encrypted entry or an unknown method.
+  /// `entry` must outlive this object. Throws Error{UnreadableInput} for an encrypted entry or an unknown method.
   ZipStream(const ZipArchive& archive, const ZipEntry& entry);
   ~ZipStream();
   ZipStream(const ZipStream&) = delete;
