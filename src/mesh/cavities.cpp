@@ -16,8 +16,8 @@
 namespace asdfvk {
 namespace {
 
-// Rays run along the third axis of this frame. The frame is parallel to no axis, coordinate plane or diagonal, because
-// faces and edges often are.
+// Rays run along the third axis of this frame. Faces and edges are often parallel to an axis, a coordinate plane or a
+// diagonal; the frame is not.
 Vec3d toRayFrame(const Vec3d& p) {
   static constexpr Vec3d kX{0.80134262, -0.56937194, -0.18349152}, kY{0.50881031, 0.48112718, 0.71386211};
   static constexpr Vec3d kZ = cross(kX, kY);  // Nearly orthonormal, which is sufficient for parity.
@@ -30,7 +30,7 @@ struct Surrounding {
 };
 
 // The side of p relative to an edge, computed from the lower vertex to the upper one. Both faces of an edge therefore
-// have the same value: a ray that hits an edge crosses exactly one of them, independent of rounding.
+// have the same value: a ray that hits an edge crosses exactly one of the two faces, independent of rounding.
 double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
   const size_t j = (i + 1) % 3;
   const auto plane = [](const Vec3d& v) { return Point2{v.x, v.y}; };
@@ -56,7 +56,7 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
   return height > p.z;
 }
 
-/// For each sample the other components around it, ascending.
+/// For each sample: the components around the sample, other than its own, ascending.
 std::vector<Surrounding> surroundingsOf(const ClosedComponents& closed, std::span<const Sample> samples) {
   std::vector<Vec3d> origins;
   std::vector<Point2> points;
@@ -101,7 +101,7 @@ std::vector<Surrounding> surroundingsOf(const ClosedComponents& closed, std::spa
 /// The components around all samples of one component.
 struct Containers {
   std::vector<uint32_t> components;
-  bool isCrossed = false;  // Other components are around some of the samples, but not all.
+  bool isCrossed = false;  // A component is around some of the samples, but not around all.
 };
 
 Containers containersOf(std::span<const Surrounding> surroundings, size_t sampleCount) {
@@ -128,7 +128,7 @@ std::vector<Containers> allContainers(const ClosedComponents& closed) {
     const std::array<Vec3d, 3> t = closed.triangle(closed.components.components[component].firstFace);
     samples.push_back({component, (t[0] + t[1] + t[2]) / 3.0});
   }
-  std::vector<uint8_t> isWanted(count, 0);  // At least one sample is in another component.
+  std::vector<uint8_t> isWanted(count, 0);  // Whether at least one sample of a component is in another component.
   for (const Surrounding& each : surroundingsOf(closed, samples)) isWanted[samples[each.sample].component] = 1;
   samples = samplesOf(closed, isWanted);
   const std::vector<Surrounding> surroundings = surroundingsOf(closed, samples);
@@ -154,7 +154,7 @@ Nesting findCavities(const TriangleMesh& mesh, const Components& components) {
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return nesting;
   const ClosedComponents closed(mesh, components);
   const std::vector<Containers> containers = allContainers(closed);
-  // Outer components before the components in them.
+  // Outer components come before the components inside of them.
   std::vector<uint32_t> order(count), depths(count, 0);
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),

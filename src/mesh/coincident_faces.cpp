@@ -22,8 +22,8 @@ struct FaceKey {
   auto operator<=>(const FaceKey&) const = default;
 };
 
-/// The face with the lowest vertices at its points, in the least of its three rotations. A face with two corners at one
-/// point has no area and keeps its own vertices: no ray depends on its identity.
+/// Replaces each vertex of a face by the lowest vertex at the same point, and returns the least of the three rotations.
+/// A face with two corners at one point keeps its own vertices. No ray hits such a face, because its area is 0.
 Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
   if (!hasDistinctVertices(place)) place = face;
@@ -48,7 +48,7 @@ std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<ui
   return representatives;
 }
 
-/// Whether two faces have the same vertices. In a closed mesh they are the only faces at each of their three edges.
+/// Whether two faces have the same vertices. In a closed mesh, two such faces are the only faces at their three edges.
 bool hasCopyByVertices(const DualGraph& closedGraph) {
   return countInParallel(closedGraph.faceCount(), [&](uint32_t f) {
            const std::span<const uint32_t> around = closedGraph.neighboursOf(f);

@@ -9,11 +9,11 @@ namespace {
 
 using Triangle = std::array<Vec3d, 3>;
 
-/// Distance of a sample from its face, in units of kContactDistance. Each point has a sample on both sides of the face:
-/// where the face touches another component, one of the two is outside of that component.
+/// Distance of a sample from its face, in units of kContactDistance. Each point has one sample on each side of the
+/// face. If the face touches another component, one of the two samples is outside of that component.
 constexpr double kSampleDepth = 2;
 /// Number of points of a component that are spread by area; further points are at its ends along the axes. The number
-/// is lower where the points of all components would be more than kMaxPointCount.
+/// is lower if all components together would have more than kMaxPointCount points.
 constexpr size_t kLeastPointCount = 4, kGreatestPointCount = 64, kMaxPointCount = size_t{1} << 18;
 /// Position of a point at an end: this share of the way from the corner, which may be sharp, to the barycentre.
 constexpr double kEndShare = 0.25;

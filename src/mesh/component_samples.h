@@ -33,8 +33,9 @@ struct Sample {
 };
 
 /// Samples of the closed components with isWanted[component] != 0, grouped by component, ascending. Samples are at up
-/// to 70 points of a component, spread by area and at its ends along the axes. The limit falls to 10 points where there
-/// are tens of thousands of components. A point has one sample closely in front of its face and one closely behind.
+/// to 70 points of a component: points that are spread by area, and the ends of the component along the axes. With tens
+/// of thousands of components, the limit falls to 10 points. A point has one sample closely in front of its face and
+/// one closely behind.
 [[nodiscard]] std::vector<Sample> samplesOf(const ClosedComponents& closed, std::span<const uint8_t> isWanted);
 
 }  // namespace asdfvk

@@ -11,8 +11,8 @@
 namespace asdfvk {
 namespace {
 
-// Bound on the rounding error of each term of a volume, relative to the product of the three lengths in the term: a few
-// units in the last place.
+// Bound on the rounding error of each term of a volume: a few units in the last place. The bound is relative to the
+// product of the three lengths in the term.
 constexpr double kVolumeNoise = 1e-15;
 
 void label(const DualGraph& graph, Components& result) {
@@ -80,7 +80,7 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
     if (sums.empty() || sums.back().component != component) sums.push_back({component});
     const Vec3d& origin = mesh.vertices[mesh.faces[components.components[component].firstFace][0]];
     const auto [i, j, k] = mesh.faces[f];
-    // Scaled before the subtraction, because differences of huge coordinates may overflow.
+    // The corner is scaled before the subtraction, because differences of huge coordinates may overflow.
     const Vec3d corner = mesh.vertices[i] * scale;
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;

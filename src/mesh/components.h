@@ -14,7 +14,7 @@ struct Component {
   uint32_t faceCount = 0;
   bool isClosed = false;             ///< Each edge has exactly two faces; triangles with a repeated vertex are ignored.
   bool isConsistentlyWound = false;  ///< No edge has two faces that traverse it in the same direction.
-  double signedVolume = 0;  ///< Volume in mesh units cubed; negative where faces point inwards, 0 where the sign is
+  double signedVolume = 0;           ///< Volume in mesh units cubed; negative if faces point inwards, 0 if the sign is
                             ///< uncertain because of rounding. Valid for closed, consistently wound components only.
 };
 
@@ -24,7 +24,7 @@ struct Components {
 };
 
 /// edges: the survey of the mesh. Precondition: every index of a face is below the vertex count. A face with a
-/// non-finite corner is a component of its own; the hole that it leaves makes the component around it open.
+/// non-finite corner is a separate component. The face leaves a hole, so that the component around the hole is open.
 [[nodiscard]] Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

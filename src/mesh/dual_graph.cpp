@@ -102,7 +102,7 @@ class Survey {
     }
   }
 
-  /// Each face has three arcs, so `across_` already holds the rows; only their order is missing.
+  /// In a closed mesh each face has three arcs, so that `across_` already has the rows; the function sorts each row.
   DualGraph closedGraph() {
     DualGraph graph;
     graph.offsets.resize(mesh_.faces.size() + 1);

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// If more faces than this share an edge, each of them is joined only to the previous and the next one in file order.
-/// The size of the graph is therefore never quadratic.
+/// If more faces than this share an edge, each of these faces is joined only to the previous and the next one in file
+/// order. Therefore the size of the graph is not quadratic in the number of faces.
 inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 
 /// The dual graph: a node per face, and for each shared mesh edge an arc in each direction. Faces that share two edges
@@ -27,17 +27,17 @@ struct DualGraph {
 
 /// Class of an edge by its proper faces. A face is proper if it has finite corners and three distinct vertices.
 enum class EdgeKind : uint8_t {
-  Regular,       ///< Two faces that traverse it in opposite directions.
-  Inconsistent,  ///< Two faces that traverse it in the same direction.
-  Boundary,      ///< One face.
-  NonManifold,   ///< More than two faces.
+  Regular,       ///< The edge has two faces, which traverse it in opposite directions.
+  Inconsistent,  ///< The edge has two faces, which traverse it in the same direction.
+  Boundary,      ///< The edge has one face.
+  NonManifold,   ///< The edge has more than two faces.
 };
 
 /// Results of one pass over the edges of a mesh.
 struct EdgeSurvey {
   DualGraph graph;  ///< See buildDualGraph().
-  /// #F x 3: entry 3 f + i is the kind of the edge from corner i of face f to the next corner. Regular where f is not
-  /// proper.
+  /// #F x 3: entry 3 f + i is the kind of the edge from corner i of face f to the next corner. The kind is Regular if f
+  /// is not proper.
   std::vector<EdgeKind> edgeKinds;
   uint64_t boundaryEdgeCount = 0;
   uint64_t nonManifoldEdgeCount = 0;
@@ -45,14 +45,14 @@ struct EdgeSurvey {
   bool isClosed = false;  ///< Every face is proper, and each edge has exactly two faces.
 };
 
-/// Precondition: every index of a face is below the vertex count. Throws Error{MeshTooLarge} where there are more than
-/// 2^32 - 1 edges or arcs.
+/// Precondition: every index of a face is below the vertex count. Throws Error{MeshTooLarge} for more than 2^32 - 1
+/// edges or arcs.
 [[nodiscard]] EdgeSurvey surveyEdges(const TriangleMesh& mesh);
 
-/// The dual graph of surveyEdges(). Edges are matched by sorting, so that non-manifold input is valid: an edge of k
-/// faces joins all of them (but see kMaxFacesJoinedAllToAll), a boundary edge none. Edges from a vertex to itself and
-/// edges of faces with a non-finite corner join no faces. Vertices are compared by index, not by position: a mesh whose
-/// faces share no vertices is open everywhere.
+/// The dual graph of surveyEdges(). Edges are matched by sorting, so that non-manifold input is valid. An edge of k
+/// faces joins all of its faces (but see kMaxFacesJoinedAllToAll); a boundary edge joins no faces. Edges from a vertex
+/// to itself and edges of faces with a non-finite corner join no faces. Vertices are compared by index, not by
+/// position: a mesh whose faces share no vertices is open everywhere.
 [[nodiscard]] inline DualGraph buildDualGraph(const TriangleMesh& mesh) { return surveyEdges(mesh).graph; }
 
 }  // namespace asdfvk

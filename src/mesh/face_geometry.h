@@ -11,15 +11,17 @@
 
 namespace asdfvk {
 
-/// A face whose height over its longest edge is below this share of that edge is degenerate: it has no reliable normal.
+/// A face is degenerate if its height over its longest edge is below this share of that edge. Such a face has no
+/// reliable normal.
 inline constexpr double kDegenerateHeightRatio = 1e-10;
 
 /// Geometry of the faces, #F entries each, in the unit of the mesh.
 struct FaceGeometry {
-  std::vector<Vec3d> barycentres;  ///< Not finite where a corner is not finite.
-  std::vector<Vec3d> normals;      ///< Unit, right-hand rule over the order of the corners; zero for a degenerate face.
-  std::vector<double> areas;       ///< 0 for a degenerate face.
-  Box3d bounds;                    ///< Bounding box of the finite vertices that faces use.
+  std::vector<Vec3d> barycentres;  ///< Not finite if a corner is not finite.
+  /// Unit vectors by the right-hand rule over the order of the corners; zero for a degenerate face.
+  std::vector<Vec3d> normals;
+  std::vector<double> areas;  ///< 0 for a degenerate face.
+  Box3d bounds;               ///< Bounding box of the finite vertices that faces use.
 
   /// Whether the face has zero area (see kDegenerateHeightRatio) or a non-finite corner. Such a face neither casts rays
   /// nor is hit by rays.
@@ -33,8 +35,8 @@ struct FaceGeometry {
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
 /// Faces closer to each other than this distance are in contact. Unit: half of the longest side of the bounding box.
-/// Coordinates in float32 cannot resolve such a distance. It also covers the rounding of parts that touch and are
-/// rotated.
+/// Coordinates in float32 cannot resolve such a distance. The distance also exceeds the rounding errors of touching
+/// parts that were rotated.
 inline constexpr double kContactDistance = 0x1p-20;
 
 /// Maps the centre of the bounding box of the mesh to the origin and its longest side to a length of 2. Normalised

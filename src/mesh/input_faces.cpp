@@ -49,7 +49,7 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
   forEachTask(firstTriangleOfBlock.size(), cutBlock);
 }
 
-/// A corner whose turn has a smaller sine is straight.
+/// A corner is straight if turnAt(), the sine of its turn, is smaller than this number.
 constexpr double kStraightSine = 1e-10;
 
 void cutFan(std::span<const uint32_t> corners, std::span<Face> triangles) {
@@ -129,8 +129,8 @@ void PolygonTriangulator::triangulate(std::span<const Vec3d> vertices, std::span
 }
 
 bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners) {
-  // Relative to a corner and to the size of the polygon, so that the unit and the distance to the origin have no
-  // effect.
+  // Positions are relative to a corner and to the size of the polygon. Therefore the unit and the distance from the
+  // origin have no effect.
   const Vec3d origin = vertices[corners[0]];
   double size = 0;
   for (const uint32_t corner : corners) {
@@ -163,7 +163,8 @@ bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<con
   return true;
 }
 
-/// Sine of the turn from the edge before `corner` to the edge after it: positive to the left, 0 for an empty edge.
+/// Sine of the angle from the edge before `corner` to the edge after it. Positive for a turn to the left, 0 if an edge
+/// has no length.
 double PolygonTriangulator::turnAt(uint32_t corner) const {
   const Point2 a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
   const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
@@ -177,14 +178,16 @@ bool PolygonTriangulator::isEar(uint32_t corner) const {
   const Point2 a = points_[before], b = points_[corner], c = points_[after];
   return std::none_of(reflex_.begin(), reflex_.end(), [&](uint32_t other) {
     if (isClipped_[other] || other == before || other == corner || other == after) return false;
-    // The ends of a bridge to a hole occur twice; the copy of a corner is no obstacle.
+    // The ends of a bridge to a hole occur twice in the polygon. A copy of a corner of the ear does not prevent the
+    // ear.
     const Point2 p = points_[other];
     if (p == a || p == b || p == c) return false;
     return sideOf(a, b, p) >= 0 && sideOf(b, c, p) >= 0 && sideOf(c, a, p) >= 0;
   });
 }
 
-/// The first ear from `start` on. A polygon without ears crosses itself or is flat; then the sharpest left turn.
+/// Returns the first ear from `start` on. A polygon without ears crosses itself or is flat; in this case, returns the
+/// sharpest left turn.
 uint32_t PolygonTriangulator::findEar(uint32_t start, size_t leftCount) const {
   uint32_t corner = start, sharpest = start;
   for (size_t i = 0; i < leftCount; ++i, corner = next_[corner]) {
@@ -211,7 +214,7 @@ void PolygonTriangulator::clipEars(std::span<const uint32_t> corners, std::span<
       turn_[neighbour] = turnAt(neighbour);
       isEar_[neighbour] = isEar(neighbour);
     }
-    start = after;  // Continuing after the ear spreads the cuts; otherwise all would share one corner.
+    start = after;  // The search continues after the ear, so that the cuts do not all share one corner.
   }
 }
 

@@ -9,12 +9,12 @@
 
 namespace asdfvk {
 
-/// Greatest number of vertices and of input faces. Indices have 32 bits, and the greatest index stands for none.
+/// Greatest number of vertices and of input faces. Indices have 32 bits, and the greatest index means "none".
 inline constexpr uint64_t kMaxIndexCount = std::numeric_limits<uint32_t>::max();
-/// Greatest number of triangles: the three corners of each are numbered in 32 bits.
+/// Greatest number of triangles. The numbers of all corners, three per triangle, must fit into 32 bits.
 inline constexpr uint64_t kMaxTriangleCount = kMaxIndexCount / 3;
 
-/// Throws Error{MeshTooLarge} where count > limit. plural: the counted elements, for example "triangles".
+/// Throws Error{MeshTooLarge} if count > limit. plural: the counted elements, for example "triangles".
 void requireAtMost(uint64_t limit, uint64_t count, const char* plural);
 
 /// Whether the three vertices of the face differ; independent of the coordinates.
@@ -36,7 +36,7 @@ struct PolygonsView {
 struct TriangleMesh {
   std::span<const Vec3d> vertices;  ///< #V; may hold non-finite numbers.
   std::span<const Face> faces;      ///< #F
-  PolygonsView polygons;            ///< Empty where every input face is one triangle.
+  PolygonsView polygons;            ///< Empty if every input face is one triangle.
 
   TriangleMesh() = default;
   TriangleMesh(const Mesh& mesh)  // NOLINT: implicit by design

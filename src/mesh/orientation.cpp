@@ -32,7 +32,7 @@ struct ComponentFaces {
   uint64_t count = 0;
 };
 
-// A polygon whose triangles belong to several components is counted in each of them.
+// A polygon whose triangles belong to several components is counted in each of these components.
 ComponentFaces componentFacesOf(const TriangleMesh& mesh, const Components& components, uint32_t index) {
   const Component& component = components.components[index];
   const std::span<const uint32_t> inputFaceOf = mesh.polygons.inputFaceOf;

@@ -17,13 +17,14 @@ struct OrientationReport {
   std::vector<uint32_t> invertedComponents;  ///< Ascending indices.
 
   /// One sentence that names each inverted component by its lowest input face and the number of faces connected to it;
-  /// empty when there is none.
+  /// empty if there is no inverted component.
   [[nodiscard]] std::string sentence(const TriangleMesh& mesh, const Components& components) const;
 };
 
 /// Finds inverted components by the rule of CGAL's orient_to_bound_a_volume. A closed component inside an even number
-/// of others bounds a solid and has a positive volume; one inside an odd number is a cavity and has a negative volume.
-/// Components that are open, inconsistently wound or without volume are never inverted.
+/// of other components bounds a solid and should have a positive volume. A closed component inside an odd number of
+/// others is a cavity and should have a negative volume. Components that are open, inconsistently wound or without
+/// volume are never inverted.
 [[nodiscard]] OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components& components);
 
 /// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the winding of each input face that
@@ -37,7 +38,7 @@ void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);
 /// Reverses every face.
 void flipAllFaces(Mesh& mesh, FaceGeometry& geometry, Components& components);
 
-/// Reverses the faces of the inverted components and empties the list of the report.
+/// Reverses the faces of the inverted components, and clears OrientationReport::invertedComponents.
 void orientOutward(Mesh& mesh, FaceGeometry& geometry, Components& components, OrientationReport& report);
 
 }  // namespace asdfvk

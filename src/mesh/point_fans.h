@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// The corners of faces at each point. Vertices at the same position are one point, so that faces that share no
-/// vertices are connected too.
+/// The corners of faces at each point. Vertices at the same position are one point. Therefore faces are also connected
+/// if they share a position but no vertex.
 class PointFans {
  public:
   explicit PointFans(const TriangleMesh& mesh);

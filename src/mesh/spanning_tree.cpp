@@ -18,7 +18,7 @@ struct PointNode {
   Box3d box;
   uint32_t begin = 0, end = 0;  ///< Range of points.
   uint32_t left = kNone;        ///< Left child; the right child is the next node. kNone for a leaf.
-  uint32_t group = kNone;       ///< The group of all points below the node; kNone where they are of several groups.
+  uint32_t group = kNone;  ///< The group of all points below the node; kNone if the points belong to several groups.
 };
 
 /// An edge from a point, and its squared length.
@@ -100,8 +100,8 @@ class SpanningTree {
       if (sets_.join(edge.from, edge.to)) edges_.push_back({order_[edge.from], order_[edge.to]});
   }
 
-  /// The shortest edge from point i to another group, if its squared length is below `limit`. Otherwise an edge with
-  /// the square `limit` and without `to`.
+  /// The shortest edge from point i to another group, if its squared length is below `limit`. If there is no such edge,
+  /// the result has the square `limit` and no `to`.
   [[nodiscard]] Edge nearestOfOthers(uint32_t i, double limit) const {
     const Vec3d& p = points_[i];
     Edge found{limit, i, kNone};

@@ -9,9 +9,10 @@
 
 namespace asdfvk {
 
-/// The Euclidean minimum spanning tree of points: pairs of point indices, one pair fewer than points. Borůvka's
-/// algorithm. A k-d tree finds the nearest point of another group; the search skips nodes whose points are all of the
-/// same group (March, Ram and Gray 2010: Fast Euclidean Minimum Spanning Tree). Precondition: the points are finite.
+/// The Euclidean minimum spanning tree of points, as pairs of point indices. n points give n - 1 pairs. Borůvka's
+/// algorithm. A k-d tree finds the nearest point of another group. The search skips nodes whose points all belong to
+/// the same group (March, Ram and Gray 2010: Fast Euclidean Minimum Spanning Tree). Precondition: the points are
+/// finite.
 [[nodiscard]] std::vector<std::array<uint32_t, 2>> minimumSpanningTree(std::span<const Vec3d> points);
 
 }  // namespace asdfvk

@@ -16,8 +16,8 @@ namespace asdfvk {
 /// kMaxIndexCount and kMaxTriangleCount, Error{IndexOutOfRange} for faces with an index at or above the vertex count.
 void requireValidArrays(const MeshView& view);
 
-/// Number of faces with an index at or above the vertex count. All functions that take a TriangleMesh require it to be
-/// 0.
+/// Number of faces with an index at or above the vertex count. Precondition of all other functions with a TriangleMesh:
+/// this number is 0.
 [[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh);
 
 /// Precondition: all arguments describe the same mesh.

@@ -3,7 +3,7 @@
 # The script is one function with the shaders (NAME.glsl is shaders.NAME) and the modules, in the order of
 # PAGE/modules.txt. Imports (one line each), the word `export`, comment lines and leading blanks are removed. All
 # top-level names of the modules must therefore differ. This script fills the places @CSP@, @STYLE@ and @LOADER@ of
-# page.html. src/page/page.cpp fills the other places and compresses the script; loader.js decompresses it.
+# page.html. src/page/page.cpp fills the other places and compresses the script; loader.js decompresses the script.
 cmake_minimum_required(VERSION 3.25)
 
 function(asdfvk_shortened text result)

@@ -18,7 +18,8 @@ constexpr uint32_t kNone = 0xffffffff;
 
 constexpr double kGridSize = 65535;
 
-/// Lowest bits of a float32 that a page drops. The relative error of 2^-15 allows the four digits that a page shows.
+/// Number of low bits of a float32 that a page omits. The relative error of 2^-15 is small enough for the four digits
+/// that a page shows.
 constexpr int kDroppedBits = 9;
 
 /// Coordinates as whole numbers of steps from the lower corner of a box.
@@ -33,7 +34,7 @@ struct Grid {
 
   [[nodiscard]] uint32_t stepsOf(double coordinate, size_t axis) const {
     if (!(step > 0) || !std::isfinite(coordinate)) return 0;
-    // Halved, because the difference of two finite coordinates may overflow.
+    // The coordinates are halved, because the difference of two finite coordinates may overflow.
     const double steps = std::round((coordinate * 0.5 - box.min[axis] * 0.5) / (step * 0.5));
     return static_cast<uint32_t>(std::clamp(steps, 0.0, kGridSize));
   }
@@ -154,7 +155,7 @@ Json encodeMesh(const TriangleMesh& mesh, std::span<const std::reference_wrapper
                            [&](size_t i) { return grid.stepsOf(mesh.vertices[layout.vertices[i]][axis], axis); });
     });
   std::vector<FieldNumbers> numbers;
-  numbers.reserve(fields.size());  // No reallocation: the sources refer to the elements.
+  numbers.reserve(fields.size());  // Prevents a reallocation, because the sources refer to the elements.
   for (const Field& field : fields) {
     const FieldNumbers& added = numbers.emplace_back(numbersOf(field));
     sources.push_back([&] {

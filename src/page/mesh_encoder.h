@@ -14,7 +14,7 @@ namespace asdfvk {
 [[nodiscard]] Box3d boxOfFaces(const TriangleMesh& mesh);
 
 /// Encodes the triangles and fields of a mesh into arrays. Returns a description with the keys `faceCount` to `fields`
-/// of docs/page-format.md. box: contains the vertices of all faces; coordinates are stored in a grid of this box.
+/// of docs/page-format.md. box: a box around the vertices of all faces. Coordinates are stored in a grid of this box.
 /// Preconditions: all indices are below the vertex count; fields have one component and an entry per input face.
 [[nodiscard]] nlohmann::ordered_json encodeMesh(const TriangleMesh& mesh,
                                                 std::span<const std::reference_wrapper<const Field>> fields,

@@ -59,7 +59,7 @@ void Page::add(const TriangleMesh& mesh, FieldSpan fields, PageTexts texts) {
     description["thin"] = describe(*texts.thin);
     if (!texts.thin->surface.triangles.empty())
       description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, arrays_);
-    texts.thin.reset();  // Already encoded in `description`.
+    texts.thin.reset();  // The thin places are already encoded in `description`.
   }
   meshes_.push_back(std::make_shared<const Json>(std::move(description)));
   texts_.push_back(std::move(texts));

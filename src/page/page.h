@@ -79,8 +79,8 @@ class Page {
 };
 
 /// Adds a result with its thin places, segments, view and a small picture. texts: name, label and report. fields: the
-/// fields to show, the one of the picture first. Preconditions: the result has a scene; there is a field. Throws
-/// Error{Cancelled}.
+/// fields to show, beginning with the field of the picture. Preconditions: the result has a scene; there is a field.
+/// Throws Error{Cancelled}.
 void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
                const RunControl& control);
 

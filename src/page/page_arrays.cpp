@@ -40,7 +40,7 @@ Bytes deflated(const Bytes& bytes) {
   Bytes result(deflateBound(&stream, static_cast<uLong>(bytes.size())));
   size_t read = 0, written = 0;
   int status = Z_OK;
-  while (status == Z_OK) {  // In steps, because zlib counts bytes in 32 bits.
+  while (status == Z_OK) {  // Compresses in steps, because zlib counts bytes in 32 bits.
     constexpr size_t kMaxStep = size_t{1} << 30;
     const size_t in = std::min(bytes.size() - read, kMaxStep), out = std::min(result.size() - written, kMaxStep);
     stream.next_in = const_cast<Bytef*>(bytes.data() + read);

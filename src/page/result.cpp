@@ -1,4 +1,4 @@
-// A result as a layer of a page.
+// Adds a result to a page.
 #include <algorithm>
 #include <utility>
 

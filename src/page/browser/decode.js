@@ -17,7 +17,7 @@ function check(condition, name) {
   if (!condition) throw new Error(`wrong ${name}`);
 }
 
-/** Signed numbers from byte planes. */
+/** Signed numbers from byte planes. The first plane has the lowest bytes of all numbers, the next plane the next bytes. */
 function numbersOf(planes, count, name) {
   check(planes.length % count === 0 && planes.length <= 4 * count, `size of ${name}`);
   const numbers = new Int32Array(count);

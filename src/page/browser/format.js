@@ -1,7 +1,7 @@
 
 const kMaxTickCount = 6;
 
-// "1e7" for "1e+7".
+// Returns "1e7" for "1e+7".
 const shortExponent = (text) => text.replace('e+', 'e');
 
 function withDigits(value, digits) {
@@ -12,8 +12,8 @@ function withDigits(value, digits) {
   return String(Number(value.toPrecision(digits)));
 }
 
-// A number with four significant digits, without trailing zeros after a decimal point. More digits, up to nine, are
-// used if the text would otherwise equal the text of `limit`.
+// A number with four significant digits, without trailing zeros after a decimal point. A value that differs from
+// `limit` gets up to nine digits, if fewer digits would give the text of `limit`.
 export function formatValue(value, limit = value) {
   for (let digits = 4; digits <= 9; ++digits)
     if (withDigits(value, digits) !== withDigits(limit, digits)) return withDigits(value, digits);

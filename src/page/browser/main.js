@@ -59,7 +59,7 @@ async function modelsOf(page) {
     const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, arrayBytes, origin) : null;
     models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, arrayBytes, origin), thinSurface));
   }
-  // The decoded arrays are large and no longer needed.
+  // Removes the encoded arrays, which are large and no longer needed.
   for (const array of document.querySelectorAll('[id^=array-]')) array.remove();
   return models;
 }

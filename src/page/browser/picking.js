@@ -23,8 +23,8 @@ function forEachHit(model, point, direction, visit) {
 }
 
 // The visible face {face, point} nearest to the viewer on the line through `point`; null if there is none. colours (or
-// null): faces with alpha 0 are invisible. plane (or null): [x, y, z, w]; its negative side is invisible. facing: no
-// back faces.
+// null): faces with alpha 0 are invisible. plane (or null): [x, y, z, w]; its negative side is invisible. facing: if
+// true, back faces are invisible.
 export function pickFace(model, colours, point, toViewer, plane, facing) {
   let best = -Infinity, found = -1;
   const at = (distance) => add(point, scaled(toViewer, distance));

@@ -86,7 +86,7 @@ export class Renderer {
     mesh.isSmooth = true;
   }
 
-  // A copy with few triangles, for slow devices during motion of the view.
+  // A copy with few triangles. Slow devices draw this copy during motion of the view.
   coarse(mesh) {
     if (mesh.model.faceCount < 2 * kCoarseFaceCount) return mesh;
     mesh.coarse ??= this.addMesh(mesh.model.reduced(kCoarseFaceCount));
@@ -97,7 +97,7 @@ export class Renderer {
     return coarse;
   }
 
-  // The edges of all faces, or with hidesRest only of highlighted faces.
+  // The edges of all faces; with hidesRest, only the edges of highlighted faces.
   edgesOf(mesh, hidesRest) {
     const { gl } = this, hasHidden = hidesRest && mesh.hasRest;
     if (mesh.edgesOfColouring === (hasHidden ? mesh.colouring : true)) return mesh.edges;
@@ -164,7 +164,7 @@ export class Renderer {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     for (const shown of frame.panes) {
       const mesh = frame.isCoarse ? this.coarse(shown.mesh) : shown.mesh;
-      // The surface does not fit the coarse copy.
+      // The surface is not shown with the coarse copy, because the two do not fit each other.
       const pane = { ...shown, mesh, surface: mesh === shown.mesh ? shown.surface : null };
       gl.viewport(...pane.viewport);
       gl.scissor(...pane.viewport);
@@ -202,14 +202,16 @@ export class Renderer {
       gl.disable(gl.BLEND);
     }
     if (!highlighted) return;
-    // Moves the highlighted faces in front of the mesh, because all coordinates are rounded to the grid of the page.
+    // Draws the highlighted faces slightly nearer than the mesh. Without this offset, rounding of the coordinates could
+    // hide the highlighted faces.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(-1, -1024);
     this.drawFaces(highlighted, pane, frame);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  // opacity: draws the whole mesh in the colour of the rest; null: draws highlighted faces in their colours.
+  // With an opacity, draws the whole mesh in the colour of the rest. With null, draws the highlighted faces in their
+  // colours.
   drawFaces(mesh, pane, frame, opacity = null) {
     const { gl } = this, isSmooth = frame.shading === 'smooth';
     const defines = isSmooth ? ['SMOOTH'] : [];

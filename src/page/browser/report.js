@@ -1,4 +1,5 @@
-// Thin regions, summary, warnings and parts as tables and lists. With a viewer, a click on a row flies to its place.
+// Thin regions, summary, warnings and parts as tables and lists. With a viewer, a click on a row moves the view to the
+// place of the row.
 import { made } from './controls.js';
 import { formatCount, formatShare, formatValue } from './format.js';
 

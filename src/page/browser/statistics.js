@@ -11,7 +11,8 @@ export function rangeOf(parts) {
   return { low: at(0.01), high: at(0.99), min: at(0), max: at(1) };
 }
 
-// Areas of the faces in equal bins from low to high, below and above. total: all faces, with and without a value.
+// Areas of the faces in equal bins from low to high, and the areas below low and above high. total: area of all faces,
+// with and without a value.
 export function histogramOf(parts, low, high, binCount) {
   const bins = new Float64Array(binCount), scale = high > low ? binCount / (high - low) : 0;
   let below = 0, above = 0, total = 0;

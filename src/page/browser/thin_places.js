@@ -9,7 +9,8 @@ const kField = 'least_thickness', kMarkerCount = 8;
 export const givenLimit = (models) => models.find((model) => model.thin)?.thin.limit ?? null;
 
 // The limit {limit, isGiven, name} below which a state shows thin places, or null. If isGiven is true, the view shows
-// the exact thin surface of each result; otherwise the faces whose value of the field `name` is below the limit.
+// the exact thin surface of each result. If isGiven is false, the view shows the faces whose value of the field `name`
+// is below the limit.
 export function thinShown(state, look, layers) {
   if (!state.thin) return null;
   const given = givenLimit(layers.models), name = given !== null && layers.has(kField) ? kField : look.name;
@@ -46,8 +47,9 @@ export function regionRadius(surface, regions, region, point) {
 }
 
 // Direction to the viewer from which the fewest faces hide one end of a wall. ends: the two points of the region.
-// outward: unit vector from the second end to the first. All candidates are oblique, so that the wall is visible beside
-// its surface. Among equal candidates, the one closest to `preferred` is chosen. least: closer hits do not count.
+// outward: unit vector from the second end to the first. All candidates are oblique, so that the thickness of the wall
+// is visible. Among equal candidates, the one closest to `preferred` is chosen. least: hits at a smaller distance are
+// ignored.
 export function directionOfLeastCover(model, ends, outward, preferred, least) {
   const side = unit(cross(outward, Math.abs(outward[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]), [0, 0, 1]);
   const other = cross(outward, side);

@@ -39,8 +39,8 @@ export class Triangles {
     this.totalArea = total;
   }
 
-  // Vertices and triangles for flat attributes. Vertex k is the provoking corner of face k, and has its attributes.
-  // isFirst: the provoking corner is the first one, else the last. sources: the copied vertex for each vertex.
+  // Vertices and triangles for flat attributes. Vertex k is the provoking corner of face k, and has the attributes of
+  // face k. isFirst: the provoking corner is the first one, else the last. sources: the copied vertex for each vertex.
   drawnVertices(isFirst) {
     const { positions, indices, faceCount } = this;
     const copyOf = new Uint32Array(positions.length / 3).fill(kNoFace);

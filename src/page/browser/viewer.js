@@ -12,7 +12,7 @@ const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thi
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
 const kRestMilliseconds = 180;  // Time without motion before a frame in full quality.
 const kSlowMilliseconds = 36, kSlowCount = 3;
-// Levels of detail during motion, for ever slower devices: share of the resolution; whether a coarse copy is drawn.
+// Levels of detail during motion, from fast to slow devices: share of the resolution; whether a coarse copy is drawn.
 const kLevels = [[1, false], [1, true], [0.7, true], [0.5, true], [0.35, true]];
 const kFlightMilliseconds = 350;
 

@@ -1,4 +1,4 @@
-// Flies to faces, thin regions and parts.
+// Moves the camera smoothly ("flies") to faces, thin regions and parts.
 import { anglesTowards, PaneCamera } from './camera.js';
 import { directionOfLeastCover, regionRadius } from './thin_places.js';
 import { add, clamp, dot, scaled, subtract, unit } from './vectors.js';
