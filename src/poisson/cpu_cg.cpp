@@ -17,15 +17,17 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine some rows of a small mesh.
-// Rows that are multiplied and then summed while the first-level cache holds them.
+// Number of rows that are multiplied at a time. The first-level cache still has the products when the products are
+// summed.
 constexpr size_t kChunkRowCount = 256;
 constexpr size_t kLaneCount = 8;
 constexpr uint32_t kIterationsPerCheckpoint = 8;
 
-// The residual of the recurrence departs from the true residual at about 1e-7 (float32) of the first residual.
+// Rounding lets the residual of the recurrence differ from the true residual, in float32 by about 1e-7 of the first
+// residual.
 constexpr double kMinFloatReduction = 1e-6, kMinDoubleReduction = 1e-13;
 
-/// The matrix S in double, as Eigen's sparse matrix on the columns of the system.
+/// The matrix S in double, as an Eigen sparse matrix that uses the columns of the system.
 class EigenSystem : public DiagonalScaling<double> {
  public:
   using Real = double;
@@ -38,7 +40,7 @@ class EigenSystem : public DiagonalScaling<double> {
         matrix_(size_, size_, static_cast<Eigen::Index>(system.columns.size()),
                 reinterpret_cast<const int*>(system.rowOffsets.data()),
                 reinterpret_cast<const int*>(system.columns.data()), couplings_.data()) {
-    // Eigen's map counts in int.
+    // Eigen's map has an int as the number of entries.
     ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
     const UnsetVector<double> roots = inverseRoots(system);
     forEachInParallel(roots.size(), [&](size_t row) {
@@ -114,7 +116,7 @@ void CpuCg<System>::forEachBlock(const Body& body) {
 template <typename System>
 typename CpuCg<System>::BlockSums CpuCg<System>::sumRows(size_t begin, size_t end) const {
   const Real* weights = system_.residualWeights().data();
-  // Compilers vectorise these lanes without permission to reorder sums.
+  // Separate sums per lane, which compilers can vectorise without reordering additions.
   std::array<std::array<Real, kLaneCount>, std::tuple_size_v<BlockSums>> lanes{};
   const auto add = [&](size_t i, size_t lane) {
     const Real p = direction_[i], product = product_[i], r = residual_[i];

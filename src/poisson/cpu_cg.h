@@ -14,22 +14,23 @@
 
 namespace asdfvk {
 
-/// Conjugate gradients on (I - S) y = b from y = 0 on all cores of the CPU: the iteration of VulkanCg. Each iteration
-/// makes two passes over the vectors. Sums are over blocks of fixed size, then over the blocks in order, so that the
-/// bits do not depend on the number of threads. System: ScaledSystem (float32) or an Eigen matrix (double precision).
+/// Conjugate gradients on (I - S) y = b from y = 0 on all cores of the CPU, with the same iteration as VulkanCg. Each
+/// iteration makes two passes over the vectors. Sums are over blocks of fixed size, then over the blocks in order, so
+/// that the bits do not depend on the number of threads. System: ScaledSystem (float32) or an Eigen matrix (double
+/// precision).
 template <typename System>
 class CpuCg {
  public:
   using Real = typename System::Real;
 
   struct State {
-    Real residualSquared = 1;  ///< Squared weighted norm of the residual before the last iteration.
+    Real residualSquared = 1;  ///< Square of the weighted norm of the residual before the last iteration.
     uint32_t iterationCount = 0;
     uint32_t status = kCgRunning;  ///< kCgRunning, or the reason of the end.
   };
 
-  /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`. The
-  /// system must outlive this object.
+  /// rightHandSide: #U, of weighted norm 1. The iteration converges when the weighted norm of the residual is at most
+  /// `reduction`. The system must outlive this object.
   CpuCg(const System& system, UnsetVector<Real> rightHandSide, double reduction);
 
   /// Runs up to `iterationCount` iterations; stops at convergence or breakdown.

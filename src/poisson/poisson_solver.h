@@ -39,8 +39,9 @@ class GraphSolver {
  public:
   virtual ~GraphSolver() = default;
 
-  /// values: receives the constraints and the solution, #F. It should be empty before the call, because a run uses the
-  /// most memory while the CPU solves. The name in the report is empty. Throws Error{Cancelled}, Error{Device}.
+  /// values: receives the constraints and the solution, #F. `values` should be empty before the call, because a run
+  /// needs the most memory while the CPU solves. The name in the report is empty. Throws Error{Cancelled},
+  /// Error{Device}.
   virtual SolverReport solve(GraphProblem problem, const SolverOptions& options, std::vector<double>& values,
                              const RunControl& control) = 0;
 };
@@ -49,9 +50,9 @@ class PoissonSolver {
  public:
   virtual ~PoissonSolver() = default;
 
-  /// A solver of several interpolations on one graph. A device keeps the matrix, which is the same for all of them.
-  /// Solver, graph and weights must outlive the result. Throws Error{Device}; Error{EquationLimit} for a graph that
-  /// exceeds a limit of the device.
+  /// A solver of several interpolations on one graph. A device keeps the matrix, which all interpolations have in
+  /// common. Solver, graph and weights must outlive the result. Throws Error{Device}; Error{EquationLimit} for a graph
+  /// that exceeds a limit of the device.
   [[nodiscard]] virtual std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph,
                                                              std::span<const double> weights) = 0;
 };
@@ -61,18 +62,18 @@ class PoissonSolver {
 using SolveSystem = SolverReport(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                                  const RunControl& control);
 
-/// Jacobi-preconditioned conjugate gradients in float32 under iterative refinement in double, on all cores. Where
-/// float32 stagnates, solveByEigen() continues.
+/// Jacobi-preconditioned conjugate gradients in float32 under iterative refinement in double, on all cores. If float32
+/// stagnates, solveByEigen() continues.
 [[nodiscard]] SolveSystem solveByCpuCg;
 /// Jacobi-preconditioned conjugate gradients in double on all cores, with an Eigen matrix.
 [[nodiscard]] SolveSystem solveByEigen;
 
-/// device: where the solver runs, null for a solver that needs none; must outlive the solver. Solvers on a device
-/// create their kernels here, once for many systems.
+/// device: the device on which the solver runs, or null for a solver on the CPU; must outlive the solver. Solvers on a
+/// device create their kernels here, once for many systems.
 using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 
-/// Jacobi-preconditioned conjugate gradients in float32 on the device. Below kMinDeviceTolerance, and where float32
-/// stagnates, solveByEigen() continues on the CPU.
+/// Jacobi-preconditioned conjugate gradients in float32 on the device. If the tolerance is below kMinDeviceTolerance,
+/// or if float32 stagnates, solveByEigen() continues on the CPU.
 [[nodiscard]] MakeSolver makeVulkanCgSolver;
 /// Like makeVulkanCgSolver with Jacobi iterations instead of conjugate gradients: slow, for comparison.
 [[nodiscard]] MakeSolver makeVulkanJacobiSolver;
@@ -82,7 +83,7 @@ using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 struct Solver {
   const char* name;
   bool needsDevice;
-  uint32_t storageBufferCount;  ///< Storage buffers that a kernel binds. Vulkan guarantees four.
+  uint32_t storageBufferCount;  ///< Number of storage buffers that a kernel binds. Vulkan guarantees four.
   MakeSolver* make;
 };
 

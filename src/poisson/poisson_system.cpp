@@ -14,8 +14,8 @@ namespace asdfvk {
 namespace {
 
 constexpr double kMinDistanceRatio = 1e-9;
-constexpr double kMinDistance = 1e-300;                            // For meshes whose diagonal is almost 0.
-constexpr double kMinWeight = std::numeric_limits<double>::min();  // For distances that overflow.
+constexpr double kMinDistance = 1e-300;  // Least distance, for meshes whose diagonal is almost 0.
+constexpr double kMinWeight = std::numeric_limits<double>::min();  // Least weight, for distances that overflow.
 
 // Unlike the root of a sum of squares, std::hypot neither overflows nor underflows in any unit.
 double lengthOf(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
@@ -32,8 +32,8 @@ struct WeightedGraph {
   const DualGraph& graph;
   std::span<const double> weights;
 
-  /// Calls visit(g, w_fg) for each neighbour g of face f in ascending order: once per neighbour with the sum of the
-  /// weights of its arcs, without f itself.
+  /// Calls visit(g, w_fg) once for each neighbour g of face f, in ascending order, without f itself. w_fg is the sum of
+  /// the weights of the arcs from f to g.
   template <typename Visit>
   void visitNeighbours(uint32_t face, const Visit& visit) const {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1];) {
@@ -107,7 +107,7 @@ std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
 }
 
 std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf, std::span<const double> constraints) {
-  std::vector<uint8_t> isConstrained;  // Per component.
+  std::vector<uint8_t> isConstrained;  // One entry per component.
   for (size_t face = 0; face < constraints.size(); ++face) {
     if (componentOf[face] >= isConstrained.size()) isConstrained.resize(componentOf[face] + size_t{1}, 0);
     if (std::isfinite(constraints[face])) isConstrained[componentOf[face]] = 1;
@@ -121,7 +121,7 @@ double meanOfConstraints(std::span<const double> constraints) {
   const auto count = static_cast<size_t>(
       orderedSum(constraints.size(), [&](size_t i) { return std::isfinite(constraints[i]) ? 1.0 : 0.0; }));
   if (count == 0) return 0;
-  // Division before addition: values near the largest number do not overflow.
+  // Divides before adding, so that values near the largest number do not overflow.
   return orderedSum(constraints.size(), [&](size_t i) {
     return std::isfinite(constraints[i]) ? constraints[i] / static_cast<double>(count) : 0.0;
   });

@@ -48,15 +48,15 @@ struct PoissonSystem {
 ///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g)
 ///         = sum_{g in N(f), g constrained} w_fg constraint(g) + divergence(f)
 ///
-/// Without a divergence it minimises sum w_fg (u_f - u_g)^2, and u stays within the range of the constraints. Faces
+/// Without a divergence, u minimises sum w_fg (u_f - u_g)^2, and u stays within the range of the constraints. Faces
 /// without a path of arcs to a constraint are not unknowns.
 ///
 /// weights: one per arc, see featureWeights(); > 0, finite, equal in both directions. Several arcs between two faces
 /// count as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a
 /// constrained face (Dirichlet), NaN elsewhere. divergence: #F, or empty for none; non-finite entries count as 0. For
-/// the paper's guidance it is minus the curvature. For guidance by a field it is divergenceOf(field): if the
-/// constraints are values of the field, the field is the solution. componentOf: #F, see Components::componentOf.
-/// firstGuess: #F, or empty; non-finite entries are replaced by the constraintMean.
+/// the guidance of the ASDF paper, the divergence is minus the curvature. For guidance by a field, the divergence is
+/// divergenceOf(field): if the constraints are values of the field, the field is the solution. componentOf: #F, see
+/// Components::componentOf. firstGuess: #F, or empty; non-finite entries are replaced by the constraintMean.
 [[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                                std::span<const double> constraints, std::span<const double> divergence,
                                                std::span<const uint32_t> componentOf,
@@ -76,8 +76,8 @@ struct PoissonSystem {
 /// residual = b - A x, in double. solution, residual: #U.
 void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual);
 
-/// ||D^-1 r||, D the diagonal of A: the error of each equation in the unit of the values. Unlike in ||r||, the large
-/// weights of a finely meshed patch do not hide errors elsewhere. residual: #U.
+/// ||D^-1 r||, D the diagonal of A: the error of each equation in the unit of the values. In ||r||, the large weights
+/// of a finely meshed patch would hide errors elsewhere. residual: #U.
 [[nodiscard]] double residualNorm(const PoissonSystem& system, std::span<const double> residual);
 
 /// residualNorm() of the right-hand side.

@@ -13,7 +13,7 @@ namespace asdfvk {
 
 /// Reports the progress of a solver as a fraction of its work, from the residual. A Krylov or Jacobi iteration reduces
 /// the residual by about the same factor each time, so the fraction is logarithmic between the first residual and the
-/// target. It never decreases.
+/// target. The fraction never decreases.
 class SolverProgress {
  public:
   /// rightHandNorm: residualNorm() of the right-hand side.
@@ -40,7 +40,7 @@ struct CorrectionRequest {
 };
 
 /// CorrectionRequest::reduction for the next pass. targetNorm: the norm of the residual at which the refinement ends.
-/// norm: the norm now.
+/// norm: the current norm.
 [[nodiscard]] double passReduction(double targetNorm, double norm, double minReduction);
 /// Whether a pass has reached the limit of its precision.
 [[nodiscard]] bool passStagnates(double newNorm, double norm);
@@ -54,10 +54,10 @@ struct Corrector {
   CorrectionSolver correct;
 };
 
-/// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`. It starts
-/// at the first guess and ends when the true relative residual is within the tolerance, or at the iteration limit. When
-/// a pass stagnates, the next corrector is used; when the last corrector stagnates, the refinement ends. A correction
-/// that is not finite or increases the residual is discarded. solution: #U, overwritten.
+/// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`. The
+/// refinement starts at the first guess. The refinement ends when the true relative residual is within the tolerance,
+/// or at the iteration limit. If a pass stagnates, the next corrector is used. If the last corrector stagnates, the
+/// refinement ends. A correction that is not finite or increases the residual is discarded. solution: #U, overwritten.
 [[nodiscard]] SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options,
                                              std::span<double> solution, const std::vector<Corrector>& correctors);
 

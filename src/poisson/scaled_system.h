@@ -22,9 +22,9 @@ class DiagonalScaling {
   /// residual of A e = residual.
   [[nodiscard]] const UnsetVector<Real>& residualWeights() const { return residualWeights_; }
 
-  /// b for A e = residual, of weighted norm 1. norm: residualNorm() of the residual.
+  /// Returns b for A e = residual, scaled to the weighted norm 1. norm: residualNorm() of the residual.
   [[nodiscard]] UnsetVector<Real> scaleResidual(std::span<const double> residual, double norm) const;
-  /// Makes e from y. norm: the result of scaleResidual().
+  /// Computes e from y. norm: the result of scaleResidual().
   void unscaleCorrection(std::span<const Real> y, double norm, std::span<double> correction) const;
 
  protected:

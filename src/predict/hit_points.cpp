@@ -50,7 +50,7 @@ bool HitPoints::isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit
          !isFalseHit(cone_, scene_.geometry.normals[seedFace], direction, scene_.geometry.normals[hit.face]);
 }
 
-/// The lengths that the outlier rule of the seed's own cone keeps, in normalised units.
+/// The window of the lengths that the outlier rule keeps in the cone of the seed. In normalised units.
 LengthWindow HitPoints::inlierWindow(uint32_t seed, const ConeFrame& frame) const {
   const std::span<const ConeHit> hits = hits_.of(seed);
   std::array<double, kMaxRayCount> lengths;
@@ -72,7 +72,7 @@ HitRange HitPoints::appendEmpty(size_t pointCount) {
 HitRange HitPoints::append(uint32_t seed) {
   const std::span<const ConeHit> hits = hits_.of(seed);
   const uint32_t seedFace = hits_.seeds[seed];
-  // The normals are at random places in memory: without the prefetch the cache misses take most of the time.
+  // The normals are at random places in memory. Without the prefetch, cache misses take most of the time.
   for (const ConeHit& hit : hits)
     if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
   const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);

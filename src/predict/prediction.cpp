@@ -14,7 +14,8 @@
 namespace asdfvk {
 namespace {
 
-// Number of cells that are predicted with one set of hit points. They have about 1.5 contributing seeds per cell.
+// Number of cells that are predicted with one set of hit points. Together, these cells have about 1.5 contributing
+// seeds per cell.
 constexpr size_t kBlockSize = 128;
 
 /// Predicts the faces of one block of cells after another. Cells of a block are close to each other and share the hit
@@ -53,7 +54,7 @@ class CellPredictor {
     uint32_t seed = kNoCell;
     HitRange range;
   };
-  std::vector<CachedHits> cached_;  // By seed: a hash table with open addressing; its size is a power of two.
+  std::vector<CachedHits> cached_;  // Hash table by seed, with open addressing. Its size is a power of two.
 
   // For the current cell:
   std::vector<uint32_t> remainingFaces_;
@@ -71,7 +72,7 @@ void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
   gatherNeighbours(input_.nearest.of(cell));
   for (const uint32_t face : remainingFaces_) {
     const Vec3d& normal = scene.geometry.normals[face];
-    if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // Degenerate.
+    if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // The face is degenerate.
     const VirtualCone at{scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]), normal,
                          scene.representatives[face]};
     weighNeighbours(at);
@@ -104,7 +105,7 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 }
 
 /// Copies the values of faces that were in this cell in the earlier prediction, if the contributing seeds are
-/// unchanged. The other faces become the remaining faces.
+/// unchanged. Puts the other faces into remainingFaces_.
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
   const std::span<const uint32_t> faces = input_.cells.faces[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
@@ -149,7 +150,7 @@ void CellPredictor::weighNeighbours(const VirtualCone& at) {
     kernel_.weigh(neighbourSeeds_[i], weighting_, at, &weights_[i * kPointGroupSize]);
 }
 
-/// The value that is predicted from the seeds with at least minWeightShare of the total weight.
+/// The value that is predicted from those seeds that each have at least minWeightShare of the total weight.
 double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
   float sum = 0;
   for (size_t i = 0; i < neighbourHits_.size(); ++i) sum += weights_[i];
@@ -163,7 +164,7 @@ double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
   return kernel_.value(points_.groups(), weighted_, at, neighbourHits_[0].medianLength);
 }
 
-/// The cells in the order of their seeds in the hierarchy, which puts neighbours in space next to each other.
+/// The cells in the order of their seeds in the hierarchy. In this order, neighbours in space are close to each other.
 std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds, const SeedCells& cells) {
   std::vector<uint32_t> order;
   std::vector<uint8_t> isListed(seeds.size(), 0);
@@ -192,8 +193,8 @@ void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
   });
 }
 
-/// Gives each new cell the faces around its seed that are nearer to this seed than to the seed of their cell. Returns
-/// these faces, ascending.
+/// Gives each new cell those faces around its seed that are nearer to this seed than to the seed of their current cell.
+/// Returns these faces, ascending.
 std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
                                  std::span<const uint32_t> newCells, std::vector<uint32_t>& cellOf) {
   const auto squaredDistance = [&](uint32_t face, uint32_t cell) {
@@ -249,7 +250,8 @@ std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& gr
   for (uint32_t cell = 0; cell < hits.seeds.size(); ++cell)
     if (const uint32_t seed = hits.seeds[cell]; seed != kNoFace && prediction.cellOf[seed] != cell)
       newCells.push_back(cell);
-  std::vector<uint32_t> cellOf = prediction.cellOf;  // A failure of the device leaves the prediction unchanged.
+  // A copy, so that a failure of the device leaves the prediction unchanged.
+  std::vector<uint32_t> cellOf = prediction.cellOf;
   const std::vector<uint32_t> claimed = claimFaces(graph, scene.geometry, hits.seeds, newCells, cellOf);
   SeedCells cells{std::vector<uint32_t>(graph.faceCount(), kNoCell),
                   sortIntoBuckets<uint32_t>(hits.seeds.size(), claimed.size(),

@@ -9,9 +9,9 @@
 
 /// Prediction of the shape diameter of faces that cast no rays, from the hits of the seeds around them. The hit points
 /// are on the opposite side of the shape, and most of them are visible from the face too. Each point has a distance
-/// from the barycentre of the face and an angle to the axis of the face's cone. The points in this cone, weighted by
-/// the solid angle that they represent as seen from the face, replace the hits of the face in the definition of the
-/// value (cone/cone.h). No ray is cast, and occlusion between the face and a point is not tested.
+/// from the barycentre of the face and an angle to the axis of the face's cone. In the definition of the value
+/// (cone/cone.h), the points in this cone replace the hits of the face. A point is weighted by the solid angle that it
+/// represents as seen from the face. No ray is cast, and occlusion between the face and a point is not tested.
 ///
 /// Source: reprojection of cached rays in global illumination (Ward and Heckbert 1992, "Irradiance gradients"; Bekaert,
 /// Sbert and Halton 2002, "Accelerating path tracing by re-using paths"). The gradient of the prediction is a guidance
@@ -25,14 +25,14 @@ struct PredictionOptions {
 };
 
 struct Prediction {
-  /// #F, seeds included, in the unit of the mesh; kNoValue where a face is degenerate, belongs to no cell, or has no
-  /// hit point in its cone.
+  /// #F, seeds included, in the unit of the mesh; kNoValue if a face is degenerate, belongs to no cell, or has no hit
+  /// point in its cone.
   std::vector<double> values;
   std::vector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
-/// Input of the prediction of all faces. References only.
+/// Input of the prediction of all faces. Has references and views only.
 struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
@@ -44,8 +44,8 @@ struct PredictionInput {
   std::span<const uint32_t> order;
   const Prediction& earlier;  ///< See predictValues().
 
-  /// Whether the same seeds as in the earlier prediction contribute to the faces of a cell. Faces that were in the cell
-  /// in the earlier prediction then keep their values.
+  /// Whether the same seeds as in the earlier prediction contribute to the faces of a cell. If true, faces that were
+  /// already in the cell keep their earlier values.
   [[nodiscard]] bool hasEarlierSeeds(uint32_t cell) const;
 };
 
@@ -76,9 +76,9 @@ struct ReplacedValue {
 };
 
 /// Adds the seeds in `hits` that have no cell in the prediction yet. The cell of a new seed takes those faces around
-/// the seed that are nearer to it than to the seed of their current cell. Only these faces are predicted again. The
-/// other faces keep their values, although a new seed may be near. Arguments and errors as in predictValues(). Returns
-/// the values that were replaced, by ascending face.
+/// the seed that are nearer to the new seed than to the seed of their current cell. Only these faces are predicted
+/// again. The other faces keep their values, although a new seed may be near. Arguments and errors as in
+/// predictValues(). Returns the values that were replaced, by ascending face.
 [[nodiscard]] std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                                   const SeedHitsView& hits, const PredictionOptions& options,
                                                   Prediction& prediction, DevicePredictor* device = nullptr,

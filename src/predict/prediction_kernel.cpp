@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-// Covers the rounding error of a cosine in float32, so that even a very narrow cone contains its own rays.
+// Slack for the rounding error of a cosine in float32. With the slack, even a very narrow cone contains its own rays.
 constexpr double kCosineSlack = 2e-6;
 
 struct FloatVec3 {
@@ -48,7 +48,7 @@ class GroupSum {
   Floats parts_[kPointGroupSize / kLaneCount<Floats>] = {};
 };
 
-/// The seeds of a prediction. buffer: 3 kPointGroupSize floats for each of their groups.
+/// The seeds of a prediction. buffer: 3 * kPointGroupSize floats per group of the seeds.
 struct KernelInput {
   const PointGroup* groups;
   std::span<const WeightedRange> ranges;
@@ -59,21 +59,21 @@ struct KernelInput {
 /// Sums over the points in a virtual cone.
 template <typename Floats>
 struct ConeSums {
-  /// With d = length - median length: difference: mass d; square: mass d^2.
+  /// Sums of the masses, of mass * d, and of mass * d^2. d: length minus median length.
   GroupSum<Floats> mass, difference, square;
   GroupSum<Floats> weight, weightedLength;  ///< Sums over the inliers.
 };
 
 /// The hit points: `count` entries in each array, which are 0 for points outside of the virtual cone.
 struct ConePoints {
-  float* lengths;  ///< From the virtual cone's origin.
+  float* lengths;  ///< Distances from the origin of the virtual cone.
   float* masses;   ///< The number of rays of the virtual cone that the point represents, up to a factor, times the
                    ///< seed's weight.
   float* weights;  ///< Paper: mass divided by the angle to the axis. Cgal: mass.
   size_t count;
 };
 
-/// sqrt(x) / arccos(1 - x) for 0 <= x <= 1, to a relative error of 3e-4.
+/// sqrt(x) / arccos(1 - x) for 0 <= x <= 1, with a relative error of 3e-4.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline Floats sqrtOverAngle(const Floats& x) {
   return 0.706948624f - x * (0.0564995318f + x * 0.0136869098f);
@@ -137,13 +137,14 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
   }
 }
 
-/// The median is between the lengths `low` and `high`. massToLow, massToHigh: mass of the points up to each of the two.
+/// The median is between the lengths `low` and `high`. massToLow, massToHigh: mass of the points up to `low`, and up to
+/// `high`.
 struct MedianBounds {
   float low, high, massToLow, massToHigh;
 };
 
-/// The quarter of the interval where the mass reaches `halfMass`. keyOf: maps lengths to the numbers whose median is
-/// searched.
+/// Returns the quarter of the interval in which the mass reaches `halfMass`. keyOf: maps lengths to the numbers whose
+/// median is searched.
 template <typename Floats, typename KeyOf>
 ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, const MedianBounds& bounds, float halfMass,
                                                    const KeyOf& keyOf) {
@@ -222,7 +223,7 @@ ASDFVK_ALWAYS_INLINE inline float predictedValue(const PredictionKernel::Rules& 
   }
   const float weight = kPooledShare * pooledWeight.total() + (1 - kPooledShare) * sums.weight.total();
   const float sum = kPooledShare * pooledLength.total() + (1 - kPooledShare) * sums.weightedLength.total();
-  // No length is kept where rounding left a deviation of almost 0; then all lengths are almost equal.
+  // If rounding left a deviation of almost 0, no length is kept. In this case all lengths are almost equal.
   return weight > 0 ? sum / weight : mean;
 }
 
@@ -252,8 +253,8 @@ PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionS
 
 PredictionKernel::Rules PredictionKernel::rulesOf(const Cone& cone) {
   Rules rules;
-  // In CGAL's definition the ray on the axis has the least entry of solidAngles: sin t cos^2 t, which is nearly its
-  // mean angle t.
+  // In CGAL's definition, the ray on the axis has the least entry of solidAngles, sin t cos^2 t. This number is nearly
+  // t, the mean angle that the ray represents.
   const double minAngle = cone.definition == Definition::Paper
                               ? 1 / *std::max_element(cone.weights.begin(), cone.weights.end())
                               : *std::min_element(cone.solidAngles.begin(), cone.solidAngles.end());

@@ -18,11 +18,11 @@ inline constexpr size_t kPointGroupSize = kLaneCount<Float16>;
 /// Hit points of rays, in normalised units. All arrays have one entry per point.
 struct alignas(64) PointGroup {
   float x[kPointGroupSize], y[kPointGroupSize], z[kPointGroupSize];     ///< NaN for a miss and for padding.
-  float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< The unit normal of the face hit.
+  float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< The unit normal of the hit face.
   /// The area that the ray represents at the point, divided by the unit of Cone::solidAngles.
   float solidAngleRatio[kPointGroupSize];
   float isInlier[kPointGroupSize];  ///< 1 if the ray is not an outlier in the cone of its seed, else 0.
-  uint32_t face[kPointGroupSize];   ///< The face hit.
+  uint32_t face[kPointGroupSize];   ///< The hit face.
 };
 
 /// The hit points of one seed: a range of groups.
@@ -40,7 +40,7 @@ struct WeightedRange {
 /// The cone of a face that casts no rays, in normalised units.
 struct VirtualCone {
   Vec3d origin, normal;
-  uint32_t face = 0;  ///< The face or, if it has copies, their representative. Points on it are ignored.
+  uint32_t face = 0;  ///< The face; if it has copies, their representative. Points on this face are ignored.
 };
 
 /// Seeds around a face, in normalised units. All arrays have one entry per seed.
@@ -62,8 +62,8 @@ class PredictionKernel {
   /// Precondition: this machine has the instruction set.
   explicit PredictionKernel(const Cone& cone, InstructionSet instructionSet = widestInstructionSet());
 
-  /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. ranges: ranges of
-  /// `groups`. medianLength: the approximate median distance of the points; sums are over differences from it, which
+  /// The shape diameter in normalised units; kNoValue if no point lies in the virtual cone. ranges: ranges of `groups`.
+  /// medianLength: the approximate median distance of the points; sums are over differences from this number, which
   /// reduces rounding errors.
   [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
                              const VirtualCone& at, float medianLength);

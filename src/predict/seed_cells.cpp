@@ -14,7 +14,8 @@ namespace {
 // A cell with this bit may still be replaced by a lower cell at the same distance.
 constexpr uint32_t kClaimed = uint32_t{1} << 31;
 
-/// Claims a face for `cell` unless it is assigned, or claimed by a lower cell. Returns whether it was unclaimed.
+/// Claims a face for `cell`. Has no effect if the face is assigned, or if a lower cell has claimed it. Returns whether
+/// the face was unclaimed.
 bool claim(uint32_t& cellOfFace, uint32_t cell) {
   const std::atomic_ref<uint32_t> atomic(cellOfFace);
   uint32_t seen = atomic.load(std::memory_order_relaxed);
@@ -101,7 +102,7 @@ class NearestCells::RowBuilder {
 NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                            std::span<const uint32_t> seeds, size_t neighbourCount)
     : stride_(1 + neighbourCount), nearest_(seeds.size() * stride_, kNoCell) {
-  std::vector<Vec3d> centres(seeds.size());  // Close to each other in memory, unlike the barycentres.
+  std::vector<Vec3d> centres(seeds.size());  // A copy, because these barycentres are far from each other in memory.
   forEachInParallel(seeds.size(), [&](size_t cell) {
     if (seeds[cell] != kNoFace) centres[cell] = geometry.barycentres[seeds[cell]];
   });

@@ -19,7 +19,7 @@ inline constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
 [[nodiscard]] inline double comparableSquare(const Vec3d& between) {
   constexpr uint64_t kLast = uint64_t{1} << 29;  // The last of the 24 bits.
   const double square = dot(between, between);
-  if (square < std::numeric_limits<double>::min()) return square;  // A subnormal number has few bits already.
+  if (square < std::numeric_limits<double>::min()) return square;  // A subnormal number already has few bits.
   return std::bit_cast<double>((std::bit_cast<uint64_t>(square) + kLast / 2) & ~(kLast - 1));
 }
 
@@ -34,16 +34,16 @@ struct SeedCells {
 /// empty.
 [[nodiscard]] SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds);
 
-/// For each cell a row: the cell itself, then at most neighbourCount of the cells that share an edge with it, the
-/// nearest first. Distances are between the barycentres of the seeds.
+/// For each cell, a row of cells. The row begins with the cell itself. At most neighbourCount of the cells that share
+/// an edge with it follow, beginning with the nearest. Distances are between the barycentres of the seeds.
 class NearestCells {
  public:
   NearestCells() = default;
   NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                std::span<const uint32_t> seeds, size_t neighbourCount);
 
-  /// Adds or replaces the rows of the `changed` cells. cells: for each changed cell its faces. cellOf: #F, for the
-  /// faces of all cells.
+  /// Adds or replaces the rows of the `changed` cells. cells: the faces of each changed cell. cellOf: #F, the cell of
+  /// each face.
   void update(std::span<const uint32_t> changed, const Buckets<uint32_t>& cells, std::span<const uint32_t> cellOf,
               const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds);
 

@@ -13,9 +13,9 @@
 namespace asdfvk {
 namespace {
 
-// The residual of the recurrence departs from the true residual at about 1e-7 of the first residual.
+// Rounding lets the residual of the recurrence differ from the true residual by about 1e-7 of the first residual.
 constexpr double kMinReduction = 1e-6;
-// Iterations after convergence are empty, so batches may grow; the time of a batch remains imperceptible.
+// Batches grow, because iterations after convergence do no work. A batch is still too short for a user to notice.
 constexpr uint32_t kFirstBatch = 8;
 constexpr uint32_t kMaxBatch = 64;
 constexpr double kMaxBatchSeconds = 0.05;

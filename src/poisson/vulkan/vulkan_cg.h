@@ -21,7 +21,8 @@ struct VulkanCgKernels {
 /// outlive this object.
 class VulkanCg {
  public:
-  /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`.
+  /// rightHandSide: #U, of weighted norm 1. The iteration converges when the weighted norm of the residual is at most
+  /// `reduction`.
   VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
            const Buffer& rightHandSide, double reduction);
 
@@ -32,7 +33,7 @@ class VulkanCg {
   /// Workgroups of the next dispatch: 0 after convergence or breakdown.
   [[nodiscard]] uint32_t workgroupCount() const;
   [[nodiscard]] std::vector<float> solution() const { return download(solution_); }
-  /// Moves the solution out, on the device. Precondition: no other call follows.
+  /// Returns the solution, which remains on the device. Precondition: no other call follows.
   [[nodiscard]] Buffer takeSolution() { return std::move(solution_); }
   [[nodiscard]] std::vector<float> residual() const { return download(residual_); }
   [[nodiscard]] std::vector<float> direction() const { return download(direction_); }
@@ -47,7 +48,7 @@ class VulkanCg {
   uint32_t workgroupCount_;
   uint32_t stateIndex_ = 0;
   Buffer solution_, residual_, direction_, product_, states_, sums_;
-  Buffer size_;  ///< DispatchSize of the following dispatches. The device sets it to 0 at the end.
+  Buffer size_;  ///< DispatchSize of the following dispatches. The device sets this size to 0 at the end.
   Buffer statesOnHost_;
   BindingSet productBindings_, stepBindings_;
   CommandList commands_;

@@ -19,7 +19,7 @@
 /// device.
 namespace asdfvk {
 
-/// Created once per device: shaders/poisson/equation_*.comp.
+/// The kernels shaders/poisson/equation_*.comp, created once per device.
 struct VulkanEquationKernels {
   explicit VulkanEquationKernels(const Device& device);
 
@@ -35,7 +35,8 @@ struct VulkanGraph {
   uint32_t faceCount;
   double weightScale;  ///< Factor of the weights on the device.
   Buffer arcOffsets, weights;
-  VulkanMatrix matrix;  ///< Its tailColumns are the neighbours. Each VulkanEquation sets its residual weights.
+  VulkanMatrix matrix;  ///< Its tailColumns are the neighbours of the graph. Each VulkanEquation sets the residual
+                        ///< weights of the matrix.
 };
 
 /// One equation and its solution. The solution is stored in float32 as differences from a base: from the guide or,
@@ -52,8 +53,8 @@ class VulkanEquation {
   /// The vector b of (I - S) y = b, made from the residual of the solution and scaled to the weighted norm 1.
   /// Overwritten by tryCorrection().
   [[nodiscard]] const Buffer& scaledResidual();
-  /// Adds the correction that y represents to a copy of the solution, and returns the norm of the residual of the copy.
-  /// accept() makes the copy the solution.
+  /// y represents a correction. Adds the correction to a copy of the solution, and returns the norm of the residual of
+  /// the copy. accept() makes the copy the solution.
   [[nodiscard]] double tryCorrection(const Buffer& y);
   void accept();
 
@@ -86,7 +87,7 @@ class VulkanEquation {
   double constraintMean_ = 0, valueScale_ = 1;  ///< valueScale_: factor of the values on the device.
   Buffer sources_, scaledResidual_, sums_, sumsOnHost_;
   std::array<Buffer, 2> differences_;  ///< The solution and its corrected copy.
-  uint32_t current_ = 0;               ///< The solution.
+  uint32_t current_ = 0;               ///< Index of the solution in differences_.
   std::array<std::optional<BindingSet>, 2> residualBindings_;
   CommandList commands_;
   double rightHandNorm_ = 0, residualNorm_ = 0, triedNorm_ = 0;

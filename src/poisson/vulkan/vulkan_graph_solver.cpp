@@ -33,8 +33,8 @@ class VulkanGraphSolver final : public GraphSolver {
   }
 
  private:
-  /// Ends at the tolerance or at kMinDeviceTolerance, whichever is larger, and where float32 stagnates. The result has
-  /// not converged if the tolerance is below kMinDeviceTolerance, or if float32 cannot represent the right-hand side.
+  /// Ends at the larger of the tolerance and kMinDeviceTolerance, or when float32 stagnates. The result has not
+  /// converged if the tolerance is below kMinDeviceTolerance, or if float32 cannot represent the right-hand side.
   [[nodiscard]] SolverReport solveInFloat(const GraphProblem& problem, const SolverOptions& options,
                                           std::span<double> values, const RunControl& control) const {
     VulkanEquation equation(solver_.device(), kernels_, onDevice_, problem);

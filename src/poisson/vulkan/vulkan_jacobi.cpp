@@ -15,7 +15,8 @@ namespace {
 // A stationary iteration loses nothing by a restart, and float32 does not stagnate before the residual is reduced to
 // this share.
 constexpr double kJacobiMinReduction = 1e-2;
-// Fixed: the end of the iteration depends on it, and the same input must give the same bits.
+// Iterations per submission. The number is fixed, because it determines the end of the iteration, and the same input
+// must give the same bits.
 constexpr uint32_t kBatch = 32;
 constexpr uint32_t kBindingCount = 8;
 

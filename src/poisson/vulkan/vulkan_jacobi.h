@@ -28,7 +28,7 @@ class VulkanJacobi {
   double advance(uint32_t iterationCount);
 
   [[nodiscard]] std::vector<float> solution() const;
-  /// Moves the solution out, on the device. Precondition: no other call follows.
+  /// Returns the solution, which remains on the device. Precondition: no other call follows.
   [[nodiscard]] Buffer takeSolution() { return std::move(iterates_[current_]); }
 
  private:
@@ -38,7 +38,7 @@ class VulkanJacobi {
   PoissonGrid grid_;
   uint32_t current_ = 0;  ///< Index of the newest iterate.
   Buffer iterates_[2], sums_, sumsOnHost_;
-  BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other.
+  BindingSet bindings_[2];  ///< Entry i reads iterates_[i] and writes the other iterate.
   CommandList commands_;
 };
 

@@ -14,8 +14,8 @@
 namespace asdfvk {
 namespace {
 
-// Every workgroup adds up the partial sums of all workgroups, which must be little work compared with the work on its
-// rows. A GPU has lanes to fill and adds 256 sums in one step; a CPU device has neither advantage.
+// Every workgroup adds up the partial sums of all workgroups. This must be little work compared with the work on the
+// rows of the workgroup. A GPU needs many lanes, and adds 256 sums in one step; neither is true for a CPU device.
 constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
 constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
 // A tenth of the limit is a margin for loops that the compiler adds.
@@ -51,7 +51,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
     refuse(fmt::format("{} MiB in one buffer, at most {}", (byteCount >> 20) + 1, facts.maxStorageBufferRange >> 20));
   const uint64_t laneCount = laneCountOn(facts);
   const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
-  // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
+  // Iterations of the loops of a kernel: rows and their entries, partial sums, two reduction trees.
   const uint64_t iterationCount = std::max<uint64_t>(rowsPerLane, minRowsPerLane(facts)) * (longestRow + 1) +
                                   divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
   if (facts.endsLongLoops && iterationCount > kMaxKernelIterationCount)

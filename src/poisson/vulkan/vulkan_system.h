@@ -18,15 +18,15 @@ namespace asdfvk {
 
 /// Size of the dispatches for one system.
 struct PoissonGrid {
-  uint32_t laneCount = 0;  ///< Per workgroup.
+  uint32_t laneCount = 0;  ///< Lanes per workgroup.
   uint32_t workgroupCount = 0;
 };
 
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
-/// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} if an array exceeds the binding size
-/// of the device. Also throws it if the device has DeviceFacts::endsLongLoops and a lane might need too many loop
-/// iterations.
+/// tailCount: number of entries beyond the third entry of their row. Throws Error{EquationLimit} if an array exceeds
+/// the binding size of the device. Also throws this error if the device has DeviceFacts::endsLongLoops and a lane might
+/// need too many loop iterations.
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
 
 /// Usage of vectors that kernels write and the host reads.
@@ -36,8 +36,8 @@ inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
 [[nodiscard]] Buffer makePoissonVector(const Device& device, uint64_t count);
 [[nodiscard]] std::vector<float> downloadPoissonVector(const Device& device, const Buffer& vector, size_t count);
 
-/// Adds a copy of `sums` to `onHost`, a HostVisible buffer, to the commands. Submits the commands, waits, and returns
-/// the sums.
+/// Records a command that copies `sums` to `onHost`, a HostVisible buffer. Submits the commands, waits, and returns the
+/// sums.
 [[nodiscard]] PoissonSums submitAndRead(CommandList& commands, const Buffer& sums, const Buffer& onHost);
 /// The square root of the sum of `ofWorkgroups`, one of the arrays of PoissonSums, over the workgroups of the grid.
 [[nodiscard]] double rootOfSum(std::span<const float> ofWorkgroups, const PoissonGrid& grid);
@@ -62,14 +62,14 @@ struct VulkanMatrix {
   uint32_t rowCount;
   PoissonGrid grid;
   Buffer rows, tailColumns, tailCouplings;
-  /// Weight 0 excludes a row and its column: the unknown stays 0. Precondition: the right-hand side is 0 there.
+  /// Weight 0 excludes a row and its column: the unknown stays 0. Precondition: the right-hand side of such a row is 0.
   Buffer residualWeights;
 };
 
 /// A reduction of the residual by an iteration in float32.
 struct DevicePass {
   const VulkanMatrix& matrix;
-  const Buffer& rightHandSide;  ///< #U, of weighted norm 1. It represents a residual of norm `norm`.
+  const Buffer& rightHandSide;  ///< #U, of weighted norm 1. The vector represents a residual of norm `norm`.
   double norm;
   double reduction;  ///< The pass may end when the norm is at or below this share of `norm`.
   uint32_t maxIterations;

@@ -53,15 +53,15 @@ class PredictionBatches {
   void forEachFace(const Part& part, const Visit& visit) const;
 
   const PredictionInput& input_;
-  std::vector<uint8_t> hasEarlierSeeds_;  // Per cell.
-  std::vector<uint32_t> faceCounts_;      // Per cell.
+  std::vector<uint8_t> hasEarlierSeeds_;  // One entry per cell.
+  std::vector<uint32_t> faceCounts_;      // One entry per cell.
   size_t faceCount_ = 0, doneCount_ = 0;
   size_t nextCell_ = 0;  // Index in the order of the input.
   uint32_t nextFace_ = 0;
 
   std::vector<Part> parts_;
   std::vector<uint32_t> seeds_;
-  std::vector<uint32_t> placeOf_;  // Per seed: its place in the batch, or kNoSeed.
+  std::vector<uint32_t> placeOf_;  // For each seed, its place in the batch, or kNoSeed.
   size_t batchFaceCount_ = 0;
 };
 

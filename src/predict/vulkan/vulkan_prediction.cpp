@@ -31,7 +31,8 @@ constexpr uint64_t kMaxPointByteCount = 32u << 20;
 // The time of a face is proportional to the number of rays.
 constexpr size_t kFirstBatchRayCount = size_t{1} << 18, kMaxBatchRayCount = size_t{1} << 23;
 constexpr size_t kMaxBatchFaceCount = size_t{1} << 18;
-constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;  // Every device has 128 lanes.
+// Every Vulkan device supports workgroups of 128 lanes.
+constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 glsl::vec3 toGlsl(const Vec3d& v) {
@@ -211,7 +212,7 @@ class VulkanPredictor final : public DevicePredictor {
   PredictionBatchSize batchSize_;
   PredictionKernel::Rules rules_;
   Buffer faces_;   // A PredictionFace per face.
-  Buffer values_;  // Per face, see predict_faces.comp.
+  Buffer values_;  // One value per face, see predict_faces.comp.
   std::optional<Memory> memory_;
   CommandList commands_;
 };

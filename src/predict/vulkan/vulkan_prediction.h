@@ -12,7 +12,7 @@
 
 namespace asdfvk {
 
-/// The compiled shaders/predict/*.comp for one device and one kind of cone; serves any number of meshes.
+/// The compiled shaders/predict/*.comp for one device and one kind of cone, for any number of meshes.
 class VulkanPredictionKernels {
  public:
   /// Throws Error of kind Device.
@@ -36,8 +36,8 @@ class VulkanPredictionKernels {
   ComputePipeline points_, faces_;
 };
 
-/// The largest batch within 32 MiB of hit points, the limits of the device, and a number of rays that keeps a
-/// submission short.
+/// The largest batch under three conditions: it has at most 32 MiB of hit points; it is within the limits of the
+/// device; its number of rays is small enough for a short submission.
 [[nodiscard]] PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels);
 
 /// Uploads the faces of the scene. Scene, cone and kernels must outlive the result. Values differ from the values of
