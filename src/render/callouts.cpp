@@ -23,10 +23,10 @@ void drawRing(Image& image, const Point2d& centre, double radius, double width, 
          [&](const Point2d& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
-/// The pixel of the callout's place. If only the opposite point is visible, the pixel of the opposite point.
+/// The pixel of the place of the callout. If only the opposite point is visible, the pixel of the opposite point.
 Point2d pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
-    constexpr double kBeyond = 4;  // More than the diagonal of the normalised box, which is at most 2 sqrt(3).
+    constexpr double kBeyond = 4;  // A distance above the diagonal of the normalised box, which is at most 2 sqrt(3).
     return !isHitBetween(scene.bvh, scene.mesh, point, camera.toViewer, kHidden, kBeyond);
   };
   Vec3d point = scene.bvh.normalization.toNormalized(callout.place);

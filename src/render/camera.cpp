@@ -15,7 +15,7 @@ namespace {
 /// Points at most this far above the lowest point touch the floor. Relative to the longest side of the box.
 constexpr double kFloorShare = 0.025;
 
-/// Twice the signed area of the triangle; positive where c is left of the line from a to b.
+/// Twice the signed area of the triangle; positive if c is left of the line from a to b.
 double turn(const Point2d& a, const Point2d& b, const Point2d& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -41,7 +41,7 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
   const Vec3d up = directionOf(upwards);
   const size_t axis = static_cast<size_t>(upwards) % 3;
-  // Conventions of modelling programs: the front is z with y up, and -y with z up.
+  // As in modelling programs, the front is z if y is up, and -y if z is up.
   const size_t usualFront = axis == 2 ? 1 : 2, otherFront = axis == 0 ? 1 : 0;
   const bool isBroadside = boxSize[otherFront] >= boxSize[usualFront];
   Vec3d front;

@@ -28,12 +28,14 @@ struct View {
 
 [[nodiscard]] Vec3d directionOf(Up up);
 
-/// Stability of the points on a floor: the area of the convex hull of the lowest points, divided by the area of the
-/// bounding box seen from above. Negative (unstable) if the mean of the points is outside of the hull.
+/// Stability of the points on a floor. The stability is the area of the convex hull of the lowest points, divided by
+/// the area of the bounding box as seen from above. The result is negative (unstable) if the mean of the points is
+/// outside of the hull.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// A direction in which the points are stable: Y is tested first, then Z. Y if no direction is stable. Static stability
-/// is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
+/// A direction in which the points are stable: Y is tested first, then Z, then the others. Returns Y if no direction is
+/// stable. Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of
+/// Man-Made Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);
 
 /// A part of the picture, in pixels from its top left corner.
@@ -54,7 +56,8 @@ struct Camera {
   }
 };
 
-/// The camera of `view` in which the points fill `area`, centred. Without an extent, the area spans one unit of length.
+/// The camera of `view` in which the points fill `area`, centred. If the points have no extent, the area spans one unit
+/// of length.
 [[nodiscard]] Camera frameCamera(std::span<const Vec3d> points, const View& view, const PixelArea& area);
 
 }  // namespace asdfvk

@@ -103,7 +103,7 @@ double columnWidth(const ColourBar& bar, double pictureWidth) {
 
 void drawColourBar(Image& image, const ColourBar& bar, const PixelArea& column) {
   const double cap = bar.capHeight;
-  // Whole pixels, so that there are no seams between the rows of the bar.
+  // The sizes are whole pixels, so that there are no seams between the rows of the bar.
   const double height = std::max(1.0, std::round(column.height * kHeightShare));
   const double top = std::round(column.top + (column.height - height + kTitleGap * cap) / 2);
   const double left = column.left + (column.width - bodyWidth(bar)) / 2, width = kBarWidth * cap;

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Greatest angle between the normals of two faces across which normals are smoothed.
+/// Normals are smoothed across an edge if the normals of its two faces differ by at most this angle.
 inline constexpr double kCreaseAngleDegrees = 40;
 
 /// #F: unit normals at the three corners of each face; zero for a degenerate face. A corner has the sum of the normals

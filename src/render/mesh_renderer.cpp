@@ -12,10 +12,11 @@
 namespace asdfvk {
 namespace {
 
-constexpr int kSamples = 4;             ///< Samples per side of a pixel.
-constexpr int kBandRows = 256;          ///< Rows of samples in a band. Every band reads all faces.
-constexpr size_t kBandsAtOnce = 4;      ///< Bands between two checkpoints.
-constexpr double kThroughShare = 0.45;  ///< Share of the alarm colour in the colour of faces in front of it.
+constexpr int kSamples = 4;         ///< Samples per side of a pixel.
+constexpr int kBandRows = 256;      ///< Rows of samples in a band. Every band reads all faces.
+constexpr size_t kBandsAtOnce = 4;  ///< Bands between two checkpoints.
+/// Share of the alarm colour in the colour of faces that hide alarming triangles.
+constexpr double kThroughShare = 0.45;
 static_assert(kBandRows % kSamples == 0);
 
 class MeshRenderer {

@@ -32,7 +32,8 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// For example "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", or "nowhere thinner than 0.8: least 1.2".
+/// The legend of the thin places, for example "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", or
+/// "nowhere thinner than 0.8: least 1.2".
 std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = "thinner than " + limitText(*thickness.thinnerThan);
   const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);

@@ -17,8 +17,9 @@ struct PictureStyle {
 /// Style of the picture in pages, for browsers without WebGL 2.
 inline constexpr PictureStyle kPagePicture{.width = 480, .height = 360, .textScale = 1.4};
 
-/// The requested view with its up direction: if unset, z for an STL file `input`, otherwise guessUp(). If findsThin,
-/// bestViewOf() chooses the angles for the thin places. Precondition: result.scene is set.
+/// The requested view with an up direction. If the requested view has no up direction, the direction is z for an
+/// `input` in STL or 3MF, and guessUp() for other formats. If findsThin, bestViewOf() chooses the angles for the thin
+/// places. Precondition: result.scene is set.
 [[nodiscard]] View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin);
 
 // Precondition of both functions: result.scene is set. Both throw Error{Cancelled}.

@@ -12,7 +12,7 @@ namespace {
 
 /// First and last whole number i in [begin, end) with low <= i + 0.5 <= high. If there is none, last < first.
 std::pair<int, int> centresWithin(double low, double high, int begin, int end) {
-  // Conversions instead of std::ceil and std::floor, which are calls without SSE 4.1.
+  // Uses conversions, because without SSE 4.1, std::ceil and std::floor are function calls.
   const double from = std::clamp(low - 0.5, double(begin), double(end));
   const double to = std::clamp(high - 0.5, double(begin) - 1, double(end) - 1);
   const int first = static_cast<int>(from), last = static_cast<int>(to);
@@ -30,7 +30,8 @@ SampleRows::SampleRows(int width, int top, int bottom, int perSide)
 
 void SampleRows::draw(uint32_t index, const std::array<Projected, 3>& corners) {
   const auto& [a, b, c] = corners;
-  const double shift = 0.5 - 0.5 / perSide_;  // The greatest distance of a sample from the centre of its square.
+  // The greatest distance of a sample from the centre of its square, along one axis.
+  const double shift = 0.5 - 0.5 / perSide_;
   const auto [low, high] = std::minmax({a.y, b.y, c.y});
   const auto [firstRow, lastRow] = centresWithin(low - shift, high + shift, top_, bottom_);
   if (firstRow > lastRow) return;

@@ -41,9 +41,10 @@ struct SampleGrid {
 
 inline constexpr uint32_t kNoSample = 0xffffffff;
 
-/// The samples of the rows [top, bottom). A sample has the nearest of the drawn triangles and its depth. With one
-/// sample per pixel, a sample is at the centre of its square. With several, the samples of a pixel are on a rotated
-/// grid, so that all of them differ in x and in y. This smooths edges that are nearly vertical or horizontal.
+/// The samples of the rows [top, bottom). For each sample, stores the nearest of the drawn triangles and the depth of
+/// this triangle. Each sample has a square of its pixel. With one sample per pixel, the sample is at the centre of its
+/// square. With several samples per pixel, the samples are on a rotated grid, so that all of them differ in x and in y.
+/// This smooths edges that are nearly vertical or horizontal.
 class SampleRows {
  public:
   SampleRows(int width, int top, int bottom, int perSide = 1);
@@ -56,7 +57,7 @@ class SampleRows {
   void draw(uint32_t index, const std::array<Projected, 3>& corners);
 
   [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
-  /// Minus infinity if there is no triangle.
+  /// Depth of a sample; minus infinity if the sample has no triangle.
   [[nodiscard]] float depthAt(int column, int row) const { return depths_[indexOf(column, row)]; }
   [[nodiscard]] std::vector<float> takeDepths() && { return std::move(depths_); }
 

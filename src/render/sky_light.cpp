@@ -21,8 +21,8 @@ constexpr int kMinSkyCount = 16, kMaxSkyCount = 96, kSkyPerLamp = 4;
 /// Limit on the number of faces drawn into all depth maps of the sky, divided by the side of a map in texels.
 constexpr size_t kFacesPerTexel = 48'000;
 constexpr int kMaxMapSide = 512;  ///< Greatest side of a depth map, in texels.
-/// Distance in texels by which points are lifted from their surface, so that no plane shadows itself. It is above
-/// sqrt(2), the greatest distance of a point from the texels that it is compared with.
+/// Distance in texels by which points are lifted from their surface, so that no plane shadows itself. The distance is
+/// above sqrt(2), because a point is compared with texels at distances of up to sqrt(2).
 constexpr double kLift = 1.6;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));

@@ -9,7 +9,8 @@
 namespace asdfvk {
 
 /// Light of a sky and of a lamp, with soft shadows from a depth map per direction of light (Williams 1978, Casting
-/// Curved Shadows on Curved Surfaces). Both move with the camera; the lamp is behind the viewer, above and to the left.
+/// Curved Shadows on Curved Surfaces). The sky and the lamp move with the camera; the lamp is behind the viewer, above
+/// and to the left.
 class SkyLight {
  public:
   /// pictureSide: longer side in pixels. Precondition: the scene has a face that rays can hit. Throws Error{Cancelled}.
@@ -24,11 +25,11 @@ class SkyLight {
     SampleGrid grid;
     double radiance = 0;
     double reach = 0;           ///< The shadow of a surface fades over this distance and ends there.
-    std::vector<float> depths;  ///< Per texel, the depth of the surface that is nearest to the light.
+    std::vector<float> depths;  ///< For each texel, the depth of the surface that is nearest to the light.
   };
 
-  /// Share of the light that reaches the point, interpolated bilinearly between texels. The share is 1 if the surface
-  /// of the depth map is not in front of the point, or at least `reach` in front of it; otherwise between 0 and 1.
+  /// Share of the light that reaches the point, interpolated bilinearly between texels. The share is below 1 if the
+  /// surface of the depth map is in front of the point by less than `reach`. In all other cases the share is 1.
   [[nodiscard]] double litShare(const Source& source, const Vec3d& point) const;
 
   Vec3d toViewer_;

@@ -25,8 +25,9 @@ struct ThinPlaces {
   bool isFailure = false;
 };
 
-/// Returns `view` with the best of twelve pairs of azimuth and elevation: the pair with the greatest sum, over regions,
-/// of the square root of the visible area. regions: region of each triangle. Unchanged if no pair shows a region.
+/// Returns `view` with the best of twelve pairs of azimuth and elevation. Quality of a pair: sum, over the regions, of
+/// the square root of the visible area. regions: region of each triangle. The view is unchanged if no pair shows a
+/// region.
 [[nodiscard]] View bestViewOf(const TraceScene& scene, Surface surface, std::span<const uint32_t> regions,
                               const View& view);
 

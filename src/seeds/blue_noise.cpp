@@ -12,11 +12,11 @@
 namespace asdfvk {
 namespace {
 
-/// Estimates the radius at which Poisson disks fill the candidates with about `count` centres, none of them in the disk
-/// of another. A disk in the plane then has 2.2 times the faces per centre, because maximal random packings of disks of
-/// half the radius cover 0.55 of the plane. The estimate is the root mean square, over random candidates, of the radius
-/// that contains this number of faces. Precondition: at least one candidate, count at least 1. Takes about one pass
-/// over the graph.
+/// Estimates the radius at which about `count` Poisson disks fill the candidates; no centre is in the disk of another
+/// centre. In the plane, a disk of this radius contains 2.2 times as many faces as there are faces per centre. Reason:
+/// maximal random packings of disks of half the radius cover 0.55 of the plane. For random candidates, the function
+/// measures the radius that contains this number of faces. The estimate is the root mean square of these radii.
+/// Precondition: at least one candidate, count at least 1. Takes about one pass over the graph.
 float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengths,
                          std::span<const uint32_t> candidates, uint64_t count, uint64_t randomSeed) {
   ASDFVK_CHECK(!candidates.empty());
@@ -34,14 +34,14 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
     SurfaceBall::Member member;
     double faceCount = 0;
     while (faceCount < wantedFaceCount && ball.next(member)) ++faceCount;
-    // Extrapolates for a component that is smaller than the disk.
+    // If the component is smaller than the disk, this factor extrapolates.
     squaredRadii += double{member.distance} * double{member.distance} * wantedFaceCount / faceCount;
   }
   return std::max(kMinArcLength, static_cast<float>(std::sqrt(squaredRadii / sampleCount)));
 }
 
-// A start radius that was too small is multiplied by kRadiusGrowth, at most kMaxGrowthCount times, and then set to
-// infinity. If there are fewer seeds than components, no finite radius is large enough.
+// A start radius that was too small is multiplied by kRadiusGrowth. After kMaxGrowthCount multiplications the radius is
+// set to infinity. If there are fewer seeds than components, no finite radius is large enough.
 constexpr int kMaxGrowthCount = 4;
 constexpr float kRadiusGrowth = 1.5f;
 
@@ -67,8 +67,8 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
   }
 }
 
-// On a smooth mesh the distances between close seeds are nearly integers, so that different densities would round to
-// the same spacing. Each arc is therefore stretched at random by up to this share.
+// On a smooth mesh, the distances between close seeds are nearly integers. Without a change of the lengths, different
+// densities would give the same spacing. Therefore each arc is stretched at random by up to this share.
 constexpr double kJitter = 0.25;
 
 double jitterOf(uint32_t face, uint32_t neighbour) {

@@ -8,9 +8,9 @@
 namespace asdfvk {
 
 /// Further seeds for connected components in which no seed has a value. Each call of next() returns a batch with faces
-/// of every such component; all of them become seeds. The number of faces per component is 1 in the first batch and
-/// doubles with each batch, until a face of the component has a value. A component of n faces without any value takes
-/// about log2(n) batches.
+/// of every such component. All faces of the batch become seeds. The number of faces per component is 1 in the first
+/// batch and doubles with each batch, until a face of the component has a value. A component of n faces without any
+/// value takes about log2(n) batches.
 ///
 ///     ComponentSeeds further(componentOf, values, untriedFaces, randomSeed);
 ///     for (auto batch = further.next(values); !batch.empty(); batch = further.next(values)) traceInto(values, batch);
@@ -21,8 +21,8 @@ class ComponentSeeds {
   ComponentSeeds(std::span<const uint32_t> componentOf, std::span<const double> values,
                  std::span<const uint32_t> untriedFaces, uint64_t randomSeed);
 
-  /// The next batch, ascending; a face occurs in one batch only. Empty if each component has a value or no faces left.
-  /// values: #F, including the values of the last batch.
+  /// Returns the next batch, ascending. A face occurs in one batch only. The batch is empty if every component has a
+  /// value or no untried face. values: #F, including the values of the last batch.
   [[nodiscard]] std::vector<uint32_t> next(std::span<const double> values);
 
  private:
@@ -32,7 +32,7 @@ class ComponentSeeds {
   };
 
   std::vector<uint32_t> order_;
-  /// One per component that has no value and has untried faces, in the order of the components.
+  /// One queue per component that has no value and has untried faces, in the order of the components.
   std::vector<Queue> queues_;
   size_t batchSize_ = 1;
 };

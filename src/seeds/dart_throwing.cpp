@@ -10,8 +10,8 @@
 namespace asdfvk {
 namespace {
 
-// Positive floats are ordered like their bits. The floats that differ only in the low bits of the mantissa form one
-// level, numbered by the bits that they share.
+// The order of positive floats is the order of their bits. Floats that differ only in the low bits of the mantissa form
+// one level. Their common bits are the number of the level.
 constexpr int kLevelShift = std::numeric_limits<float>::digits - 1 - std::countr_zero(kRadiiPerOctave);
 constexpr uint32_t levelOf(float distance) { return std::bit_cast<uint32_t>(distance) >> kLevelShift; }
 constexpr float lowestOf(uint32_t level) { return std::bit_cast<float>(level << kLevelShift); }
@@ -25,14 +25,14 @@ ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float star
   ASDFVK_CHECK_OP(count, <=, waiting.size());
   ASDFVK_CHECK_OP(startRadius, >=, kMinArcLength);
   const uint32_t top = levelOf(startRadius);
-  std::vector<std::vector<uint32_t>> waitingAt(top - kBottom + 1);  // By level, from kBottom.
+  std::vector<std::vector<uint32_t>> waitingAt(top - kBottom + 1);  // Waiting faces by level, beginning with kBottom.
   waitingAt.back() = std::move(waiting);
   ThrownDarts darts;
   darts.faces.reserve(static_cast<size_t>(count));
   for (uint32_t level = top; darts.faces.size() < count; --level) {
     const std::vector<uint32_t> tried = std::exchange(waitingAt[level - kBottom], {});
     const float radius = lowestOf(level);
-    bool hasMore = false;  // More darts than `count` would fit.
+    bool hasMore = false;  // True if more darts than `count` fit at this radius.
     for (size_t i = 0; i < tried.size() && !hasMore; ++i) {
       constexpr size_t kAhead = SurfaceDistances::kPrefetchDistance;
       if (i + kAhead < tried.size()) distances.prefetch(tried[i + kAhead]);

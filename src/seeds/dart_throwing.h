@@ -13,15 +13,15 @@ inline constexpr uint32_t kRadiiPerOctave = 64;
 
 struct ThrownDarts {
   std::vector<uint32_t> faces;  ///< The seeds, in the order of their selection.
-  /// Whether all darts were found at the start radius. More darts would then fit, and a part of the surface may have
-  /// none.
+  /// Whether all darts were found at the start radius. If true, more darts would fit, and a part of the surface may be
+  /// without darts.
   bool leaveGaps = false;
 };
 
 /// Hierarchical dart throwing (McCool and Fiume, "Hierarchical Poisson disk sampling distributions", 1992) on the dual
-/// graph. At each radius every candidate face, in order, becomes a dart if its distance to every dart is at least the
-/// radius. Then the radius decreases. Difference from the paper: a face is skipped until the radius is at most its
-/// distance to the darts, so that small steps of the radius cost no more than large ones.
+/// graph. At each radius, the candidate faces are tested in order. A face becomes a dart if its distance to every dart
+/// is at least the radius. Then the radius decreases. Difference from the paper: a face is skipped until the radius is
+/// at most its distance to the darts. Therefore small steps of the radius take no more time than large steps.
 ///
 /// waiting: the candidate faces, in order. count: at most their number.
 /// startRadius: kMinArcLength or more; infinity gives farthest-point sampling.

@@ -22,7 +22,8 @@ uint32_t stepOf(double tangent) {
   return std::min(kBinsPerSide - 1, static_cast<uint32_t>(std::max(0.0, share * kBinsPerSide)));
 }
 
-// The largest level such that at most `count` new faces fill every bin up to it, or up to its last candidate.
+// The largest level to which `count` new faces can fill all bins. A bin with too few candidates is filled to its last
+// candidate.
 uint64_t levelOf(const BinCounts& chosen, const BinCounts& available, uint64_t count) {
   const auto neededFor = [&](uint64_t level) {
     uint64_t needed = 0;
@@ -30,7 +31,7 @@ uint64_t levelOf(const BinCounts& chosen, const BinCounts& available, uint64_t c
       needed += std::min(available[bin], level - std::min(level, chosen[bin]));
     return needed;
   };
-  uint64_t low = 0, high = uint64_t{1} << 33;  // Bisection; high exceeds any number of faces.
+  uint64_t low = 0, high = uint64_t{1} << 33;  // Bisection. `high` exceeds any number of faces.
   while (high - low > 1) {
     const uint64_t middle = low + (high - low) / 2;
     (neededFor(middle) <= count ? low : high) = middle;

@@ -11,8 +11,8 @@
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
-/// Samplers: selection of seeds, the faces that cast rays. A new sampler requires a file with its function, and here
-/// the declaration of that function and a row of kSamplers.
+/// Samplers: selection of seeds, the faces that cast rays. A new sampler requires a file with its function. This header
+/// needs the declaration of the function and a row of kSamplers.
 namespace asdfvk {
 
 /// The faces to select from. The members must outlive this object.
@@ -48,31 +48,30 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 /// Poisson-disk sampling of the dual graph in the distances of arcLengths(), see throwDarts(). The radius of
 /// the disks decreases from 1.25 times an estimate of the radius that gives `count` seeds.
 ///
-/// For some radius r no new seed is nearer than r to another seed, and no candidate of a component that has a seed is
-/// farther than (1 + 1/64) r from all seeds. The covering radius is therefore at most 2 (1 + 1/64) times the smallest
-/// that is possible with this number of seeds (Gonzalez, see farthestPointSeeds()).
+/// There is a radius r with two properties. No new seed is nearer than r to another seed. In each component that has a
+/// seed, every candidate is within (1 + 1/64) r of a seed. Therefore the covering radius is at most 2 (1 + 1/64) times
+/// the smallest possible one for this number of seeds (Gonzalez, see farthestPointSeeds()).
 [[nodiscard]] SampleSeeds blueNoiseSeeds;
 
 /// Blue noise with arcs stretched by the square root of the density, so that the spacing is proportional to
-/// density^-1/2. On smooth meshes the number of seeds per face is proportional to the density within 10 to 20 % while
-/// at most a tenth of the faces are seeds. With more seeds, all faces of the dense parts are seeds.
+/// density^-1/2. On smooth meshes, if at most a tenth of the faces are seeds, the number of seeds per face is
+/// proportional to the density within 10 to 20 %. With more seeds, all faces of the dense parts are seeds.
 [[nodiscard]] SampleSeedsByDensity weightedBlueNoiseSeeds;
 
 /// Farthest-point sampling (Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985) in the
-/// distances of arcLengths(). Each seed is, within a tolerance of 1/64, the candidate that is farthest from all seeds
-/// before it; the tolerance makes its search constant time (see throwDarts()). The covering radius is at most
-/// 2 (1 + 1/64) times the smallest. A component without a seed is infinitely far away. The first seed and the choice
-/// between equal distances are random. Takes about log(count) times as long as blue noise.
+/// distances of arcLengths(). Within a tolerance of 1/64, each seed is the candidate that is farthest from all earlier
+/// seeds. The tolerance allows a search in constant time (see throwDarts()). The covering radius is at most 2 (1 +
+/// 1/64) times the smallest possible one. A component without a seed is infinitely far away. The first seed and the
+/// choice between equal distances are random. Takes about log(count) times as long as blue noise.
 [[nodiscard]] SampleSeeds farthestPointSeeds;
 
 /// Normal-space sampling (Rusinkiewicz and Levoy, "Efficient variants of the ICP algorithm", 2001; future work of the
-/// ASDF paper). Each bin of normals has the same number of seeds, existing seeds included, as long as it has
-/// candidates. The choice within a bin is random. Interpolation from these seeds has larger errors than from a random
-/// selection.
+/// ASDF paper). Bins of normals with enough candidates have the same number of seeds, existing seeds included. The
+/// choice within a bin is random. Interpolation from these seeds has larger errors than from a random selection.
 [[nodiscard]] SampleSeeds normalSpaceSeeds;
 
-/// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side a bin is 10
-/// degrees wide. Each axis is in the middle of a bin, so that rounding does not distribute an axis-aligned wall over
+/// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side, each bin is
+/// 10 degrees wide. Each axis is in the middle of a bin, so that rounding does not distribute an axis-aligned wall over
 /// several bins.
 inline constexpr uint32_t kBinsPerSide = 9;
 inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
@@ -82,10 +81,10 @@ inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
 struct Sampler {
   const char* name;
   SampleSeeds* sample;
-  /// Null except for adaptive samplers. Of those, `sample` selects half of the seeds and `refine` the other half, which
-  /// is denser where the prediction from the first half has a large error indicator.
+  /// Null except for adaptive samplers. In an adaptive sampler, `sample` selects half of the seeds and `refine` selects
+  /// the other half. The second half is denser where the prediction from the first half has a large error indicator.
   SampleSeedsByDensity* refine = nullptr;
-  /// Whether all sets of candidates are equally likely, so that any of the seeds can be held out without bias.
+  /// Whether all sets of candidates are equally likely. If true, any of the seeds can be held out without bias.
   bool isUniform = false;
 };
 

@@ -10,7 +10,7 @@
 namespace asdfvk {
 namespace {
 
-// NaN, from coordinates whose squares overflow, becomes the maximum.
+// Limits a length. NaN, which comes from coordinates whose squares overflow, becomes the maximum.
 float limitedLength(double length) {
   return std::max(kMinArcLength, length < kMaxArcLength ? static_cast<float>(length) : kMaxArcLength);
 }
@@ -54,9 +54,9 @@ void SurfaceDistances::visit(const Pending& from, float limit, const Put& put) {
 }
 
 // The order of the visits does not change the distances: addition in float is monotonic, so that each distance becomes
-// the least sum over all paths. The faces are therefore visited in the order of a queue (Moore, "The shortest path
-// through a maze", 1959), which is faster than a heap while paths have few arcs. Farther faces are visited in the order
-// of a heap (Dijkstra 1959), which bounds the time for any arc lengths.
+// the least sum over all paths. Near faces are visited in the order of a queue (Moore, "The shortest path through a
+// maze", 1959), which is faster than a heap if paths have few arcs. Farther faces are visited in the order of a heap
+// (Dijkstra 1959), which bounds the time for any arc lengths.
 void SurfaceDistances::add(std::span<const uint32_t> seeds, float limit) {
   for (uint32_t seed : seeds) {
     distances_[seed] = 0;

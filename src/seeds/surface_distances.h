@@ -12,8 +12,8 @@
 /// Distances between faces along the arcs of the dual graph.
 namespace asdfvk {
 
-/// Dihedral angle at which an arc is sqrt(2) long. Concave edges separate the parts of a shape, and the shape diameter
-/// function changes more across them than across convex edges.
+/// Dihedral angle at which an arc is sqrt(2) long. Concave edges separate the parts of a shape. The shape diameter
+/// function changes more across concave edges than across convex edges.
 inline constexpr double kConcaveAngleDegrees = 10;
 inline constexpr double kConvexAngleDegrees = 20;
 
@@ -36,7 +36,7 @@ class SurfaceDistances {
   /// arcLengths: aligned with graph.neighbours, positive, the same in both directions. Starts without seeds.
   SurfaceDistances(const DualGraph& graph, std::span<const float> arcLengths);
 
-  /// Adds seeds. Afterwards each distance below `limit` is exact; larger ones may be overestimated.
+  /// Adds seeds. After the call, each distance below `limit` is exact; larger distances may be overestimated.
   /// Precondition: limits do not grow from call to call until clear().
   void add(std::span<const uint32_t> seeds, float limit);
 
@@ -50,7 +50,7 @@ class SurfaceDistances {
     prefetchMemory(&distances_[face]);
     prefetchMemory(&graph_.offsets[face]);
   }
-  /// Prefetches the memory that the addition of the face accesses next. Call it some time after prefetch().
+  /// Prefetches the memory that the addition of the face accesses next. Call this function some time after prefetch().
   void prefetchArcs(uint32_t face) const {
     prefetchMemory(graph_.neighbours.data() + graph_.offsets[face]);
     prefetchMemory(arcLengths_.data() + graph_.offsets[face]);
@@ -65,14 +65,15 @@ class SurfaceDistances {
     uint32_t parent = 0;  ///< The face before `face` on the path, or `face` itself.
   };
 
-  /// Calls put(Pending) for the neighbours whose distance the path over this face lowers to less than `limit`.
+  /// Calls put(Pending) for each neighbour to which the path over this face is shorter than its distance and than
+  /// `limit`.
   template <typename Put>
   void visit(const Pending& from, float limit, const Put& put);
 
   const DualGraph& graph_;
   std::span<const float> arcLengths_;
   std::vector<float> distances_;  ///< #F
-  std::vector<Pending> pending_;  ///< Empty between calls; it is a member so that its memory is reused.
+  std::vector<Pending> pending_;  ///< Empty between calls. A member, so that its memory is reused.
 };
 
 /// The faces around a face by ascending distance (Dijkstra's algorithm), for one centre after another; the memory is
@@ -83,7 +84,7 @@ class SurfaceBall {
   SurfaceBall(const DualGraph& graph, std::span<const float> arcLengths);
 
   struct Member {
-    float distance = 0;  ///< From the centre.
+    float distance = 0;  ///< Distance from the centre.
     uint32_t face = 0;
   };
 
@@ -96,8 +97,8 @@ class SurfaceBall {
  private:
   const DualGraph& graph_;
   std::span<const float> arcLengths_;
-  std::vector<float> distances_;   ///< #F; infinite except for the touched faces.
-  std::vector<uint32_t> touched_;  ///< Since startAt().
+  std::vector<float> distances_;   ///< #F; infinite except for the faces in touched_.
+  std::vector<uint32_t> touched_;  ///< Faces that have a distance since startAt().
   std::vector<Member> heap_;
 };
 

@@ -28,8 +28,8 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
-  // Expanding a label again changes nothing if no later expansion has changed a face, because an expansion is optimal
-  // for its label.
+  // An expansion is optimal for its label. Therefore a repeated expansion changes nothing if no other expansion has
+  // changed a face in the meantime.
   uint32_t unchangedCount = 0;
   for (uint32_t round = 0; round < limits.maxRoundCount; ++round)
     for (uint32_t label = 0; label < labelCount; ++label) {
@@ -46,10 +46,10 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   return energy;
 }
 
-// Nodes on the source's side take the label. Let x be 1 for such nodes and 0 for the others, and w the cost of the edge
-// of f and g. If the labels of f and g are equal, the edge costs w if x_f and x_g differ: capacity w in both
-// directions. If the labels differ, the edge costs w unless x_f = x_g = 1. This equals w - w/2 (x_f + x_g), plus w/2 if
-// x_f and x_g differ.
+// Nodes on the side of the source take the label. Let x be 1 for such nodes and 0 for the others, and w the cost of the
+// edge of f and g. If the labels of f and g are equal, the edge costs w if x_f and x_g differ: capacity w in both
+// directions. If the labels differ, the edge costs 0 for x_f = x_g = 1, and w otherwise. This cost equals w - w/2 (x_f
+// + x_g), plus w/2 if x_f and x_g differ.
 bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label) {
   nodeOf_.resize(labels.size());
   gains_.clear();

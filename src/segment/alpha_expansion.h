@@ -45,10 +45,10 @@ struct LabelProblem {
 [[nodiscard]] double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels);
 
 /// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
-/// Expanding a label gives the label to the set of faces that lowers the energy most; of equally good sets, to the
-/// smallest. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What
-/// Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face for which the label is forbidden has no node.
-/// Deterministic. An object reuses its memory.
+/// The expansion of a label gives the label to the set of faces that lowers the energy most. If several sets are
+/// equally good, the smallest of them gets the label. The graph has a node per face that can change, and no auxiliary
+/// nodes: V. Kolmogorov, R. Zabih: What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face for which
+/// the label is forbidden has no node. Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {
@@ -70,7 +70,7 @@ class AlphaExpansion {
 
   MaxFlow flow_;
   std::vector<uint32_t> nodeOf_;  ///< #F
-  /// Per node: decrease of the energy if only this face changes. Excludes edges between two nodes.
+  /// For each node: decrease of the energy if only the face of the node changes. Excludes edges between two nodes.
   std::vector<double> gains_;
   std::vector<uint32_t> expanded_;
 };

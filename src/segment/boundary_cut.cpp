@@ -28,7 +28,7 @@ struct Choice {
   float distance;  ///< Distance from the label.
 };
 
-/// The choices of all faces, ascending by label, without the label that the face has.
+/// The labels that each face may take, other than its current label, ascending by label.
 std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount) {
   std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // For each label, the faces next to it.
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
@@ -49,9 +49,10 @@ std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32
   return choices;
 }
 
-/// For each label, its face that is farthest from other labels; among faces beyond the reach, the one of largest area.
+/// For each label, the face of this label that is farthest from other labels. If some faces are beyond the reach of
+/// other labels, the largest of these faces.
 struct Anchors {
-  std::vector<uint32_t> faces;   ///< Per label.
+  std::vector<uint32_t> faces;   ///< One face per label.
   std::vector<float> distances;  ///< #F, to the nearest other label; kUnreached beyond the reach.
 };
 
@@ -71,9 +72,9 @@ Anchors anchorsOf(const PartSurface& surface, std::span<const uint32_t> labels, 
   return anchors;
 }
 
-/// Removes the choices of faces that keep their label. These are the anchors and, if a label is within the reach of
-/// another label, the inner half of its faces. Otherwise the cut would shrink small parts to points, which have short
-/// boundaries.
+/// Removes the choices of faces that keep their label. The anchors keep their label. If all faces of a label are within
+/// the reach of other labels, the inner half of these faces also keeps this label. Without this rule, the cut would
+/// shrink small parts to points, because points have short boundaries.
 void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, const Anchors& anchors) {
   std::erase_if(choices, [&](const Choice& choice) {
     const uint32_t anchor = anchors.faces[labels[choice.face]];
@@ -123,8 +124,8 @@ void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uin
 }
 
 struct Pieces {
-  std::vector<uint32_t> pieceOf;  ///< #F, kNoLabel where there is no label.
-  std::vector<uint32_t> labels;   ///< Per piece.
+  std::vector<uint32_t> pieceOf;  ///< #F; kNoLabel for a face without a label.
+  std::vector<uint32_t> labels;   ///< One label per piece.
 };
 
 Pieces findPieces(const PartSurface& surface, std::span<const uint32_t> labels) {

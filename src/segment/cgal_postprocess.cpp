@@ -19,7 +19,8 @@ constexpr size_t kLanes = kLaneCount<Double4>;
 /// Largest magnitude of an exponent for which expOfNegative() is used.
 constexpr double kMaxLaneExponent = 511;
 
-/// The filtered values of kLanes faces at a time, one per lane. All sums have the order of the window.
+/// Computes the filtered values of kLanes faces at a time, one per lane. The windows are the faces around each face;
+/// sums have the order of the window.
 class WindowFilter {
  public:
   WindowFilter(const FaceNeighbours& neighbours, std::span<const double> values, std::span<const double> ringWeights)
@@ -116,7 +117,7 @@ class WindowFilter {
 
   std::span<const double> values_, ringWeights_;
   FaceWindows windows_;
-  std::vector<uint32_t> ringEnds_;    ///< The ends of the rings, lane after lane.
+  std::vector<uint32_t> ringEnds_;    ///< The ends of the rings of the windows, lane after lane.
   std::vector<uint32_t> faces_;       ///< The windows, lane after lane.
   std::vector<double> valuesAround_;  ///< The values of windows_.faces().
   std::vector<double> others_;        ///< The values of the windows, the lanes side by side.

@@ -9,7 +9,8 @@
 #include "segment/face_neighbours.h"
 
 /// The post-processing of CGAL's sdf_values_postprocessing(): missing values are filled, then all values are smoothed
-/// by a bilateral filter and mapped to [0, 1]. Written from manual and outputs of version 5.5.1; no code of CGAL.
+/// by a bilateral filter and mapped to [0, 1]. Derived from the manual and the outputs of version 5.5.1, without code
+/// of CGAL.
 namespace asdfvk {
 
 struct CgalValues {
@@ -17,24 +18,24 @@ struct CgalValues {
   double min = 0, max = 0;         ///< Range of the smoothed values, in the unit of the input.
 };
 
-/// values: #F, finite, or NaN for no value. On manifold meshes the result is within 1e-12 of CGAL's. Multiplying the
-/// values by a power of two changes no bit of `normalized`. The result has the same bits on any number of threads.
-/// Throws Error{NoValues} if no face has a value, and Error{Cancelled}.
+/// values: #F, finite, or NaN for no value. On manifold meshes the result differs from the result of CGAL by at most
+/// 1e-12. Multiplying the values by a power of two changes no bit of `normalized`. The result has the same bits on any
+/// number of threads. Throws Error{NoValues} if no face has a value, and Error{Cancelled}.
 [[nodiscard]] CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                              const RunControl& control = {});
 
-/// The first step. For the faces in order, a missing value becomes the mean of the neighbours' values, values from
-/// earlier faces included. Values that are still missing at the end become the least value. Throws the errors of
-/// postprocessLikeCgal().
+/// The first step of the post-processing. Faces are processed in order. A missing value becomes the mean of the values
+/// of the neighbours, including values that were filled before. Values that are still missing at the end become the
+/// least value. Throws the errors of postprocessLikeCgal().
 [[nodiscard]] std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::span<const double> values);
 
-/// The second step. The value of a face f becomes the mean over the faces g within R rings of neighbours around f, f
-/// included, with the weights
+/// The second step of the post-processing. The value of a face f becomes the mean over the faces g within R rings of
+/// neighbours around f, f included, with the weights
 ///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
 /// where R = 1 + floor(sqrt(#F / 2000)), and sigma_f is 1.5 times the root mean square of v_g - v_f. Precondition: the
 /// values and their squares are finite. Polls `control` every 256 faces. Throws Error{Cancelled}. Sums have the order
-/// of a breadth-first search: the bits do not depend on the number of threads, nor on the instruction set if exp() has
-/// the bits of core/lane_exp.h.
+/// of a breadth-first search, so that the bits do not depend on the number of threads. If exp() has the bits of
+/// core/lane_exp.h, the bits do not depend on the instruction set either.
 [[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                                  const RunControl& control = {},
                                                  InstructionSet instructionSet = widestInstructionSet());

@@ -20,7 +20,8 @@ constexpr size_t kFacesPerCutBlock = 4096;
 
 double costOf(double argument) { return -std::log(std::max(kMinArgument, argument)); }
 
-/// A unit vector; 0 if the cross product is 0. For other degenerate faces, rounding errors may dominate the direction.
+/// The unit normal of a face; 0 if the cross product is 0. For other degenerate faces, rounding errors may dominate the
+/// direction.
 Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t face) {
   if (!geometry.isDegenerate(face)) return geometry.normals[face];
   const auto [a, b, c] = mesh.faces[face];
@@ -28,9 +29,9 @@ Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t 
   return normal == Vec3d{} ? normal : normal / length(normal);
 }
 
-/// s angle / pi of cgalEdgeCosts() for the edge from corner i of f to the next corner. In CGAL, the angle at a face of
-/// zero area is 0 or pi, by the signs of zeros, and the edge is convex. The result agrees with CGAL's if only g has
-/// zero area, but not always if f has zero area.
+/// Returns s angle / pi of cgalEdgeCosts() for the edge from corner i of f to the next corner. In CGAL, the angle at a
+/// face of zero area is 0 or pi, by the signs of zeros, and the edge is convex. If only g has zero area, the result
+/// agrees with CGAL. If f has zero area, the results may differ.
 double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t f, uint32_t i, uint32_t g) {
   const Vec3d ofF = normalOf(geometry, mesh, f), ofG = normalOf(geometry, mesh, g);
   if (ofF == Vec3d{} || ofG == Vec3d{}) {
@@ -46,7 +47,7 @@ double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint
   return angle / std::numbers::pi * (isConvex ? kConvexFactor : 1);
 }
 
-/// The edges, with each face replaced by its place in `order`, sorted by the lower place.
+/// Returns the edges with each face replaced by its place in `order`, sorted by the lower place.
 std::vector<LabelEdge> reordered(const std::vector<LabelEdge>& edges, std::span<const uint32_t> order) {
   std::vector<uint32_t> placeOf(order.size()), firstEdge(order.size() + 1);
   for (uint32_t i = 0; i < order.size(); ++i) placeOf[order[i]] = i;

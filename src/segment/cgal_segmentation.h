@@ -10,7 +10,7 @@
 #include "segment/face_neighbours.h"
 
 /// The segmentation of CGAL's segmentation_from_sdf_values(): soft clustering of the values, then a graph cut that
-/// prefers concave edges. Written from the manual and the outputs of version 5.5.1; no code of CGAL. Source of the
+/// prefers concave edges. Derived from the manual and the outputs of version 5.5.1, without code of CGAL. Source of the
 /// method: L. Shapira, A. Shamir, D. Cohen-Or: Consistent Mesh Partitioning and Skeletonisation using the Shape
 /// Diameter Function, 2008.
 namespace asdfvk {
@@ -23,7 +23,7 @@ struct CgalSegmentation {
 };
 
 /// values: #F, finite, not negative, normalised by postprocessLikeCgal(). For the same values on a manifold mesh, CGAL
-/// has the same labels. The result does not depend on the number of threads. One cluster is also accepted; a negative
+/// gives the same labels. The result does not depend on the number of threads. One cluster is also accepted; a negative
 /// smoothness counts as 0. The clustering is not stable: noise of 1e-3 of the range may change many labels. Throws
 /// Error{NoValues} without faces, Error{TooFewValues} if there are fewer different values than clusters, and
 /// Error{Cancelled} between expansions.
@@ -31,7 +31,7 @@ struct CgalSegmentation {
                                                const FaceNeighbours& neighbours, std::span<const double> values,
                                                const CgalSegmentationOptions& options, const RunControl& control = {});
 
-/// An entry per common edge of two neighbouring faces f < g, ascending by f. The cost is
+/// Returns an entry per common edge of two neighbouring faces f < g, ascending by f. The cost is
 ///   100 max(0, smoothness) * -log(max(5e-6, s angle / pi)),
 /// with the angle between the normals in radians, and s = 0.08 on a convex edge and 1 elsewhere. Two special cases are
 /// as in CGAL. If g has zero area, s angle / pi is 0 if all components of the normal of f are positive, else 0.08. If f
@@ -39,8 +39,8 @@ struct CgalSegmentation {
 [[nodiscard]] std::vector<LabelEdge> cgalEdgeCosts(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                    const FaceNeighbours& neighbours, double smoothness);
 
-/// Components of neighbouring faces with the same label, numbered by ascending mean value; components with equal means
-/// by their first faces.
+/// Components of neighbouring faces with the same label, numbered by ascending mean value. Components with equal means
+/// are in the order of their first faces.
 struct LabelComponents {
   std::vector<uint32_t> componentOf;  ///< #F
   uint32_t componentCount = 0;

@@ -16,12 +16,12 @@ bool isTraversedBothWays(const TriangleMesh& mesh, uint32_t first, uint32_t seco
   return mesh.faces[first / 3][first % 3] != mesh.faces[second / 3][second % 3];
 }
 
-/// The umbrella of a corner: its face, and the faces around its vertex that steps to a neighbour reach from this face.
-/// Returns the lowest corner (number 3 f + i) in the umbrella.
+/// The umbrella of a corner consists of faces around the vertex of the corner: the face of the corner, and the faces
+/// that chains of neighbours connect to it. Returns the lowest corner (number 3 f + i) in the umbrella.
 uint32_t umbrellaOf(const TriangleMesh& mesh, const FaceNeighbours& neighbours, uint32_t corner) {
   const uint32_t vertex = mesh.faces[corner / 3][corner % 3];
   uint32_t lowest = corner;
-  // Across the edge that begins at the vertex, then across the edge that ends at the vertex.
+  // First steps across the edge that begins at the vertex, then across the edge that ends at the vertex.
   for (const uint32_t step : {0u, 2u})
     for (uint32_t at = corner;;) {
       const uint32_t next = neighbours[at / 3][(at % 3 + step) % 3];
@@ -56,7 +56,7 @@ FaceNeighbours findFaceNeighbours(const TriangleMesh& mesh) {
   });
   std::vector<CornerPair> joined;
   const auto joinCrowded = [&](const std::vector<uint32_t>& corners) {
-    // Sorted by the umbrellas of both ends, the lower vertex first.
+    // Corners, sorted by the umbrellas at the lower and at the higher vertex of the edge.
     std::vector<std::pair<CornerPair, uint32_t>> sorted;
     for (const uint32_t corner : corners) {
       CornerPair ends{umbrellaOf(mesh, neighbours, corner),

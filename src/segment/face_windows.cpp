@@ -10,7 +10,8 @@ std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blo
   const auto faceCount = static_cast<uint32_t>(neighbours.size());
   std::vector<uint32_t> order, frontier, queue;
   order.reserve(faceCount);
-  std::vector<uint32_t> queuedIn(faceCount);  // Number of the block that queued the face, from 1; or kOrdered.
+  std::vector<uint32_t> queuedIn(
+      faceCount);  // Number of the block that queued the face (numbered from 1), or kOrdered.
   uint32_t blockCount = 0, nextFace = 0;
   size_t nextOfFrontier = 0;
   const auto nextStart = [&] {
@@ -74,7 +75,7 @@ void FaceWindows::search(uint32_t i, std::span<uint32_t> window, std::span<uint3
     for (const uint32_t end = count; parent < end; ++parent) {
       const uint32_t* const row = rows + 3 * size_t{faces[parent]};
       const uint32_t a = row[0], b = row[1], c = row[2];
-      // Branch-free, because it is unpredictable whether a neighbour is new.
+      // Branch-free, because the condition (whether a neighbour is new) is unpredictable.
       faces[count] = a;
       count += visitedBy[a] != search ? 1 : 0;
       visitedBy[a] = search;

@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// All faces in an order in which consecutive faces are close to each other on the surface. A breadth-first search from
-/// a face beside the earlier blocks finds each block of `blockSize` faces.
+/// All faces in an order in which consecutive faces are close to each other on the surface. Each block of `blockSize`
+/// faces is found by a breadth-first search, which begins at a face beside the earlier blocks.
 [[nodiscard]] std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blockSize);
 
 /// The faces within some rings around the faces of a block. The breadth-first search from a face of the block reads
@@ -24,8 +24,8 @@ class FaceWindows {
   void setBlock(std::span<const uint32_t> block, uint32_t ringCount);
 
   /// Finds the faces around face i of the block, in the order of a breadth-first search. Face i is first; faces
-  /// [ringEnds[r - 1], ringEnds[r]) are in ring r. window: receives indices into faces(), has room for faces().size() +
-  /// 1. ringEnds: ringCount + 1.
+  /// [ringEnds[r - 1], ringEnds[r]) are in ring r. window: receives indices into faces(); has room for faces().size() +
+  /// 1 entries. ringEnds: ringCount + 1 entries.
   void search(uint32_t i, std::span<uint32_t> window, std::span<uint32_t> ringEnds);
 
   /// The faces around the block. Face 0 stands for a missing neighbour. Face 1 + i is face i of the block.

@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Number of nodes of a smallest range, and number of ranges that a larger range joins.
+/// Number of nodes of each smallest range, and number of ranges that are joined to a larger range.
 constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
 
 }  // namespace
@@ -43,7 +43,7 @@ class MaxFlow::Search {
 
   /// Before the search, routes flow along the trees of a forest, from leaves to roots. Most flow has a short path.
   void routeAlongForest();
-  /// Makes every node with a terminal capacity the root of a tree.
+  /// Every node with a terminal capacity becomes the root of a tree.
   void plant();
   /// Joins ranges of this size, which are already solved.
   void join(size_t partSize);
@@ -63,8 +63,8 @@ class MaxFlow::Search {
   void makeOrphan(uint32_t node);
   /// Arcs from the node to its terminal; kNone if an orphan is on this path.
   uint32_t distanceToTerminal(uint32_t node);
-  /// The residual capacity between a node of `tree` and its child, through `arc` from node to child. Direction: to the
-  /// child in the source's tree, from the child in the sink's tree.
+  /// The residual capacity between a node of `tree` and its child, through `arc` from node to child. In the tree of the
+  /// source, the capacity is towards the child. In the tree of the sink, the capacity is from the child to the node.
   [[nodiscard]] double residualToChild(Tree tree, uint32_t arc) const {
     return arcs_[tree == Tree::Source ? arc : arc ^ 1].residual;
   }
@@ -143,8 +143,8 @@ void MaxFlow::Search::run() {
   }
 }
 
-// Moves the terminal capacity of each node to its parent in the tree, up to the capacity of the edge. This changes the
-// value of a cut only by terminal capacities that cancel out.
+// Moves the terminal capacity of each node to its parent in the tree, up to the capacity of the edge. The value of a
+// cut changes only by terminal capacities that cancel out.
 void MaxFlow::Search::routeAlongForest() {
   constexpr size_t kMaxTreeSize = 512;  // Sizes from 64 to 8,000 are equally fast within the noise.
   size_t begin = 0, end = 0;
@@ -202,7 +202,7 @@ uint32_t MaxFlow::Search::grow(uint32_t node) {
     } else if (o.tree != n.tree) {
       return n.tree == Tree::Source ? arc : arc ^ 1;
     } else if (o.checkedAt <= n.checkedAt && o.distance > n.distance) {
-      // A shorter path to the terminal keeps augmenting paths short.
+      // This path to the terminal is shorter, which keeps augmenting paths short.
       o.parent = arc ^ 1;
       o.checkedAt = n.checkedAt;
       o.distance = n.distance + 1;

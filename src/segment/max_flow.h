@@ -9,24 +9,25 @@ namespace asdfvk {
 
 /// Maximum flow and minimum cut between two terminals, source and sink: Y. Boykov, V. Kolmogorov: An Experimental
 /// Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search trees grow from
-/// the terminals. Flow is augmented where the trees touch. A subtree that loses its parent gets another parent in its
-/// tree, preferably the one nearest to the terminal; without a new parent, its nodes become free. Before the search,
-/// flow is routed along the trees of a forest, which halves the time of graphs of meshes.
+/// the terminals. Flow is augmented where the trees touch. A subtree that loses its parent gets another parent in the
+/// same tree, preferably the one nearest to the terminal. If there is no other parent, the nodes of the subtree become
+/// free. Before the search, flow is routed along the trees of a forest, which halves the time of graphs of meshes.
 ///
 /// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then unions of
 /// ranges are solved repeatedly, beginning with the trees of the joined ranges (J. Liu, J. Sun: Parallel Graph-cuts by
 /// Adaptive Bottom-up Merging, CVPR 2010). A first range fits into a cache. Neighbouring nodes should have near
 /// numbers.
 ///
-/// Usage: reset(), then capacities, then solve(), then the sides. Further problems of at most the same size allocate
-/// only lists of orphans. The result does not depend on the number of threads. Memory: 36 bytes per node and 32 bytes
-/// per edge.
+/// Usage: call reset(), add capacities, call solve(), read the sides. For further problems of at most the same size,
+/// the object allocates memory for lists of orphans only. The result does not depend on the number of threads. Memory:
+/// 36 bytes per node and 32 bytes per edge.
 class MaxFlow {
  public:
   void reset(uint32_t nodeCount);
 
-  /// Adds a finite capacity from the source to the node; if negative, -capacity from the node to the sink. Capacities
-  /// of one node to both terminals cancel out: solve() does not count the flow through this node alone.
+  /// Adds a finite capacity from the source to the node. A negative number adds the capacity -capacity from the node to
+  /// the sink. Capacities of one node to both terminals cancel out: solve() does not count the flow through this node
+  /// alone.
   void addTerminal(uint32_t node, double capacity);
 
   /// Adds an edge with a finite capacity of at least 0 in each direction. Precondition: a != b.
@@ -35,13 +36,13 @@ class MaxFlow {
   /// Returns the value of the maximum flow; 0 for an empty graph. Precondition: called once after each reset().
   double solve();
 
-  /// Whether the node is on the source's side of the minimum cut: reachable from the source in the residual graph. Of
-  /// all minimum cuts, this one has the fewest nodes on the source's side.
+  /// Whether the node is on the side of the source: whether it is reachable from the source in the residual graph. No
+  /// other minimum cut has fewer nodes on the side of the source.
   [[nodiscard]] bool isSource(uint32_t node) const { return nodes_[node].tree == Tree::Source; }
 
  private:
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-  static constexpr uint32_t kTerminal = kNone - 1;  ///< Parent of a root.
+  static constexpr uint32_t kTerminal = kNone - 1;  ///< Value of Node::parent for a root.
   static constexpr uint32_t kOrphan = kNone - 2;
 
   enum class Tree : uint8_t { Free, Source, Sink };

@@ -20,7 +20,7 @@ double bendOf(const PatchData::Patch& p, const PatchData::Patch& q) {
   return dot(q.centre - p.centre, q.normal - p.normal) < 0 ? -angle : angle;
 }
 
-/// Weight of a pair of patches. It decreases with the ratio of their distance to their values.
+/// Weight of a pair of patches. The weight decreases with the ratio of the distance of the patches to their values.
 double kernelOf(const PatchData::Patch& p, const PatchData::Patch& q) {
   const double width = kKernelWidth * std::exp((p.logValue + q.logValue) / 2) + kMinKernelWidth;
   const Vec3d between = p.centre - q.centre;

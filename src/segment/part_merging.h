@@ -45,17 +45,18 @@ class SightMatrix {
 /// Regions of patches, which are merged pair by pair, in the order of costs. Copies are independent. Deterministic.
 class PartMerging {
  public:
-  /// sight: for each pair of patches of `data`.
+  /// sight: visibility of each pair of patches of `data`.
   PartMerging(const PatchData& data, const SightMatrix& sight, const MergeWeights& weights);
 
   [[nodiscard]] uint32_t regionCount() const { return regionCount_; }
-  /// Unset if no two regions are adjacent.
+  /// The cost of the next merge; unset if no two regions are adjacent.
   [[nodiscard]] std::optional<double> nextCost() const;
 
   void mergeUpTo(double threshold);
-  /// Merges until there are at most `count` regions, or none are adjacent.
+  /// Merges until there are at most `count` regions, or until no two regions are adjacent.
   void mergeToCount(uint32_t count);
-  /// While a region with neighbours has less area, merges the smallest such region with the neighbour of least cost.
+  /// Merges regions that have neighbours and an area below `area`. The smallest of these regions is merged first, with
+  /// the neighbour of least cost.
   void mergeSmallerThan(double area);
 
   /// The costs are in the order of the merges.
@@ -71,8 +72,8 @@ class PartMerging {
   };
   struct Border {
     uint32_t a, b;
-    /// All members except `length` are sums of length times quantity. crease: concave minus convex angles of edges.
-    /// mean: mean log value of the two patches.
+    /// Each member except `length` is a sum of products: length times the named quantity. crease: concave minus convex
+    /// angles of edges. mean: mean log value of the two patches.
     double length, crease, bend, step, mean;
     double cost = 0;
     bool isAlive = true;
@@ -80,16 +81,16 @@ class PartMerging {
     [[nodiscard]] uint32_t other(uint32_t region) const { return region == a ? b : a; }
   };
   /// Sums over the pairs of patches of two regions. seen: product of the areas, times the visibility. near: product of
-  /// the areas, times a weight that decreases with the distance. nearSeen: product of areas, visibility
-  /// and this weight.
+  /// the areas, times a weight that decreases with the distance. nearSeen: product of the areas, the visibility and the
+  /// same weight.
   struct PairSums {
     float seen = 0, nearSeen = 0, near = 0;
   };
 
   [[nodiscard]] double costOf(const Border& border) const;
-  /// Returns `border` if it is alive and cheaper than `cheapest`, which may be kNoBorder; else `cheapest`.
+  /// Returns `border` if it is alive and cheaper than `cheapest`, else `cheapest`. cheapest: may be kNoBorder.
   [[nodiscard]] uint32_t cheaperOf(uint32_t cheapest, uint32_t border) const;
-  /// The first border of the least cost.
+  /// The border of least cost. If several borders have the least cost, the first of them.
   [[nodiscard]] uint32_t cheapestBorder() const;
   void merge(uint32_t border);
   [[nodiscard]] PairSums& pairSums(uint32_t i, uint32_t j) { return pairs_[size_t{i} * regions_.size() + j]; }
@@ -101,7 +102,7 @@ class PartMerging {
   std::vector<Region> regions_;  ///< One per patch; not alive if merged into another region.
   std::vector<Border> borders_;
   std::vector<PairSums> pairs_;
-  std::vector<uint32_t> regionOf_;  ///< Per patch.
+  std::vector<uint32_t> regionOf_;  ///< One region per patch.
   std::vector<double> costs_;
   uint32_t regionCount_;
 };

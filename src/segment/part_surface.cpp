@@ -49,8 +49,8 @@ std::vector<float> fillLogValues(const DualGraph& graph, std::span<const double>
   return logs;
 }
 
-/// Returns the corner of f where the common edge of f and g begins. number: of the common edge, from 0, if there are
-/// several.
+/// Returns the corner of f where a common edge of f and g begins. number: which of several common edges, numbered from
+/// 0.
 uint32_t commonEdge(const Face& f, const Face& g, uint32_t number) {
   const auto isOfG = [&](uint32_t vertex) { return vertex == g[0] || vertex == g[1] || vertex == g[2]; };
   uint32_t last = 0;

@@ -17,7 +17,7 @@ struct PartSurface {
     uint32_t face;  ///< Neighbour.
     float length;
   };
-  std::span<const uint32_t> offsets;  ///< #F+1, of the dual graph; views the caller's graph.
+  std::span<const uint32_t> offsets;  ///< #F+1: offsets of the dual graph; views the graph of the caller.
   /// #arcs, aligned with DualGraph::neighbours: the length of the path between the barycentres across the edge.
   std::vector<Arc> arcs;
   /// #arcs: the length of `arcs` plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
@@ -35,10 +35,10 @@ struct PartSurface {
 /// The length that a concave crease of 1/3 radian adds to an arc, in units of length.
 inline constexpr double kCreaseLength = 0.00704;
 
-/// graph: of the mesh; must outlive the result. values: #F, not negative, NaN for no value. A face without a value
-/// gets that of the nearest face with a value, by the number of edges. In a component without values, all faces get the
-/// mean logarithm of all values. Values below 1e-4 of the largest value are raised to this bound. Throws
-/// Error{NoValues} if no face has a value.
+/// graph: the dual graph of the mesh; must outlive the result. values: #F, not negative, NaN for no value. A face
+/// without a value gets the value of the nearest face with a value, by the number of edges. In a component without
+/// values, all faces get the mean logarithm of all values. Values below 1e-4 of the largest value are raised to this
+/// bound. Throws Error{NoValues} if no face has a value.
 [[nodiscard]] PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                           const DualGraph& graph, std::span<const double> values);
 

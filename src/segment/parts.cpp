@@ -21,16 +21,19 @@ namespace {
 constexpr std::array<uint32_t, 5> kPatchCounts{200, 250, 300, 350, 400};
 /// Coarse meshes have fewer patches, because one patch per face would give too many parts.
 constexpr uint32_t kMinFacesPerPatch = 3;
-/// Depth of the ends of lines of sight below the surface, in shape diameters.
+/// Depth below the surface at which lines of sight end, in shape diameters.
 constexpr double kSightDepth = 0.3;
-/// Least ratio volume / (area * mean value) of a wall. It is about 0.4 for a wall, and 0.28 for a tube.
+/// Least ratio volume / (area * mean value) of a shape that is a thin wall. The ratio is about 0.4 for a wall, and 0.28
+/// for a tube.
 constexpr double kMinWallShape = 0.36;
-/// Largest mean visibility of a thin shell. In plates, most pairs of patches have a clear line of sight.
+/// Largest mean visibility of a thin shell. Plates are no thin shells: most pairs of their patches have a clear line of
+/// sight.
 constexpr double kMaxWallSight = 0.5;
-/// Largest total share of the area with which components below kMinPartArea take a neighbouring part.
+/// If components below kMinPartArea have at most this share of the area together, they take neighbouring parts.
 constexpr double kMaxAbsorbedArea = 0.05;
 
-/// Whether closed components with values have most of the area, and these components are thin walls by their volume.
+/// Whether two conditions hold: closed components with values have most of the area, and the volume of these components
+/// is that of thin walls.
 bool isWall(const PartsInput& input, const PartSurface& surface) {
   double volume = 0, valuedArea = 0, product = 0;
   for (uint32_t face = 0; face < surface.faceCount(); ++face) {
@@ -44,7 +47,7 @@ bool isWall(const PartsInput& input, const PartSurface& surface) {
   return valuedArea > 0.5 && std::abs(volume) > kMinWallShape * product;
 }
 
-/// Per component: its share of the area, and the face farthest from its centre.
+/// For each component: its share of the area, and the face farthest from its centre.
 struct ComponentShapes {
   std::vector<double> areas;
   std::vector<uint32_t> farthestFaces;
@@ -72,14 +75,14 @@ ComponentShapes shapesOf(const PartSurface& surface, const Components& component
   return shapes;
 }
 
-/// Components in neither list take the nearest part.
+/// What becomes of the components. Components in neither list take the nearest part.
 struct ComponentRoles {
   std::vector<uint32_t> firstSeeds;  ///< A face of each component that is divided into parts.
   std::vector<uint32_t> whole;       ///< Components that are not divided.
 };
 
 /// If the small components have much of the area, as in a file of many equal objects, each of them is a part.
-/// Exceptions are components that are small compared with the largest one.
+/// Components that are small compared with the largest component are exceptions.
 ComponentRoles rolesOf(const ComponentShapes& shapes) {
   double smallArea = 0, largest = 0;
   for (const double area : shapes.areas) {
@@ -96,7 +99,7 @@ ComponentRoles rolesOf(const ComponentShapes& shapes) {
   return roles;
 }
 
-/// Gives each requested part at least one patch.
+/// The counts are large enough to give each requested part at least one patch.
 std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& options) {
   std::array<uint32_t, 5> counts = kPatchCounts;
   const double scale = std::min(1.0, faceCount / double{kMinFacesPerPatch * kPatchCounts.back()});
@@ -107,7 +110,7 @@ std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& o
 struct Division {
   Patches patches;
   PatchData data;
-  std::optional<PartMerging> merging;  ///< Before the first merge.
+  std::optional<PartMerging> merging;  ///< State before the first merge.
   std::vector<uint32_t> labels;        ///< #F, 0 without a patch.
 };
 
@@ -160,7 +163,7 @@ std::vector<uint32_t> labelsOf(const Patches& patches, const PartMerging& mergin
   return labels;
 }
 
-/// A threshold between the costs of the merges so far and the next cost.
+/// Returns a threshold between the costs of the merges so far and the next cost.
 double thresholdOf(const PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
   if (!options.partCount) return weights.threshold / options.detail;
   double last = 0;
@@ -176,7 +179,8 @@ uint32_t countAt(const Division& division, double threshold, bool mergesSmall) {
   return merging.regionCount();
 }
 
-/// The division with the largest sum of Rand indices with the other divisions, and the mean of these indices.
+/// Returns the index of the division with the largest sum of Rand indices with the other divisions, and the mean of
+/// these indices.
 std::pair<size_t, double> mostTypical(std::span<const Division> divisions, std::span<const float> areas) {
   const size_t count = divisions.size();
   std::vector<double> indices(count * count, 0);
@@ -229,7 +233,7 @@ void labelSmallComponents(const PartsInput& input, const PartSurface& surface, c
     if (labels[face] == kNoLabel) labels[face] = labelOf[input.components.componentOf[face]];
 }
 
-/// Numbers the parts by the mean of the values that the surface has.
+/// Numbers the parts by the mean of the values of the surface.
 void numberByValue(const PartSurface& surface, Parts& parts) {
   std::vector<double> values;
   for (const float logValue : surface.logValues) values.push_back(std::exp(double{logValue}));
@@ -242,7 +246,7 @@ void numberByValue(std::span<const double> values, Parts& parts) {
   std::vector<double> sums(parts.partCount, 0), areas(parts.partCount, 0);
   for (size_t face = 0; face < values.size(); ++face) {
     if (std::isnan(values[face])) continue;
-    const double area = std::max(parts.areas[face], 1e-12);  // Parts of zero area have a mean, too.
+    const double area = std::max(parts.areas[face], 1e-12);  // Not 0, so that parts of zero area also have a mean.
     sums[parts.partOf[face]] += area * values[face];
     areas[parts.partOf[face]] += area;
   }

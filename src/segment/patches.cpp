@@ -15,15 +15,16 @@ namespace {
 constexpr uint32_t kLloydRoundCount = 2;
 constexpr uint32_t kNoFaceFound = 0xffffffff;
 
-/// Finds the face with the largest distance. Precondition: distances only decrease between calls. Then the last known
-/// maximum of a block of faces is an upper bound, and only blocks with the largest bound are searched.
+/// Finds the face with the largest distance. Precondition: distances only decrease between calls. Because of the
+/// precondition, the last known maximum of a block of faces is an upper bound. Only blocks with the largest bound are
+/// searched.
 class FarthestFace {
  public:
   explicit FarthestFace(std::span<const float> distances)
       : distances_(distances),
         bounds_((distances.size() + kBlock - 1) / kBlock, std::numeric_limits<float>::infinity()) {}
 
-  /// kNoFaceFound if no reached face has a distance above 0.
+  /// Returns the face; kNoFaceFound if no reached face has a distance above 0.
   uint32_t find() {
     for (;;) {
       const auto bound = std::max_element(bounds_.begin(), bounds_.end());

@@ -17,11 +17,12 @@ struct Patches {
   uint32_t count = 0;
 };
 
-/// Patches around the farthest points of the surface, improved by two rounds of Lloyd's method: the new seed of a patch
-/// is its face farthest from its border. Distances are along PartSurface::creasedArcs. firstSeeds: one face of each
-/// component that is divided, at least one in all. counts: ascending; the result has the patches for each count. Meshes
-/// with fewer faces than a count have fewer patches. There is at least one patch per first seed. Deterministic,
-/// parallel over the counts. The farthest points of a count begin with the farthest points of each smaller count.
+/// Patches around the farthest points of the surface, improved by two rounds of Lloyd's method. In each round, the new
+/// seed of a patch is the face of the patch that is farthest from its border. Distances are along
+/// PartSurface::creasedArcs. firstSeeds: one face of each component that is divided, at least one in all. counts:
+/// ascending; the result has the patches for each count. Meshes with fewer faces than a count have fewer patches. There
+/// is at least one patch per first seed. Deterministic; the counts are processed in parallel. For a larger count, the
+/// list of farthest points begins with the list for the next smaller count.
 [[nodiscard]] std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
                                                std::span<const uint32_t> counts);
 
@@ -29,10 +30,10 @@ struct Patches {
 struct PatchData {
   struct Patch {
     double area = 0;
-    double logValue = 0;      ///< Mean by area.
-    Vec3d centre;             ///< Mean by area.
+    double logValue = 0;      ///< Mean, weighted by area.
+    Vec3d centre;             ///< Mean, weighted by area.
     Vec3d normal;             ///< A unit vector, or 0.
-    uint32_t centreFace = 0;  ///< The face of the patch nearest to its centre.
+    uint32_t centreFace = 0;  ///< The face of the patch that is nearest to `centre`.
   };
   /// Two adjacent patches a < b. Sums are over the edges between a and b.
   struct Border {

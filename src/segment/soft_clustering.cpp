@@ -20,7 +20,7 @@ namespace {
 
 constexpr uint32_t kMaxMoveCount = 10, kMaxMaximizationCount = 10;
 constexpr double kMinProduct = 1e-200;
-constexpr double kConvergedChange = 1e-3;  ///< Relative change of the likelihood.
+constexpr double kConvergedChange = 1e-3;  ///< The iteration ends at a smaller relative change of the likelihood.
 
 /// The generator rand48 of POSIX with CGAL's seed.
 class Rand48 {
@@ -33,7 +33,7 @@ class Rand48 {
     return static_cast<uint32_t>(state_ >> 17);
   }
 
-  /// A number in [0, count), as boost::uniform_int draws it.
+  /// A number in [0, count), computed as in boost::uniform_int.
   size_t index(size_t count) {
     const size_t bucket = kRange / count;
     for (;;)
@@ -87,7 +87,7 @@ std::vector<double> chooseSeeds(std::span<const double> values, uint32_t cluster
   return seeds;
 }
 
-/// Returns whether a value changed its cluster. Of equally near centres, the first one is taken.
+/// Returns whether a value changed its cluster. If several centres are equally near, the first one is taken.
 bool assignToNearest(std::span<const double> values, std::span<const double> centres, std::span<uint32_t> clusterOf) {
   bool isChanged = false;
   for (size_t i = 0; i < values.size(); ++i) {
@@ -104,7 +104,7 @@ bool assignToNearest(std::span<const double> values, std::span<const double> cen
   return isChanged;
 }
 
-/// A centre without values remains.
+/// Moves each centre to the mean of its values. A centre without values is not moved.
 void moveToMeans(std::span<const double> values, std::span<const uint32_t> clusterOf, std::span<double> centres) {
   std::vector<double> sums(centres.size()), counts(centres.size());
   for (size_t i = 0; i < values.size(); ++i) {
@@ -163,7 +163,7 @@ class Mixture {
     return foldInParallel<double>(values_.size(), logarithmOf, std::plus<>());
   }
 
-  /// Sets the most likely Gaussians for the probabilities.
+  /// Sets the Gaussians that are most likely for the probabilities.
   void maximize() {
     using Sums = std::array<double, 2>;
     const size_t clusterCount = gaussians_.size();
@@ -216,7 +216,7 @@ class Mixture {
   }
 
  private:
-  /// The nearest mean, for a value at which all densities underflow.
+  /// The cluster with the nearest mean. Used for a value at which all densities underflow.
   [[nodiscard]] size_t nearest(double value) const {
     const auto isNearer = [&](const Gaussian& a, const Gaussian& b) {
       return std::abs(value - a.mean) < std::abs(value - b.mean);

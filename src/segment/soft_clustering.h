@@ -5,12 +5,14 @@
 #include <vector>
 
 /// Soft clustering of numbers by a Gaussian mixture that is initialised by k-means++. Method, random numbers and limits
-/// are those of CGAL's segmentation_from_sdf_values(), derived from the outputs of version 5.5.1; no code of CGAL.
+/// are those of CGAL's segmentation_from_sdf_values(). These details were derived from the outputs of version 5.5.1,
+/// without code of CGAL.
 namespace asdfvk {
 
 /// Clusters ascend by mean.
 struct SoftClustering {
-  std::vector<double> means, deviations, weights;  ///< Per cluster. A deviation may be 0; weights sum to 1.
+  /// One entry per cluster. A deviation may be 0; the sum of the weights is 1.
+  std::vector<double> means, deviations, weights;
   std::vector<double> probabilities;  ///< #values x #clusters: a row per value, with the probability of each cluster.
 };
 

@@ -19,7 +19,7 @@ class SurfaceFront {
   using Arc = PartSurface::Arc;
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
-  /// Views the arguments. arcs: compressed rows, lengths not negative.
+  /// Keeps views of the arguments. arcs: compressed rows; no length is negative.
   SurfaceFront(std::span<const uint32_t> offsets, std::span<const Arc> arcs)
       : offsets_(offsets),
         arcs_(arcs),
@@ -32,8 +32,8 @@ class SurfaceFront {
     perWidth_ = static_cast<float>(1 / width);
   }
 
-  /// Makes a face a source at this distance, unless another source is at most as far away. advance() computes the other
-  /// distances. A distance of NaN or infinity is ignored.
+  /// Makes a face a source at this distance. Has no effect if the face already has a distance that is not greater.
+  /// advance() computes the distances of other faces. A distance of NaN or infinity is ignored.
   void add(uint32_t face, float distance, uint32_t label) {
     if (!(distance < distances_[face])) return;
     if (distances_[face] == kUnreached) touched_.push_back(face);
@@ -50,7 +50,7 @@ class SurfaceFront {
       for (size_t i = 0; i < bucket.size(); ++i) {
         const Entry entry = bucket[i];
         if (entry.distance > distances_[entry.face]) continue;
-        if (bucketOf(entry.distance) > current_) {  // It was beyond the last bucket.
+        if (bucketOf(entry.distance) > current_) {  // The distance was beyond the last bucket when the entry was added.
           put(entry);
           continue;
         }

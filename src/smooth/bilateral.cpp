@@ -17,7 +17,7 @@ struct Rule {
   uint64_t minFaceCount;
   SmoothingOptions::Window window;
 };
-// Finest mesh first; docs/accuracy.md has the errors.
+// Rows of face count and window, beginning with the finest meshes; docs/accuracy.md has the errors.
 constexpr std::array<Rule, 3> kRules{{{90'000, {2, 2}}, {10'000, {2, 1}}, {0, {1, 1}}}};
 
 /// exp(-ring^2 / (2 (ringCount / 2)^2))
