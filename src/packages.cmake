@@ -145,7 +145,7 @@ file(CHMOD ${folder}/postinst ${folder}/prerm PERMISSIONS OWNER_READ OWNER_WRITE
      WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${folder}/postinst ${folder}/prerm)
 
-# Sections that only name the compiler.
+# Removes sections that only name the compiler.
 find_program(ASDF_VK_STRIP strip REQUIRED)
 mark_as_advanced(ASDF_VK_STRIP)
 file(WRITE ${folder}/strip.cmake "

@@ -16,11 +16,11 @@
 
 namespace asdfvk {
 
-/// Margins for rounding in float32: of distances to boxes at coordinates up to 8; of distances to planes, and of
-/// cosines, at coordinates up to 2.
+/// Margin for rounding in float32 of distances to boxes, at coordinates up to 8.
 inline constexpr float kWallBoxMargin = 0x1p-19F;
+/// Margins for rounding in float32 of distances to planes, and of cosines, at coordinates up to 2.
 inline constexpr float kWallPlaneMargin = 0x1p-19F, kWallCosineMargin = 0x1p-20F;
-/// Larger balls are assumed to reach every box.
+/// Balls with a larger diameter are assumed to reach every box.
 inline constexpr float kMaxBoxedDiameter = 8;
 inline constexpr float kUnlimitedDiameter = 0x1p60F;
 /// The least depth in float32 that is exact enough for the computation of a limit.
@@ -47,9 +47,9 @@ ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Ve
   return x * x + y * y + z * z;
 }
 
-/// The balls of some queries, one in each lane. A walk through the hierarchy lowers an upper limit of each diameter by
-/// a point of each wall, and collects the walls whose planes are within the limits. Finally the collected walls that
-/// are still within the limits are measured.
+/// The balls of some queries, one query per lane. A traversal of the hierarchy lowers the upper limits of the diameters
+/// by a point of each wall. The traversal also collects the walls whose planes are within the limits. At the end, the
+/// collected walls that are still within the limits are measured.
 template <typename Floats>
 class BallPacket {
  public:
@@ -100,7 +100,7 @@ class BallPacket {
     for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
   }
 
-  /// Lowers the limits to the balls through the middle of `wall`, which is probably near.
+  /// Lowers the limits to the diameters of the balls through the middle of `wall`, which is probably near.
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
     const Mask opposing =
         lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
@@ -119,7 +119,7 @@ class BallPacket {
     Floats doubt;     ///< Rounding error of the slope.
   };
 
-  /// A wall with the least diameters of the balls that touch the plane of the wall.
+  /// A wall, and the least diameters of the balls that touch the plane of the wall.
   struct Candidate {
     uint32_t face;
     float least, atPoint;
@@ -151,7 +151,7 @@ class BallPacket {
   ASDFVK_ALWAYS_INLINE Mask reach(const auto& box) const {
     return lessEqual(squaredDistance(box.min, box.max, low_, high_), squaredRadius_);
   }
-  /// Diameter of the ball of the first query through a point; great if the point is behind the face.
+  /// Diameter of the ball of the first query through a point; a large number if the point is behind the face.
   [[nodiscard]] float diameterAt(const Vec3f& q) const {
     const Vec3f v = q - first_;
     return asdfvk::dot(v, v) / std::max(asdfvk::dot(v, axis_), kMinLimitDepth);
@@ -160,7 +160,7 @@ class BallPacket {
     return broadcast<Floats>(static_cast<float>(tree_.opposing().cosine) + margin);
   }
 
-  /// Lanes for which Solids::mayBoundOneBody() holds with the wall.
+  /// Lanes whose faces may bound the same body as the wall (Solids::mayBoundOneBody()).
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayBound(const Wall& wall) const {
     if (wall.body == kNoBody) return ~Mask{};
     const auto differs = [&](uint32_t body) ASDFVK_ALWAYS_INLINE {
@@ -195,8 +195,9 @@ class BallPacket {
     return lanes & (reaches(leastBound(middle, atPoint), leastLimit_) | reaches(atPoint, atPointLimit_));
   }
 
-  /// Lower bound of the diameters at all points of the triangle. The diameter is a convex function of both points, and
-  /// so at least its tangent at BallQuery::point and the middle. atPoint: lower bound at BallQuery::point.
+  /// Lower bound of the diameters at all points of the triangle. The diameter is a convex function of both points.
+  /// Therefore it is at least its tangent at BallQuery::point and the middle of the wall. atPoint: lower bound at
+  /// BallQuery::point.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Middle& middle, const Floats& atPoint) const {
     const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], middle.slope), dot(corners_[1], middle.slope)),
                                         dot(corners_[2], middle.slope));
@@ -260,7 +261,7 @@ class BallPacket {
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
-  /// Lowers the limits to the balls through the middle of a wall. Returns whether a limit changed.
+  /// Lowers the limits to the diameters of the balls through the middle of a wall. Returns whether a limit changed.
   ASDFVK_ALWAYS_INLINE bool shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
     const Floats diameter = orUnlimited(lanes, middle.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
@@ -327,7 +328,7 @@ class BallPacket {
 
   const WallTree& tree_;
   std::span<BallQuery> queries_;
-  Vec3f first_, axis_;  ///< Point and axis of the first query, which decides the order of the nodes.
+  Vec3f first_, axis_;  ///< Point and axis of the first query. The first query decides the order of the nodes.
   Lanes normal_, boxMin_, boxMax_;
   std::array<Lanes, 4> corners_;      ///< Corners of the triangle, and the point.
   Floats leastLimit_, atPointLimit_;  ///< Limits of the diameters.

@@ -33,7 +33,8 @@ class ChunkSize {
   double targetSeconds_;
 };
 
-/// Calls work(begin, end) for consecutive ranges of [0, count), with a checkpoint before each and one at the end.
+/// Calls work(begin, end) for consecutive ranges of [0, count). There is a checkpoint before each range and one at the
+/// end.
 template <typename Work>
 void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const Work& work) {
   for (size_t begin = 0; begin < count;) {

@@ -19,9 +19,9 @@ namespace asdfvk {
 [[nodiscard]] ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face);
 
 struct ConeStart {
-  Vec3d origin;                    ///< Start of the rays, in normalised coordinates.
-  Vec3d normal;                    ///< Unit, outwards; the false hits of Definition::Paper refer to it.
-  ConeFrame frame;                 ///< The axis is minus the normal.
+  Vec3d origin;     ///< Start of the rays, in normalised coordinates.
+  Vec3d normal;     ///< Unit vector, outwards. Definition::Paper compares this normal with the normals of hit faces.
+  ConeFrame frame;  ///< The axis is minus the normal.
   uint32_t skippedFace = kNoFace;  ///< Hits on this representative are ignored.
 };
 
@@ -31,19 +31,20 @@ struct ConeStart {
           scene.representatives[face]};
 }
 
-/// A cone from any origin; its rays may hit every face. normal: unit. ConeRotation::Hashed hashes the origin.
+/// A cone from any origin; its rays may hit every face. normal: a unit vector. ConeRotation::Hashed hashes the origin.
 [[nodiscard]] ConeStart coneStartAt(const Cone& cone, const Vec3d& origin, const Vec3d& normal);
 
 struct TraceStatistics {
   uint64_t rayCount = 0;
-  /// Cones that the reference traced: those beyond the iteration limit of the device or too small for float32.
+  /// Cones that the reference traced, because they exceeded the iteration limit of the device or were too small for
+  /// float32.
   uint64_t redoneConeCount = 0;
 };
 
 struct ConeResults {
-  std::span<double> values;  ///< N.
-  /// The nearest hit of each ray, rejected hits included: N x R, ray r of cone i at i R + r, in the order of
-  /// Cone::directions. Empty: hits are not written.
+  std::span<double> values;  ///< N entries, one per cone.
+  /// The nearest hit of each ray, rejected hits included. N * R entries for N cones of R rays: ray r of cone i has the
+  /// index i * R + r. Rays are in the order of Cone::directions. Empty: hits are not written.
   std::span<ConeHit> hits = {};
 };
 
@@ -61,8 +62,8 @@ class ConeTracer {
   virtual ~ConeTracer() = default;
 
   /// Sets results.values[i] to the shape diameter at seedFaces[i] in the mesh's unit, or to kNoValue without a valid
-  /// ray. Values have the same bits with and without hits. Precondition: no seed face is degenerate. Throws
-  /// Error{Cancelled} between chunks, Error{Device}.
+  /// ray. Values have the same bits whether results.hits is empty or not. Precondition: no seed face is degenerate.
+  /// Throws Error{Cancelled} between chunks, Error{Device}.
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
@@ -71,12 +72,12 @@ class ConeTracer {
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;
 
-  /// Seconds of the constructor for encoding the hierarchy for a device, without the upload; 0 without a device.
+  /// Seconds that the constructor took to encode the hierarchy for a device, without the upload; 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }
 };
 
-/// Double precision, watertight, on all cores of the CPU: the reference for the other tracers. Values do not depend on
-/// the number of threads.
+/// Makes the reference for the other tracers: double precision, watertight, on all cores of the CPU. Values do not
+/// depend on the number of threads.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone);
 
 /// Traces in float32, in lanes (trace/cpu/ray_walk.h), on all cores of the CPU; recomputes lengths in double. Values

@@ -13,7 +13,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkSize = 16384, kGrain = 256;
-// Neighbouring faces that share one traversal of the hierarchy.
+// Number of neighbouring faces for which the hierarchy is traversed together.
 constexpr size_t kWalkFaceCount = 16;
 
 struct BoxedFace {
@@ -22,7 +22,7 @@ struct BoxedFace {
 };
 
 bool overlap(const Box3f& a, const Box3f& b) {
-  // Branch-free: the axis that separates two boxes is unpredictable.
+  // Branch-free, because it is unpredictable which axis separates two boxes.
   return ((a.min.x <= b.max.x) & (a.min.y <= b.max.y) & (a.min.z <= b.max.z) & (b.min.x <= a.max.x) &
           (b.min.y <= a.max.y) & (b.min.z <= a.max.z)) != 0;
 }

@@ -10,7 +10,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkFaceCount = 4096;
-// Neighbouring faces per task.
+// Number of neighbouring faces per task.
 constexpr size_t kBlockFaceCount = 256;
 
 void shrinkBlock(const WallTree& tree, std::span<FaceBalls> faces) {

@@ -11,8 +11,10 @@ namespace asdfvk {
 /// The balls that give the thickness of one face, in normalised coordinates.
 struct FaceBalls {
   uint32_t face = 0;
-  InscribedBall atBarycentre;  ///< The largest ball at the barycentre with no opposing wall inside.
-  InscribedBall least;         ///< The least of such balls over all points of the face.
+  /// The largest ball that touches the face at its barycentre and contains no opposing wall.
+  InscribedBall atBarycentre;
+  /// Each point of the face has a largest ball like atBarycentre. `least` is the smallest of these balls.
+  InscribedBall least;
 };
 
 /// Shrinks the balls of faces until no opposing wall is inside, on all cores. On entry the diameters are upper bounds.

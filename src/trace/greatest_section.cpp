@@ -15,11 +15,12 @@
 namespace asdfvk {
 namespace {
 
-/// Largest number of cubes that a search divides. A search with this number returns the bound of the last cube.
+/// Largest number of cubes that a search divides. A search that reaches this number returns the bound of the last cube.
 constexpr uint32_t kMaxCubeCount = 200'000;
-/// First cubes along the longest side of the box of the solid.
+/// Number of first cubes along the longest side of the box of the solid.
 constexpr int kFirstCubeCount = 4;
-// Corners within this distance of a plane are in the plane: the resolution of coordinates in float32.
+// Corners within this distance of a plane count as points of the plane. The distance is the resolution of coordinates
+// in float32.
 constexpr double kFlat = 0x1p-22;
 
 class SolidSurface {
@@ -42,8 +43,8 @@ class SolidSurface {
     return nearestSurfacePoint(scene_, p, enough, [&](uint32_t face) { return copyOf(face); });
   }
 
-  /// Whether the surface within `radius` of the point is not empty and lies in the plane of `face`. The surface then
-  /// covers the disc, because the solid is closed.
+  /// Whether the surface within `radius` of the point is not empty and lies in the plane of `face`. If true, the
+  /// surface covers the whole disc, because the solid is closed.
   [[nodiscard]] bool isFlatAround(const Vec3d& point, double radius, uint32_t face) const {
     const Vec3d& plane = normal(face);
     const double offset = dot(plane, triangle(face).corners[0]);
@@ -115,7 +116,7 @@ class Search {
     const double enough = (1 + kSectionTolerance) * radius_ - reach;
     const SurfacePoint foot = surface_.nearest(centre, enough);
     if (foot.face == kNoFace || foot.distance < enough) return;
-    if (foot.side >= 0) {  // Outside.
+    if (foot.side >= 0) {  // The centre is outside of the solid.
       if (reach - foot.distance > radius_) cubes_.push({centre, halfSide, reach - foot.distance});
       return;
     }
@@ -132,7 +133,7 @@ class Search {
   }
 
   /// A bound for balls with centres within `reach` of `centre`, by two points that no ball contains: the foot, and the
-  /// point of the wall opposite of it.
+  /// point of the wall opposite to the foot.
   double boundByWalls(const Vec3d& centre, const SurfacePoint& foot, double reach) {
     const Vec3d away = (centre - foot.point) / foot.distance;
     const RayHit hit = surface_.opposite(centre, away);

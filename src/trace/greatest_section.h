@@ -14,18 +14,18 @@ namespace asdfvk {
 struct GreatestSection {
   Vec3d centre;
   double diameter = std::numeric_limits<double>::infinity();
-  /// Bound of the diameters of all balls inside: at most (1 + kSectionTolerance) diameter unless the search hit its
-  /// limit.
+  /// Bound of the diameters of all balls inside. The bound is at most (1 + kSectionTolerance) * diameter, or greater if
+  /// the search reached its limit.
   double bound = std::numeric_limits<double>::infinity();
 };
 
 inline constexpr double kSectionTolerance = 1e-3;
 
 /// The greatest section of each wanted solid; infinite for other solids. Branch and bound over cubes in the box of the
-/// solid. Three bounds limit the radii of the balls with centres in a cube: the distance from the centre of the cube to
-/// the surface, plus half of the diagonal of the cube; a bound by two points of opposite walls, which no ball contains;
-/// and a bound by the planes of flat walls. Precondition: the faces of a wanted solid are closed and consistently
-/// wound. solidOf: #F. isWanted: one entry per solid. Throws Error{Cancelled}.
+/// solid. Three bounds limit the radii of the balls with centres in a cube. The first is the distance from the centre
+/// of the cube to the surface, plus half of the diagonal of the cube. The second is a bound by two points of opposite
+/// walls, which no ball contains. The third is a bound by the planes of flat walls. Precondition: the faces of a wanted
+/// solid are closed and consistently wound. solidOf: #F. isWanted: one entry per solid. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<GreatestSection> findGreatestSections(const TraceScene& scene,
                                                                 std::span<const uint32_t> solidOf,
                                                                 std::span<const uint8_t> isWanted,

@@ -9,14 +9,14 @@
 namespace asdfvk {
 namespace {
 
-// Margin of the boxes, so that a ray that hits a triangle despite rounding also enters its box. Coordinates relative to
-// the origin are below 3.5, with relative errors of a few units of 2^-53. The margin is absolute, because the relative
-// margin of Ize 2013 does not cover a ray along a side of the box.
+// Margin of the boxes for rounding. With the margin, a ray that hits a triangle also enters the box of the triangle.
+// Coordinates relative to the origin are below 3.5, with relative errors of a few units of 2^-53. The margin is
+// absolute, because the relative margin of Ize 2013 does not cover a ray along a side of the box.
 constexpr double kBoxMargin = 1e-14;
 
-// Test of a ray against boxes. The sign of the direction decides which side of a slab is the near one. A component of 0
-// is replaced by a number that is too small to move the ray; the products of its inverse with box coordinates stay
-// finite.
+// Test of a ray against boxes. The sign of the direction decides which side of a slab the ray reaches first. A
+// component of 0 is replaced by a tiny number. The number is too small to move the ray, and large enough that the
+// products of its inverse with box coordinates are finite.
 struct SlabTest {
   Vec3d inverse, nearOrigin, farOrigin;
   std::array<bool, 3> isNegative{};
@@ -32,7 +32,7 @@ struct SlabTest {
     }
   }
 
-  // Distance at which the ray enters the box; kNoHit for a miss, or beyond `limit`.
+  // Distance at which the ray enters the box; kNoHit if the ray misses the box or enters it beyond `limit`.
   [[nodiscard]] double entry(const BvhNode& node, double limit) const {
     double enter = 0, leave = limit;
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -110,7 +110,8 @@ class Walk {
   double contactDistance_;
   const Counts& counts_;
   RayHit best_;
-  double limit_ = kNoHit;  // The distance of the best hit, with the addition on outer sides, for comparisons.
+  // The distance of the best hit for comparisons, with the addition for a hit on an outer side.
+  double limit_ = kNoHit;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ struct RayFrame {
 };
 
 struct TriangleHit {
-  double distance = kNoHit;  ///< Along the ray.
+  double distance = kNoHit;  ///< Distance along the ray.
   bool isOuterSide = false;  ///< Whether the ray hits the side from which the corners are counterclockwise.
 };
 
@@ -54,12 +54,12 @@ struct RayHit {
 };
 
 /// The nearest triangle that the ray hits, except `skippedFace` and triangles within contactDistance
-/// (Cone::contactDistance). Of equally near triangles, the lowest face index. Origin and unit direction are in
-/// normalised coordinates; the origin is in the root's box or near it.
+/// (Cone::contactDistance). If several triangles are equally near, the one with the lowest face index is hit. Origin
+/// and unit direction are in normalised coordinates. The origin is in the box of the root or near it.
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 uint32_t skippedFace, double contactDistance = 0);
 
-/// Hits only faces for which counts(face) is true.
+/// Like nearestHit(), but hits only faces for which counts(face) is true.
 [[nodiscard]] RayHit nearestHitAmong(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin,
                                      const Vec3d& direction, FunctionRef<bool(uint32_t face)> counts);
 

@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Distances with at most this difference count as equal, because of rounding.
+/// Because of rounding, distances that differ by at most this number count as equal.
 constexpr double kEqualDistance = 1e-12;
 
 Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {

@@ -57,7 +57,7 @@ class ReferenceTracer final : public ConeTracer {
   TraceStatistics traceAll(const Cones& cones, const ConeResults& results, const RunControl& control) const {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, cones.size(), rayCount);
-    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
+    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // Number of hits per cone.
     forEachChunk(cones.size(), ChunkSize(64, cones.size()), control, [&](size_t begin, size_t end) {
       forEachRange(end - begin, 8, [&](size_t first, size_t last) {
         for (size_t i = begin + first; i < begin + last; ++i)
@@ -88,11 +88,12 @@ RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, cons
 ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
   const Vec3d& normal = scene.geometry.normals[face];
   if (cone.definition == Definition::Paper) return paperConeFrame(cone, normal, face);
-  // Uses the corners of the mesh, because scaling or moving would lose coordinates of the normal that are exactly 0.
+  // Uses the corners of the mesh. After scaling or a shift, coordinates of the normal that are exactly 0 would no
+  // longer be 0.
   const auto [i, j, k] = scene.mesh.faces[face];
   const Vec3d& a = scene.mesh.vertices[i];
   const Vec3d inward = -cross(scene.mesh.vertices[j] - a, scene.mesh.vertices[k] - a);
-  const double norm = length(inward);  // Out of range in extreme units.
+  const double norm = length(inward);  // May overflow or underflow in extreme units.
   return cgalConeFrame(norm > 0 && std::isfinite(norm) ? inward : -normal);
 }
 

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Edges at which opposing walls meet, connected over their points; or a tip: a point at which opposing walls without a
+/// A line of connected edges at which opposing walls meet; or a tip, which is a point at which opposing walls without a
 /// common edge meet.
 struct SharpLine {
   double cosine = -1;  ///< Cosine of the least inner angle between the walls.
@@ -29,10 +29,10 @@ struct SharpEdges {
   [[nodiscard]] bool hasEdge(uint32_t face, size_t k) const { return (faceBits[face] >> (3 + k) & 1) != 0; }
 };
 
-/// Two faces of one body with a common point meet sharply if the cosine of the angle between their normals is at most
-/// maxCosine, and the diameter of leastTouchingBall() with minDepth is at most kSharpDepths * minDepth. solids: the
-/// bodies, or null if all faces may bound one body. In a fan of more than kMaxComparedFaces faces, each face is
-/// compared with at most kMaxComparedFaces others, and with the faces that share an edge with it.
+/// Two faces of one body with a common point meet sharply under two conditions. The cosine of the angle between their
+/// normals is at most maxCosine. The diameter of leastTouchingBall() with minDepth is at most kSharpDepths * minDepth.
+/// solids: the bodies, or null if all faces may bound one body. In a fan of more than kMaxComparedFaces faces, each
+/// face is compared with at most kMaxComparedFaces other faces, and with the faces that share an edge with it.
 [[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
                                         double maxCosine, double minDepth, const Solids* solids = nullptr);
 

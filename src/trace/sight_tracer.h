@@ -9,7 +9,8 @@
 
 namespace asdfvk {
 
-/// Tests line segments against the faces. Implementations agree unless a segment grazes an edge or ends near a face.
+/// Tests line segments against the faces. Results of implementations may differ only if a segment grazes an edge or
+/// ends near a face.
 class SightTracer {
  public:
   virtual ~SightTracer() = default;

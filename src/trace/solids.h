@@ -14,9 +14,9 @@ inline constexpr uint32_t kNoBody = 0xffffffff;
 /// the index of its outer component. A component that bounds no body is a separate solid.
 struct Solids {
   std::vector<uint32_t> solidOf;  ///< #F
-  /// Per component: whether it is an outer surface, closed and wound consistently outwards.
+  /// For each component: whether it is an outer surface, closed and wound consistently outwards.
   std::vector<uint8_t> isClosed;
-  /// Per component: whether it is closed, but wound inconsistently or to the wrong side.
+  /// For each component: whether it is closed, but wound inconsistently or to the wrong side.
   std::vector<uint8_t> isMisoriented;
 
   /// The solid of the face if this solid is closed, else kNoBody.

@@ -11,13 +11,13 @@
 namespace asdfvk {
 namespace {
 
-/// Largest number of pieces, 350 bytes each, to which faces are divided. Whole faces are not counted.
+/// Largest number of pieces into which faces are divided. A piece takes 350 bytes. Whole faces are not counted.
 constexpr size_t kMaxPieceCount = size_t{1} << 20;
 constexpr size_t kBlockSize = 256;
 /// Length of a line in steps: a power of two, so that halves are exact.
 constexpr uint32_t kLineLength = uint32_t{1} << 31;
 
-/// A part of a line: of an edge of the mesh, or of a line along which a piece was halved.
+/// A part of a line. The line is an edge of the mesh, or a line along which a piece was halved.
 struct Side {
   uint32_t line = 0, from = 0, to = 0;
   bool isSharp = false;  ///< Whether the line is a sharp edge of the face.
@@ -113,7 +113,7 @@ class ThinSearch {
     return longestSide(piece.part.corners).second > maxLength_ && !isThinEverywhere(piece);
   }
 
-  /// The diameter of the ball that one wall limits is a convex function of the point: if the diameter is below the
+  /// If one wall limits the balls, the diameter is a convex function of the point. If the diameter is then below the
   /// limit at the corners, it is below the limit everywhere between them.
   [[nodiscard]] bool isThinEverywhere(const Piece& piece) const {
     const Vec3d& normal = tree_.scene().geometry.normals[piece.part.face];

@@ -23,9 +23,9 @@ struct ThinPart {
   uint32_t region = 0;   ///< Number of the region; parts connected over edges are one region.
 };
 
-/// The parts of thin faces with a point below the limit. Faces are halved at their longest edges until pieces are no
-/// longer than maxLength, or until one wall shows that a piece is thin everywhere. faces: thin faces with their balls;
-/// at least one ball of each face is below the limit. Throws Error{Cancelled}.
+/// The parts of thin faces that have a point below the limit. Pieces of faces are halved at their longest edges. A
+/// piece is not halved if its edges are at most maxLength long, or if one wall shows that the piece is thin everywhere.
+/// faces: thin faces with their balls; at least one ball of each face is below the limit. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ThinPart> findThinParts(const WallTree& tree, const PointFans& fans, const SharpEdges& sharp,
                                                   std::span<const FaceBalls> faces, double limit, double maxLength,
                                                   const RunControl& control);

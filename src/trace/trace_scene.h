@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Mesh and hierarchy for the tests of rays and balls. Views: the viewed data must outlive the tracer.
+/// Mesh and hierarchy for the tests of rays and balls. Has views only; the viewed data must outlive the tracer.
 struct TraceScene {
   TriangleMesh mesh;
   const FaceGeometry& geometry;

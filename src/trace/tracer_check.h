@@ -17,7 +17,7 @@ struct TracerCheck {
 
   /// Whether the tracer is wrong. A few faces may differ, because rays graze edges.
   [[nodiscard]] bool isRefuted() const { return differingCount > 4 && 4 * differingCount > comparedCount; }
-  /// Whether the faces suffice to refute a tracer.
+  /// Whether enough faces were compared to detect a wrong tracer.
   [[nodiscard]] bool isConclusive() const { return comparedCount >= 16; }
 };
 

@@ -6,14 +6,14 @@
 
 namespace asdfvk {
 
-/// Plane of a triangle, 32 bytes: normal * p = offset. The only data of a hit triangle that the length of a ray needs.
+/// Plane of a triangle, 32 bytes: normal * p = offset. The length of a ray needs no other data of the hit triangle.
 struct TrianglePlane {
-  Vec3d normal;  ///< Unit.
+  Vec3d normal;  ///< Unit vector.
   double offset = 0;
 };
 static_assert(sizeof(TrianglePlane) == 32);
 
-/// One per primitive of the hierarchy.
+/// Returns one plane per primitive of the hierarchy.
 [[nodiscard]] std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene);
 
 }  // namespace asdfvk

@@ -13,7 +13,8 @@ namespace {
 
 /// Nodes with more walls have no cylinder (WallNode::axis), because so many walls rarely fit into a small cylinder.
 constexpr uint32_t kMaxDiscWallCount = 4096;
-/// Nodes with up to this number of walls are leaves, because testing the walls is cheaper than descending.
+/// Nodes with up to this number of walls are leaves, because a test of these walls takes less time than a further level
+/// of the hierarchy.
 constexpr uint32_t kMaxLeafWallCount = 4;
 
 }  // namespace
@@ -88,7 +89,7 @@ void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSe
   dispatch<Float16>(instructionSet, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     for (size_t begin = 0; begin < queries.size(); begin += kLaneCount<Floats>) {
       BallPacket<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
-      if (begin > 0) {  // Offers the walls of the previous queries.
+      if (begin > 0) {  // Lowers the limits by the walls of the previous queries.
         for (const BallQuery& before : queries.subspan(begin - kLaneCount<Floats>, kLaneCount<Floats>))
           for (const uint32_t wall : {before.atPoint.wall, before.least.wall})
             if (wall != kNoFace) packet.offer(walls_[wallOf_[wall]]);

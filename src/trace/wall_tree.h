@@ -17,16 +17,16 @@ namespace asdfvk {
 /// A ball that touches a face from inside, in normalised coordinates.
 struct InscribedBall {
   TouchingBall ball;
-  uint32_t wall = kNoFace;  ///< The face that determines the diameter; kNoFace for none.
+  uint32_t wall = kNoFace;  ///< The face that determines the diameter; kNoFace if there is none.
 };
 
 /// A query of WallTree::shrink(): two balls that shrink until no opposing wall is inside. On entry the diameters are
 /// upper bounds.
 struct BallQuery {
-  PlaneTriangle triangle;   ///< A face or a part of it.
-  Vec3d point;              ///< A point of the triangle.
-  InscribedBall atPoint;    ///< The largest ball at the point.
-  InscribedBall least;      ///< The least of such balls over all points of the triangle.
+  PlaneTriangle triangle;  ///< A face or a part of it.
+  Vec3d point;             ///< A point of the triangle.
+  InscribedBall atPoint;   ///< The largest ball at the point.
+  InscribedBall least;  ///< Each point of the triangle has such a largest ball. `least` is the smallest of these balls.
   uint32_t body = kNoBody;  ///< Body of the triangle, see Solids::bodyOf.
 };
 
@@ -44,8 +44,9 @@ struct Wall {
 struct WallNode {
   Vec3f min, max, normalMin, normalMax;
   Vec3f middle;  ///< Middle of one of the walls.
-  /// A mean of the normals. All corners of the walls are in a cylinder around the line through `middle` along the axis:
-  /// within `radius` of the line, at positions from `lowest` to `highest` along it, and at most `reach` from `middle`.
+  /// A mean of the normals. All corners of the walls are in a cylinder. The axis of the cylinder is the line through
+  /// `middle` in this direction. Corners are within `radius` of the line, at positions from `lowest` to `highest` along
+  /// the line, and at most `reach` from `middle`.
   Vec3f axis{};
   float lowest = 0, highest = 0, radius = 0, reach = 0;
   uint32_t first = 0;      ///< Inner: index of the left child; the right child follows. Leaf: first wall.
@@ -55,22 +56,23 @@ struct WallNode {
 /// The faces as walls, and a hierarchy for the search. Neighbouring queries are processed together, one in each lane of
 /// a vector: nodes and walls are culled in float32, and walls are measured in double. The method is the shrinking ball
 /// of Ma, Bae and Choi 2012, but with one traversal instead of a query per step. One traversal suffices, because a wall
-/// that was outside once remains outside: the balls of one diameter at all points of a face fill a convex set, which
-/// contains the sets of all smaller diameters.
+/// that is outside of the balls remains outside when they shrink. The reason: the balls of one diameter at all points
+/// of a face fill a convex set, which contains the sets of smaller diameters.
 class WallTree {
  public:
   /// solids: null if all faces may bound one body.
   WallTree(const TraceScene& scene, const OpposingWalls& walls, const Solids* solids = nullptr);
 
   /// Shrinks the balls. Consecutive queries should be neighbours in space. The bits of the diameters depend neither on
-  /// the order nor on the instruction set. Of walls with equal diameters, the lowest face index is taken.
+  /// the order nor on the instruction set. If several walls give equal diameters, the wall with the lowest face index
+  /// is taken.
   void shrink(std::span<BallQuery> queries, InstructionSet instructionSet = widestInstructionSet()) const;
 
   [[nodiscard]] const TraceScene& scene() const { return scene_; }
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return walls_[wallOf_[face]].body; }
   [[nodiscard]] const OpposingWalls& opposing() const { return opposing_; }
   [[nodiscard]] std::span<const WallNode> nodes() const { return nodes_; }
-  /// In the order of the hierarchy: consecutive walls are neighbours in space.
+  /// The walls in the order of the hierarchy: consecutive walls are neighbours in space.
   [[nodiscard]] std::span<const Wall> walls() const { return walls_; }
 
  private:

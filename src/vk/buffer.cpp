@@ -85,7 +85,7 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
   info.size = byteCount;
   info.usage = usage;
   requireSuccess(vkCreateBuffer(device_, &info, nullptr, &buffer_), "creating a buffer");
-  Buffer guard = std::move(*this);  // Frees the members created so far if a later step throws.
+  Buffer guard = std::move(*this);  // If a later step throws, the guard frees the members that exist by then.
 
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);

@@ -28,7 +28,7 @@ void BufferPool::give(Entry entry) noexcept {
   if (idleByteCount() + entry.buffer.byteCount() > kMaxIdleByteCount) return;
   try {
     idle_.push_back(std::move(entry));
-  } catch (...) {  // The host has no memory for the entry: free the buffer.
+  } catch (...) {  // The host has no memory for the entry. The buffer is freed instead.
   }
 }
 

@@ -11,7 +11,7 @@ namespace asdfvk {
 /// takes buffers from the pool and returns them.
 class BufferPool {
  public:
-  /// Memory of all buffers in the pool. Further buffers are freed.
+  /// Greatest memory of all buffers in the pool. Further buffers are freed.
   static constexpr uint64_t kMaxIdleByteCount = 256u << 20;
 
   /// The device must outlive the pool.

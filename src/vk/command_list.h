@@ -36,10 +36,10 @@ class CommandList {
   void barrier();
   /// Throws Error{Device} if the device is lost.
   void submit();
-  /// Waits for the submitted commands, if any. Throws Error{Device} if the device is lost. There is no time limit: a
-  /// driver reports a GPU that hangs as lost, and resources of running work cannot be freed.
+  /// Waits for the submitted commands, if any. Throws Error{Device} if the device is lost. There is no time limit, for
+  /// two reasons: a driver reports a hanging GPU as lost, and resources of running work cannot be freed.
   void wait();
-  /// Like wait(), but without exceptions. Afterwards, the device does not use the resources of the commands.
+  /// Like wait(), but without exceptions. After the call, the device does not use the resources of the commands.
   void finish() noexcept;
   void submitAndWait() {
     submit();

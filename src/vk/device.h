@@ -15,8 +15,8 @@ namespace asdfvk {
 
 class BufferPool;
 
-/// The first queue family with compute and without graphics, or else the first with compute. A family without graphics
-/// does not delay the desktop, and on some systems has a longer watchdog timeout.
+/// The first queue family with compute and without graphics; if there is none, the first family with compute. A family
+/// without graphics does not delay the desktop, and on some systems has a longer watchdog timeout.
 [[nodiscard]] std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families);
 
 [[nodiscard]] DeviceFacts describeDevice(VkPhysicalDevice device);

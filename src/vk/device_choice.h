@@ -28,17 +28,17 @@ struct DeviceFacts {
   uint32_t maxWorkgroupSize = 0;  ///< Greatest size of a workgroup in x.
   uint32_t maxStorageBuffersPerStage = 0;
   uint32_t maxWorkgroupCount = 0;      ///< Greatest number of workgroups in x.
-  uint64_t maxStorageBufferRange = 0;  ///< Bytes.
+  uint64_t maxStorageBufferRange = 0;  ///< In bytes.
   uint64_t maxTexelBufferElements = 0;
-  uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
+  uint64_t maxMemoryAllocationSize = 0;  ///< In bytes.
   bool mapsDeviceMemory = true;          ///< False imitates a device with separate memory, for tests.
   bool endsLongLoops = false;  ///< Loops of kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
 
 /// Whether kernels read large read-only arrays as texels instead of from storage buffers. True on CPU devices, where
-/// texels are faster, unless storage buffers can be larger. On NVIDIA GPUs since Volta, random loads of 16 bytes from
-/// texel buffers are up to 3 times slower than from storage buffers; on AMD GPUs both are equally fast (Aaltonen,
-/// https://github.com/sebbbi/perftest). Many devices allow 65,536 texels only.
+/// texels are faster; but false if storage buffers can be larger than arrays of texels. On NVIDIA GPUs since Volta,
+/// random loads of 16 bytes from texel buffers are up to 3 times slower than from storage buffers; on AMD GPUs both are
+/// equally fast (Aaltonen, https://github.com/sebbbi/perftest). Many devices allow 65,536 texels only.
 [[nodiscard]] bool prefersTexels(const DeviceFacts& device);
 
 /// llvmpipe before Mesa 25 ends all loops of an invocation, without an error, after this many iterations. The count is
@@ -55,14 +55,15 @@ struct DeviceRequest {
 };
 
 struct DeviceChoice {
-  std::optional<uint32_t> index;     ///< Index of the chosen device; unset if every device was refused.
-  std::vector<std::string> reasons;  ///< Per device, without its name: "chosen", or the reason against it.
+  std::optional<uint32_t> index;  ///< Index of the chosen device; unset if every device was refused.
+  /// One text per device, without the name of the device: "chosen", or the reason against the device.
+  std::vector<std::string> reasons;
 };
 
 [[nodiscard]] std::string_view toString(DeviceKind kind);
 
-/// GPUs before CPU devices, discrete GPUs first, otherwise the given order. CPU devices are refused only if a GPU is
-/// required. A pure function.
+/// Chooses a device. GPUs come before CPU devices, and discrete GPUs before other GPUs; within these groups, the given
+/// order counts. CPU devices are refused only if a GPU is required. A pure function.
 [[nodiscard]] DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request);
 
 }  // namespace asdfvk

@@ -51,8 +51,8 @@ struct LayerSettingsInfo {
   const LayerSetting* settings;
 };
 
-/// Enables the checks of shader accesses, which layers since July 2024 do not check by default. Most accesses here are
-/// shader accesses.
+/// Enables the checks of shader accesses, because most accesses here are shader accesses. Layers since July 2024 do not
+/// check these by default.
 LayerSettingsInfo shaderAccessValidation() {
   constexpr auto kLayerSettingsCreateInfo = static_cast<VkStructureType>(1000496000);
   constexpr int32_t kBool32 = 0;

@@ -42,7 +42,7 @@ class Instance {
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  /// Volk's global pointer becomes null when an instance without the extension is created.
+  /// A copy, because Volk's global pointer becomes null when an instance without the extension is created.
   PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
   std::shared_ptr<ValidationLog> log_;
 };

@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// Unless the result is VK_SUCCESS, throws Error of kind Device. call: the failed call, such as "creating a buffer".
+/// Throws Error of kind Device if the result is not VK_SUCCESS. call: the failed call, such as "creating a buffer".
 void requireSuccess(VkResult result, std::string_view call);
 
 }  // namespace asdfvk

@@ -7,7 +7,8 @@
 
 namespace asdfvk {
 
-/// A pooled buffer on the device. The host accesses a mapped buffer directly, another buffer through a mapped copy.
+/// A pooled buffer on the device. The host accesses a mapped buffer directly. The host accesses any other buffer
+/// through a mapped copy.
 class SharedBuffer {
  public:
   enum class Host { Writes, Reads };

@@ -18,7 +18,7 @@ struct CpuCones {
 
 struct CpuSeed {
   ConeStart start;
-  uint32_t primitive = kNoFace;  ///< The primitive with the origin; kNoFace: none.
+  uint32_t primitive = kNoFace;  ///< The primitive that contains the origin; kNoFace: no primitive.
   bool fitsFloat = true;         ///< False: no ray is cast, and isDoubtful() is true.
   std::span<ConeHit> hits;       ///< One per ray, or empty.
 };
@@ -40,7 +40,7 @@ class ConeGroup {
   void trace();
   void clear();
 
-  /// In normalised units, or kNoValue. Meaningless if isDoubtful() is true.
+  /// The value of a cone in normalised units, or kNoValue. The value is meaningless if isDoubtful() is true.
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
   /// Whether the reference must trace the cone because float32 may be too coarse: CpuSeed::fitsFloat is false, or the
   /// value is below kMinFloatDiameter.
@@ -60,7 +60,7 @@ class ConeGroup {
   size_t size_ = 0;
   std::array<CpuSeed, kWidth> seeds_;
   std::array<double, kWidth> values_{};
-  std::vector<LaneHits> hits_;  // Per ray.
+  std::vector<LaneHits> hits_;  // One entry per ray.
 };
 
 }  // namespace asdfvk

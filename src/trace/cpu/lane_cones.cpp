@@ -138,7 +138,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWi
   };
   sorted_ = lengths_;
   sort();
-  // Sums in the order of the rays, as coneValue() does; adding zero changes no bit.
+  // Sums in the order of the rays, like coneValue(). Adding zero changes no bit.
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
     Double4 count{}, sum{}, squares{};
     for (const auto& lengths : lengths_) {

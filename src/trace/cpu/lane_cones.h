@@ -30,7 +30,7 @@ struct LaneFrames {
   void set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal);
 };
 
-/// Computes values from hits, with the bits of isFalseHit() and coneValue(). An object reuses its memory.
+/// Computes values from hits, with the same bits as isFalseHit() and coneValue(). An object reuses its memory.
 class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
@@ -56,7 +56,7 @@ class LaneCones {
   const Cone& cone_;
   std::span<const TrianglePlane> planes_;
   InstructionSet instructionSet_;
-  std::vector<std::array<double, kWidth>> lengths_, sorted_;  // Per ray.
+  std::vector<std::array<double, kWidth>> lengths_, sorted_;  // One entry per ray.
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // The sorting network.
 };
 

@@ -41,7 +41,7 @@ ASDFVK_ALWAYS_INLINE inline uint32_t maskBits(const Ints8& mask) {
   return bitsOf(mask);
 }
 
-/// a * b + c, rounded once or twice. Only for boxes: their margin covers the difference.
+/// a * b + c, rounded once or twice. Used only for boxes, because their margin covers the difference.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b, const Float8& c) {
 #if defined(__x86_64__) && !defined(__clang__)
@@ -66,7 +66,7 @@ ASDFVK_ALWAYS_INLINE inline Float8 absolute(const Float8& x) {
   return reinterpret_cast<Float8>(reinterpret_cast<Ints8>(x) & ~kSignBit);
 }
 
-/// The x, y or z of the axis of the longest component.
+/// Returns x, y or z: the component on the axis on which the direction of the ray is longest.
 ASDFVK_ALWAYS_INLINE inline Float8 choose(const Ints8& isZ, const Ints8& isY, const Float8& z, const Float8& y,
                                           const Float8& x) {
   return isZ ? z : isY ? y : x;
@@ -165,9 +165,9 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
   const float originX = rays.origins[x][ray], originY = rays.origins[y][ray], originZ = rays.origins[z][ray];
   const float shearX = rows.shearsX[ray], shearY = rows.shearsY[ray];
   struct Corner {
-    Float8 x, y, z;  // Across the ray, and along the main axis.
+    Float8 x, y, z;  // x, y: across the ray. z: along the main axis.
   };
-  // Depends on the corner and the ray only.
+  // The result depends only on the corner and the ray.
   const auto corner = [&](size_t k) ASDFVK_ALWAYS_INLINE {
     const Float8 along = load<Float8>(block.corners[k][z].data()) - originZ;
     return Corner{(load<Float8>(block.corners[k][x].data()) - originX) - shearX * along,

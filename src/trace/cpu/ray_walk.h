@@ -28,14 +28,14 @@ struct RayGroup {
 };
 
 /// Traces groups of rays. Eight boxes or eight triangles are tested against one ray (Wald et al. 2008). The rays of a
-/// group take turns, so that each ray waits for its memory while others compute. Watertight: no ray passes between
-/// triangles with a common edge. The hit of a ray depends neither on other rays nor on the instruction set: of equally
-/// near triangles, the lowest primitive is hit. Use one object per thread.
+/// group take turns. While the data of one ray are fetched from memory, other rays compute. Watertight: no ray passes
+/// between triangles with a common edge. The hit of a ray depends neither on other rays nor on the instruction set: of
+/// equally near triangles, the lowest primitive is hit. Use one object per thread.
 class RayWalk {
  public:
-  /// planes: one per primitive, or empty. For triangles that look long and narrow from the origin, the distance from
-  /// the corners is inexact; with planes, the distance is computed from the plane. Hierarchy and planes must outlive
-  /// this object. Precondition: this machine has the instruction set.
+  /// planes: one per primitive, or empty. If a triangle is long and narrow as seen from the origin, a distance that is
+  /// computed from its corners is inexact. With planes, the distance is computed from the plane of the triangle.
+  /// Hierarchy and planes must outlive this object. Precondition: this machine has the instruction set.
   explicit RayWalk(const LaneBvh& bvh, std::span<const TrianglePlane> planes = {},
                    InstructionSet instructionSet = widestInstructionSet())
       : bvh_(bvh), planes_(planes), instructionSet_(instructionSet) {}
@@ -58,7 +58,7 @@ class RayWalk {
   const LaneBvh& bvh_;
   std::span<const TrianglePlane> planes_;
   InstructionSet instructionSet_;
-  std::array<Stack, RayGroup::kWidth> stacks_;  // Per ray.
+  std::array<Stack, RayGroup::kWidth> stacks_;  // One stack per ray.
 };
 
 }  // namespace asdfvk

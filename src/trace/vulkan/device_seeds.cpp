@@ -28,7 +28,8 @@ DeviceSeeds::DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle
     : codes_(scene.representatives.size(), kNoFace), triangleCount_(static_cast<uint32_t>(triangles.size())) {
   const std::span<const uint32_t> representatives = scene.representatives;
   forEachInParallel(triangles.size(), [&](uint32_t i) { codes_[triangles[i].faceIndex] = i; });
-  // Copies first, because they read the entry of the representative while this entry is still the triangle.
+  // Sets the entries of copies first. These entries are read from the entry of the representative, which must still be
+  // the triangle.
   forEachInParallel(codes_.size(), [&](uint32_t face) {
     if (representatives[face] != face) codes_[face] = codeOf(scene, face, codes_[representatives[face]]);
   });

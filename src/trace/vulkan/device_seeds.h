@@ -20,7 +20,7 @@ struct DeviceCone {
 /// four accesses: to triangles, representatives, areas and normals of the mesh.
 class DeviceSeeds {
  public:
-  /// triangles: those of the hierarchy on the device.
+  /// triangles: the triangles of the hierarchy on the device.
   DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle> triangles);
 
   /// The cones of these faces in the order of their triangles, because neighbouring cones traverse the same nodes.

@@ -16,7 +16,7 @@ namespace asdfvk {
 /// results() and hits(). The destructor waits for the device and returns the buffers to Device::pool().
 class ConeChunk {
  public:
-  /// capacity: cones, at most largestConeChunk(). All arguments must outlive this object.
+  /// capacity: number of cones, at most largestConeChunk(). All arguments must outlive this object.
   ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity);
   ~ConeChunk() { commands_.finish(); }
   ConeChunk(const ConeChunk&) = delete;

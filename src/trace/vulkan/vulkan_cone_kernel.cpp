@@ -53,9 +53,9 @@ const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
                           facts.hasSubgroupVote ? "arithmetic" : "vote"));
 }
 
-// Cones per chunk: 48 bytes each, 6 MiB in all.
+// Largest number of cones per chunk. A cone takes 48 bytes, so that a chunk takes 6 MiB.
 constexpr uint64_t kMaxChunkConeCount = 1u << 17;
-// Bytes of the hits of a chunk: sufficient for kMaxChunkConeCount cones of 30 rays.
+// Largest size of the hits of a chunk, sufficient for kMaxChunkConeCount cones of 30 rays.
 constexpr uint64_t kMaxHitBufferByteCount = 32u << 20;
 constexpr uint64_t kMaxLengthBufferByteCount = 16u << 20;
 

@@ -18,7 +18,7 @@ namespace asdfvk {
 struct ConeKernelRequest {
   uint32_t rayCount;
   bool writesHits = false;
-  std::optional<VulkanTraceChoice> choice = {};  ///< None: defaultTraceChoice().
+  std::optional<VulkanTraceChoice> choice = {};  ///< Unset: defaultTraceChoice().
   Definition definition = Definition::Paper;
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
@@ -26,7 +26,7 @@ struct ConeKernelRequest {
 [[nodiscard]] ComputePipelineDescription describeRays(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
                                                       const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
 
-/// The compiled shaders/trace_*.comp for one device and request; serves any number of meshes.
+/// The compiled shaders/trace_*.comp for one device and one request, for any number of meshes.
 class VulkanConeKernel {
  public:
   /// shape, walk: given by tests; otherwise those for the device.
@@ -38,8 +38,8 @@ class VulkanConeKernel {
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
   /// Traces rays. Bindings: nodes and triangles (as texels, then as storage), rays, origins, lengths, hits.
   [[nodiscard]] const ComputePipeline& rays() const { return rays_; }
-  /// Makes the starts of cones from their seeds. Null for Definition::Cgal, whose frames depend on corners in double.
-  /// Bindings: nodes and triangles like rays(), seeds, starts.
+  /// Computes the starts of cones from their seeds. Null for Definition::Cgal, because its frames depend on corners in
+  /// double precision. Bindings: nodes and triangles like rays(), seeds, starts.
   [[nodiscard]] const ComputePipeline* origins() const { return origins_ ? &*origins_ : nullptr; }
   /// Computes results from lengths. Bindings: rays, lengths, results.
   [[nodiscard]] const ComputePipeline& reduction() const { return reduction_; }

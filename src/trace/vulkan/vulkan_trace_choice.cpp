@@ -71,7 +71,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
     shape.lanesPerCone = std::min(atMost(256), roundUp(rayCount, isCpu ? 8 : std::clamp(device.subgroupSize, 8u, 32u)));
     if (!isCpu) shape.conesPerWorkgroup = std::max(1u, atMost(128) / shape.lanesPerCone);
   }
-  // The limit is for the sum over the lanes of a subgroup. Lanes of a packet run every loop together.
+  // The limit applies to the sum over the lanes of a subgroup. The lanes of a packet run every loop together.
   constexpr uint32_t kPacketMargin = 64;  // An iteration of a packet adds less than this to the count.
   if (device.endsLongLoops)
     shape.iterationLimit = kernel == TraceKernel::Packet ? kMaxLoopIterationCount - kPacketMargin
@@ -80,7 +80,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
 }
 
 VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
-  constexpr uint32_t kLongStack = 65;  // Words; more than 256 bytes.
+  constexpr uint32_t kLongStack = 65;  // In words of 4 bytes; the stack is larger than 256 bytes.
   static_assert(kLongStack >= kMaxBvhDepth);
   VulkanWalkShape shape;
   shape.postponesTriangles = device.kind == DeviceKind::Cpu;

@@ -46,8 +46,8 @@ struct VulkanTraceRequest {
 /// The fastest variant for the class of the device (docs/speed.md).
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
-/// The variant for one hierarchy. If the request has no fetch, and the hierarchy may exceed the limit of the default
-/// fetch but not of the other fetch, the variant has the other fetch.
+/// The variant for one hierarchy. A request without a fetch gets the default fetch, or the other fetch if the hierarchy
+/// may exceed only the limit of the default fetch.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request,
                                                const Bvh& bvh);
 
@@ -63,21 +63,24 @@ inline constexpr ChoiceNames<BvhFetch, 2> kFetches{{{"texel", BvhFetch::Texel}, 
 struct VulkanWorkgroupShape {
   uint32_t lanesPerCone = 32;  ///< Rays of a cone in neighbouring lanes.
   uint32_t conesPerWorkgroup = 1;
-  uint32_t iterationLimit = 60'000;  ///< Per ray; the reference traces cones with rays beyond the limit.
+  /// Greatest number of loop iterations per ray; the reference traces cones with rays beyond the limit.
+  uint32_t iterationLimit = 60'000;
 };
 
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel);
 
-/// Traversal by single lanes (shaders/wide_walk.glsl). The shape only matters if a ray hits equally near triangles.
+/// Traversal by single lanes (shaders/wide_walk.glsl). Results depend on the shape only if a ray hits equally near
+/// triangles.
 struct VulkanWalkShape {
   uint32_t stackSize = kMaxBvhDepth;  ///< Entries, at least kMaxBvhDepth.
   /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one
-  /// node are tested one by one, as soon as each lane has triangles or has no node left (Aila and Laine 2009).
+  /// node are tested one by one. The tests begin when each lane has triangles or no node left (Aila and Laine 2009).
   bool postponesTriangles = true;
 };
 
-/// CPU devices postpone triangles; GPUs do not, which saves registers. On AMD GPUs the stack of a lane is larger than
-/// 256 bytes: Mesa's compiler puts such arrays into memory, and smaller arrays into registers. Packets share a stack.
+/// CPU devices postpone triangles. GPUs test them at once, which saves registers. On AMD GPUs the stack of a lane is
+/// larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but smaller arrays into registers.
+/// Packets share a stack.
 [[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk

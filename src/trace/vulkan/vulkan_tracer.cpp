@@ -176,8 +176,8 @@ class VulkanTracer final : public ConeTracer {
   void redo(const std::vector<uint32_t>& redone, const StartOf& startOf, const ConeResults& results,
             const RunControl& control) const {
     const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
-    const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
-    const size_t blockSize = largestConeChunk(kernel_);                     // bounds the copies of starts and hits
+    const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // Number of hits per cone.
+    const size_t blockSize = largestConeChunk(kernel_);                     // Bounds the copies of starts and hits.
     const auto total = static_cast<double>(redone.size());
     for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
       const std::span<const uint32_t> block =
