@@ -34,7 +34,7 @@ float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, vec3 normal, 
   precise const float edgeB = a.x * c.y - a.y * c.x;
   precise const float edgeC = b.x * a.y - b.y * a.x;
   const float det = edgeA + edgeB + edgeC;
-  // The point is inside if each edge function is 0 or has the sign of their sum.
+  // The point is inside if each edge function is 0 or has the sign of the sum of the edge functions.
   const uvec3 turned = floatBitsToUint(vec3(edgeA, edgeB, edgeC)) ^ (floatBitsToUint(det) & 0x80000000u);
   const bool inside = all(greaterThanEqual(uintBitsToFloat(turned), vec3(0.0))) && det != 0.0;
   const float slope = dot(normal, frame.direction);

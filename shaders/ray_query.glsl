@@ -62,15 +62,15 @@ vec4 distancesTo(uint bytes, float perByte, float start) {
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// Per axis, the size of one step of the bytes of a node.
+// For each axis, the size of one step of the bytes of a node.
 vec3 stepsOf(DeviceWideNode node) {
   return uintBitsToFloat(uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u);
 }
 
 // A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared as integers,
 // by their bits. Non-negative floats have the same order as integers, negative floats the reverse order. A box behind
-// the origin has negative distances only: as an integer its exit is below its entry, so that the ray does not enter the
-// box. On llvmpipe a minimum of floats takes three instructions because of NaNs, which do not occur here.
+// the origin has negative distances only. As integers, its exit is then below its entry, so that the ray does not enter
+// the box. On llvmpipe a minimum of floats takes three instructions because of NaNs, which do not occur here.
 // kWideBoxMargin covers rounding.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const ivec4 enter = max(max(floatBitsToInt(distancesTo(near.x, perByte.x, start.x)),

@@ -11,7 +11,7 @@ layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
 layout(constant_id = 2) const uint kRayCount = 30;
 layout(constant_id = 3) const uint kIterationLimit = 8000;
 layout(constant_id = 4) const bool kWritesHits = false;
-layout(constant_id = 7) const bool kIsCgal = false;  // Definition::Cgal; otherwise Definition::Paper.
+layout(constant_id = 7) const bool kIsCgal = false;  // True: Definition::Cgal. False: Definition::Paper.
 
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
@@ -38,8 +38,9 @@ float distanceOf(Hit hit, vec3 normal, vec3 direction) {
   return dot(normal, direction) < 0.0 ? hit.distance - kOuterSideFactor * push.contactDistance : hit.distance;
 }
 
-// The length of a ray; kDropped for a miss and for a false hit. Whether a hit is false depends on an angle. Paper:
-// between the normals of hit face and seed face (minus the axis). Cgal: between the ray and the normal of the hit face.
+// The length of a ray; kDropped for a miss and for a false hit. An angle decides whether a hit is false. Paper: the
+// angle between the normals of hit face and seed face (minus the axis). Cgal: the angle between the ray and the normal
+// of the hit face.
 float validLength(Hit hit, vec3 axis, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.primitive);

@@ -22,8 +22,9 @@ uint permuteNibbles(uint bits, bvec3 isNegative) {
 uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
 
 // Inner children of one node that are still to be entered. base: childBase of the node. bits: 0 if the ray enters no
-// inner child. Otherwise bit 4 p + 3 is set for each of these children, where p = slot of the child ^ octant of the
-// ray; the lowest such bit is the nearest child. Bit 4 s + 2 is set for each slot s of the node with an inner child.
+// inner child. For each of these children, bit 4 p + 3 is set, where p = slot of the child ^ octant of the ray. The
+// lowest such bit is the nearest child. If `bits` is not 0, bit 4 s + 2 is set for each slot s of the node with an
+// inner child.
 struct Group {
   uint base, bits;
 };
@@ -72,7 +73,7 @@ void add(inout LeafQueue queue, Leaves leaves) {
   }
 }
 
-// Removes a primitive and returns it; `otherwise` if the queue is empty.
+// Removes a primitive and returns it; returns `otherwise` if the queue is empty.
 uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   const uint lowest = queue.first.bits & (~queue.first.bits + 1u);
   const uint primitive = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
@@ -87,8 +88,9 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
 
 // With kPostponesTriangles, tests of triangles are postponed until a lane of the subgroup has triangles of three nodes.
 // Tests after each node would leave most lanes idle while a few lanes test triangles. Two triangles are tested at a
-// time, which hides the latency of loading them. Without kPostponesTriangles, a lane with triangles waits until each
-// lane of the subgroup has triangles or has no node left (Aila and Laine 2009). The second way needs fewer registers.
+// time, which hides the latency of loading them. Without kPostponesTriangles, a lane with triangles waits for the other
+// lanes of the subgroup, until each has triangles or no node left (Aila and Laine 2009). The second way needs fewer
+// registers.
 Hit findNearestHit(Query query) {
   uint stackBases[kStackSize];
   uint stackBits[kStackSize];

@@ -1,5 +1,5 @@
 #version 450
-// D^-1/2 of the matrix of a graph: 1 / sqrt of the sum of the weights of each face; 1 without neighbours.
+// D^-1/2 of the matrix of a graph: 1 / sqrt of the sum of the weights of each face; 1 for a face without neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"

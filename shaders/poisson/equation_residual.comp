@@ -1,6 +1,6 @@
 #version 450
-// The residual of the differences, scaled like b in shared/poisson_layout.h, times push.scale. Also the partial sums of
-// the squared weighted norm of the residual.
+// The residual of the differences, scaled like b in shared/poisson_layout.h, times push.scale. The shader also computes
+// the partial sums of the squared weighted norm of the residual.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"

@@ -1,6 +1,7 @@
 #version 450
 // The rows of S for a graph (shared/poisson_layout.h). A row has one entry per arc; the first three are in the row
-// itself. An array has all couplings, from which rows with more than three arcs read the further couplings.
+// itself. A separate array has all couplings. Rows with more than three arcs read their further couplings from this
+// array.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"
@@ -12,7 +13,7 @@ layout(set = 0, binding = 0) writeonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 4) readonly buffer InverseRoots { float inverseRoots[]; };
 layout(set = 0, binding = 5) writeonly buffer Couplings { float couplings[]; };
 
-// The product of the roots comes first, so that the bits are the same in both directions.
+// Multiplies the roots first, so that the bits are the same in both directions of an edge.
 float couplingOf(uint face, uint arc) {
   const uint neighbour = neighbours[arc];
   precise float roots = inverseRoots[face] * inverseRoots[neighbour];

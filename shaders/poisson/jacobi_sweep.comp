@@ -1,5 +1,6 @@
 #version 450
-// One Jacobi iteration, y' = b + S y. Also the partial sums of the squares of y' - y, the residual of y.
+// One Jacobi iteration, y' = b + S y. The shader also computes the partial sums of the squares of y' - y, the residual
+// of y.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

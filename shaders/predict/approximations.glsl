@@ -6,7 +6,7 @@ float approximateRsqrt(float x) {
   return y * (1.500881 - 0.5 * x * y * y);
 }
 
-// exp(-x) to a relative error of 1e-4, for x from 0 to 80.
+// exp(-x) with a relative error of 1e-4, for x from 0 to 80.
 float expNegative(float x) {
   const float exponent = 127.0 - x * 1.44269504;
   const float whole = floor(exponent);
@@ -22,5 +22,5 @@ float squaredAngle(float cosine) {
   return u * (2.0 + u * (1.0 / 3.0 + u * (4.0 / 45.0 + u * (1.0 / 35.0 + u * (16.0 / 1575.0)))));
 }
 
-// sqrt(x) / arccos(1 - x) for 0 <= x <= 1, to a relative error of 3e-4.
+// sqrt(x) / arccos(1 - x) for 0 <= x <= 1, with a relative error of 3e-4.
 float sqrtOverAngle(float x) { return 0.706948624 - x * (0.0564995318 + x * 0.0136869098); }

@@ -9,7 +9,7 @@
 layout(local_size_x_id = 3) in;  // Has the value of kLanesPerCone, but a separate id.
 layout(constant_id = 0) const uint kLanesPerCone = 32u;
 layout(constant_id = 1) const uint kRayCount = 30u;
-layout(constant_id = 2) const bool kIsCgal = false;     // Definition::Cgal; otherwise Definition::Paper.
+layout(constant_id = 2) const bool kIsCgal = false;     // True: Definition::Cgal. False: Definition::Paper.
 layout(constant_id = 4) const uint kLengthCount = 30u;  // Equal to kRayCount.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
@@ -84,7 +84,7 @@ void main() {
     }
     lengths[ray] = validLength;
   }
-  if (lane == 0u) {  // findMiddles() does not write the middles without a valid ray.
+  if (lane == 0u) {  // Without a valid ray, findMiddles() does not write the middles.
     middles[0] = 0.0;
     middles[1] = 0.0;
   }

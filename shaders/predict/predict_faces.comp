@@ -8,7 +8,7 @@
 #include "shared/prediction_layout.h"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const bool kIsCgal = false;  // Definition::Cgal; otherwise Definition::Paper.
+layout(constant_id = 1) const bool kIsCgal = false;  // True: Definition::Cgal. False: Definition::Paper.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer Points { uvec4 pointBlocks[]; };
@@ -16,7 +16,7 @@ layout(set = 0, binding = 2) readonly buffer Work { uint work[]; };  // See Pred
 layout(set = 0, binding = 3) buffer Values { uint values[]; };       // Per face: the bits of a length, or kNoValueBits.
 layout(push_constant) uniform Push { PredictionPush push; };
 
-const float kMinSquaredLength = 1e-37;  // The inverse of its square root is finite.
+const float kMinSquaredLength = 1e-37;  // Limits squared lengths, so that the inverse of the square root is finite.
 
 uint seeds[kMaxContributingSeedCount];
 float seedWeights[kMaxContributingSeedCount];  // Negative for an absent seed.

@@ -78,7 +78,7 @@ DeviceTriangle decodeTriangle(uvec4 t0, uvec4 t1, uvec4 t2) {
                         uintBitsToFloat(t2.xyz), uintBitsToFloat(t2.w));
 }
 
-// Parallel to the normal, with a length between 1 / sqrt(3) and 1.
+// Returns a vector parallel to the normal, with a length between 1 / sqrt(3) and 1.
 vec3 octahedralDirection(float u, float v) {
   const float z = 1.0 - abs(u) - abs(v);
   const float fold = max(-z, 0.0);

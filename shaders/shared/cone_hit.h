@@ -1,4 +1,4 @@
-// The hit of one ray of a cone. GLSL writes it as a uvec2 of the bits of both fields.
+// The hit of one ray of a cone. GLSL writes a hit as a uvec2 of the bits of both fields.
 #ifndef ASDFVK_CONE_HIT_H
 #define ASDFVK_CONE_HIT_H
 

@@ -10,8 +10,8 @@ using glsl::vec3;
 
 const uint kConeOriginTexelCount = 3u;
 
-// The start of a cone, 48 bytes, in normalised coordinates. Kernels read it as texels of 16 bytes (format rgba32ui).
-// The axis of the frame is cross(tangent, bitangent).
+// The start of a cone, 48 bytes, in normalised coordinates. Kernels read the start as texels of 16 bytes (format
+// rgba32ui). The axis of the frame is cross(tangent, bitangent).
 struct ConeOrigin {
   vec3 origin;
   uint excludedFace;  // The representative of the seed face; hits on this face are ignored.
@@ -21,7 +21,7 @@ struct ConeOrigin {
   uint unused1;
 };
 
-// The seed of a cone, 8 bytes. cone_origins.comp makes the start of the cone from it.
+// The seed of a cone, 8 bytes. cone_origins.comp computes the start of the cone from the seed.
 struct ConeSeed {
   uint triangle;   // Index in the order of the hierarchy, with kFlippedFrameBit.
   float halfTurn;  // tan(angle / 2) of the rotation of the frame about its axis, coneRotation().
@@ -46,7 +46,7 @@ struct ConePush {
 
 // A result is the bits of a length in normalised units, or one of these constants.
 const uint kNoValueBits = 0x7fc00000u;         // No valid ray: a quiet NaN.
-const uint kIterationLimitBits = 0x7fc00001u;  // The iteration limit stopped the cone: the reference traces it.
+const uint kIterationLimitBits = 0x7fc00001u;  // The iteration limit stopped the cone: the reference traces the cone.
 
 #ifdef __cplusplus
 static_assert(sizeof(ConeOrigin) == 48);

@@ -6,10 +6,10 @@
 namespace asdfvk {
 #endif
 
-// Slack of the false-hit rule: a ray is dropped if cos(a) > cos(b) + kFalseHitSlack, where a is the angle between the
-// normals of seed face and hit face, and b the false-hit angle. The slack is 0.06 degrees at the default of 90 degrees.
-// Hits on perpendicular walls therefore do not depend on rounding. Without the slack, 3.6 % of the faces of a CAD part
-// changed with the last bit of a normal.
+// Slack of the false-hit rule: a ray is dropped if cos(a) > cos(b) + kFalseHitSlack. a: angle between the normals of
+// seed face and hit face. b: false-hit angle. The slack is 0.06 degrees at the default of 90 degrees. Hits on
+// perpendicular walls therefore do not depend on rounding. Without the slack, 3.6 % of the faces of a CAD part changed
+// with the last bit of a normal.
 const float kFalseHitSlack = 1e-3f;
 
 // A length is kept if |length - median| <= deviations * spread + kOutlierSlack * median (OutlierRule in

@@ -12,8 +12,8 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-// A row of S, two blocks of 16 bytes: its first three entries and the location of further entries, which rows of
-// manifold meshes do not have. An absent entry has coupling 0, and its column is the index of the row.
+// A row of S, two blocks of 16 bytes: the first three entries of the row, and the location of further entries. Rows of
+// manifold meshes have no further entries. An absent entry has coupling 0, and its column is the index of the row.
 const uint kPoissonRowBlockCount = 2u;
 const uint kPoissonRowHeadLength = 3u;  // Entries in the row itself.
 struct PoissonRow {
@@ -52,18 +52,19 @@ struct PoissonSums {
 
 struct PoissonPush {
   uint unknownCount;
-  uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
-  // Number of workgroups of a dispatch that is not empty. gl_NumWorkGroups is no substitute: while the kernel runs,
-  // some drivers load it from the DispatchSize that cg_step.comp overwrites.
+  uint stateIndex;  // The CgState that this iteration reads. The iteration writes the other CgState.
+  // Number of workgroups of a dispatch that is not empty. gl_NumWorkGroups cannot replace this number: some drivers
+  // load gl_NumWorkGroups while the kernel runs, from the DispatchSize that cg_step.comp overwrites.
   uint workgroupCount;
 };
 
 // The scalars of an iteration for every backend: in C++ a template over float and double, in GLSL float.
 //
 // One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
-// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. The recurrence of Chronopoulos and
-// Gear (1989) multiplies the residual by the matrix. Here, the matrix multiplies the direction, and every iteration
-// sums r.r: the iteration needs one vector fewer, and in float32 drifts no more than the textbook iteration.
+// p.Mp and r.r, each iteration computes r.Mp and Mp.Mp. These sums give the next r.r before the step is made. The
+// recurrence of Chronopoulos and Gear (1989) multiplies the residual by the matrix. Here, the matrix multiplies the
+// direction, and every iteration sums r.r. This iteration needs one vector fewer. In float32 its drift is not larger
+// than that of the textbook iteration.
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
 const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.
@@ -90,7 +91,7 @@ struct CgRules {
     Real residualSquared;   // r.r, each square times the residual weight of its row
   };
 
-  // x += alpha p, r -= alpha Mp, p = r + beta p; no step unless `status` is kCgRunning.
+  // x += alpha p, r -= alpha Mp, p = r + beta p. The step is made only if `status` is kCgRunning.
   struct CgStep {
     Real alpha, beta;
     uint status;
@@ -106,8 +107,8 @@ struct CgRules {
 #endif
   }
 
-  // rounding: a p.Mp of at most this share of p.p is a rounding error, with which a step changes x but not the
-  // residual.
+  // rounding: if p.Mp is at most this share of p.p, p.Mp is a rounding error. A step with this p.Mp would change x but
+  // not the residual.
   ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
     CgStep next;
     next.alpha = Real(0);

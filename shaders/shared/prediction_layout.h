@@ -13,13 +13,13 @@ using glsl::vec3;
 
 // A ray represents the surface around its hit point. This surface fills one solid angle as seen from the seed, and
 // another one as seen from the virtual cone. The ratio of the two angles and its inverse are limited to this factor.
-// Greater ratios occur if the point is close to one origin and far from the other; the surface around the point is then
-// not a disc.
+// Greater ratios occur if the point is close to one origin and far from the other. In this case the surface around the
+// point is not a disc.
 const float kMaxSolidAngleChange = 4.0f;
 
 // The outlier rule is applied twice: to the lengths of all seeds together (pooled), and to the lengths in the cone of
-// one seed. This share of a length's weight depends on the pooled rule, which is less noisy. The other share depends on
-// the rule within the cone.
+// one seed. This share of the weight of a length depends on the pooled rule, which is less noisy. The other share
+// depends on the rule within the cone.
 const float kPooledShare = 0.75f;
 
 // Passes of the search for a median. Each pass reduces the interval that contains the median to a quarter; within the
@@ -28,7 +28,7 @@ const float kPooledShare = 0.75f;
 const uint kMedianPassCount = 2u;
 const uint kSpreadPassCount = 3u;
 
-// The lower bound of a seed's weight: a single seed contributes at any distance.
+// Lower bound of the weight of a seed. Because of the bound, a single seed contributes at any distance.
 const float kMinSeedWeight = 1e-6f;
 
 // Standard deviation of the Gaussian weight of the angle between the normals of the seed and of the face.
@@ -63,7 +63,8 @@ struct PredictionSeed {
 };
 
 // The hit point of a ray, 32 bytes. A seed has a PredictionPoint for itself, then one per ray. The point of the seed
-// has its barycentre, face and normal, and in solidAngleRatio the median length of its valid rays (0 without any).
+// has the barycentre, face and normal of the seed. Its solidAngleRatio is the median length of the valid rays, or 0
+// without valid rays.
 const uint kPredictionPointBlockCount = 2u;
 struct PredictionPoint {
   vec3 position;
@@ -79,8 +80,8 @@ struct PointPush {
   float outlierDeviations;  // Cone::outliers.
 };
 
-// One array of words has the faces to be predicted and the cells: a face and the index of a cell per item, then
-// kMaxContributingSeedCount indices of seeds per cell.
+// One array of words has the faces that are predicted, and the cells. First, each item has a face and the index of a
+// cell. Then each cell has kMaxContributingSeedCount indices of seeds.
 const uint kNoSeed = 0xffffffffu;  // The index of an absent seed or cell.
 struct PredictionPush {
   uint itemCount;
