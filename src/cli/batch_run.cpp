@@ -65,7 +65,7 @@ std::vector<InputFile> inputsOf(const std::vector<std::string>& meshes, const st
   return inputs;
 }
 
-/// The jobs of this shard. Checks the outputs of all shards against each other.
+/// The jobs of this shard. Compares the outputs of all shards, so that no two shards write the same file.
 std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& outputs, const BatchOptions& batch) {
   const std::vector<std::string> paths = planOutputs(outputs, batch, inputs);
   std::vector<Job> jobs;
@@ -109,7 +109,7 @@ class WorkerComputer : public JobComputer {
  public:
   explicit WorkerComputer(const Greeting& greeting) : settings_(settingsOf(greeting.settings)), records_(settings_) {
     {
-      const ThreadLimit limit(greeting.threadCount);  // A CPU device keeps the limit under which it was opened.
+      const ThreadLimit limit(greeting.threadCount);  // A CPU device keeps the thread limit under which it was opened.
       computer_.emplace(settings_, records_, interrupt_.token());
     }
     limit_.emplace(computer_->describe().isCpu ? greeting.threadCount : greeting.threadCountOnGpu);
@@ -150,7 +150,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();
-  // In a batch, a signal cancels the current meshes, and the log records them.
+  // In a batch, a signal cancels the current meshes, and the log has a record of each.
   std::optional<Interrupt::Listening> listening;
   if (batch.isBatch()) {
     listening.emplace();

@@ -17,7 +17,7 @@ struct Remedy {
   ErrorCode code;
   std::string_view text;
   std::string_view ifGpuRequired = text;
-  bool isCpuPossible = false;  ///< Without --require-gpu, the CPU is a remedy too.
+  bool isCpuPossible = false;  ///< Without --require-gpu, the CPU is a further remedy.
 };
 constexpr Remedy kRemedies[]{
     {ErrorCode::UnknownField,

@@ -41,7 +41,7 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
 
 inline constexpr const char* kExitCodeOfSeveralMeshes =
     "With several meshes, a failure does not end the run. The code is 7 if some meshes have a result and others have "
-    "none; meshes with the codes 5 and 6 have a result. Otherwise it is the code of the first failure.";
+    "none; meshes with the codes 5 and 6 have a result. In all other cases the code is that of the first failure.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
@@ -56,15 +56,15 @@ class SharedExitCode {
   ExitCode first_ = ExitCode::Done;
   bool hasResult_ = false, lacksResult_ = false, isCancelled_ = false;
 };
-/// Done, or CheckFailed if the check failed. Done if the check is not CheckReport::independent.
+/// Returns CheckFailed if the check failed, else Done. A check that is not CheckReport::independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
-/// Done, TooThin, or CheckFailed if the limit could not be judged. Precondition: the report has a limit.
+/// Returns Done or TooThin; CheckFailed if the limit could not be judged. Precondition: the report has a limit.
 [[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness);
 
 struct Failure {
   ExitCode code = ExitCode::Internal;
-  std::string message;            ///< One line with the reason and the remedy.
+  std::string message;            ///< The reason and the remedy, in one line.
   std::string name = "internal";  ///< nameOf(ErrorCode), or another name such as "internal" or "timeLimit".
 };
 

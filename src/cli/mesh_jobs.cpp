@@ -58,7 +58,8 @@ std::unique_ptr<Session> openSession(const SessionOptions& options) {
   }
 }
 
-/// Whether a file is read during the preceding computation. False for large files, because both meshes are in memory.
+/// Whether a file is read during the preceding computation. False for large files, because both meshes are then in
+/// memory at the same time.
 bool isReadAhead(const Job& job) {
   constexpr uint64_t kMaxBytes = uint64_t{256} << 20;
   return !job.isStream && job.byteCount > 0 && job.byteCount <= kMaxBytes;

@@ -67,7 +67,8 @@ class MeshComputer : public JobComputer {
   bool isSpent_ = false;
   Page* page_ = nullptr;
   const std::vector<Job>* jobsOfPage_ = nullptr;
-  std::future<LoadedMesh> ahead_;  ///< Last: its destructor waits for a task that uses other members.
+  /// Last member, because its destructor waits for a task that uses the other members.
+  std::future<LoadedMesh> ahead_;
 };
 
 }  // namespace asdfvk

@@ -49,7 +49,8 @@ const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
 
 constexpr auto kStopPollTime = std::chrono::milliseconds(20);
 
-/// Waits for the reader of a FIFO, and keeps the FIFO open, so that the writer need not wait. Throws Error{Cancelled}.
+/// Waits until another process opens the FIFO for reading. Keeps the FIFO open, so that a later write does not wait.
+/// Throws Error{Cancelled}.
 class AwaitedReader {
  public:
   AwaitedReader(const std::string& output, const std::stop_token& stop) {
@@ -198,7 +199,7 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_
   try {
     std::packaged_task<LoadedMesh()> task([path, computesHash] { return loadNow(path, computesHash); });
     std::future<LoadedMesh> loaded = task.get_future();
-    std::thread(std::move(task)).detach();  // A blocked system call cannot be ended before the process ends.
+    std::thread(std::move(task)).detach();  // The thread may be blocked in a system call until the process ends.
     while (loaded.wait_for(kStopPollTime) != std::future_status::ready)
       if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     return loaded.get();
@@ -208,7 +209,7 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_
 }
 
 void MeshRun::add(Failure failed, const std::string& input, bool hasJson) {
-  const std::string prefix = oneLine(input + ": ");  // The messages of readers also begin with the file.
+  const std::string prefix = oneLine(input + ": ");  // The messages of readers also begin with the name of the file.
   if (failed.message.starts_with(prefix)) failed.message.erase(0, prefix.size());
   text += errorLine(input, failed.message);
   if (hasJson) json += jsonFailure(input, failed.name, failed.message);

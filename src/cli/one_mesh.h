@@ -21,11 +21,12 @@ struct MeshSettings {
   Outputs outputs;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
   bool makesFolders = false;  ///< Whether a missing folder of the result is created.
-  /// Whether the mesh is part of a batch: a record beside the result replaces the report, and pages have no times.
+  /// Whether the mesh is part of a batch. In a batch, a record beside the result replaces the report, and pages have no
+  /// times.
   bool isOfBatch = false;
 };
 
-/// The settings as JSON, for a worker process of the same version. Strings may contain any bytes.
+/// The settings as JSON, for a worker process of the same version. The strings may contain any bytes.
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshSettings& settings);
 [[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
@@ -52,7 +53,7 @@ struct MeshRun {
   std::optional<Report> report;    ///< Set if the result was written.
   bool hasResult = false;          ///< Whether a result was written.
   std::string json;                ///< Lines of --json.
-  std::string text;                ///< Errors; also warnings and the report, except in a batch or with --quiet.
+  std::string text;                ///< Errors. Outside of batches and without --quiet, also warnings and the report.
 
   void add(Failure failed, const std::string& input, bool hasJson);
 };
@@ -74,7 +75,7 @@ struct SharedPage {
 /// reader; a stop request ends this wait with Error{Cancelled}. Throws Error{OutputNotWritable}.
 void finishPage(const Page& page, const std::string& output, bool opensBrowser, const std::stop_token& stop);
 
-/// Hook for tests that inject faults, called with the input before a mesh is computed. Null in the program.
+/// Function of tests that simulate faults. Called with the input before a mesh is computed; null in the program.
 extern void (*beforeMesh)(const std::string& input);
 
 }  // namespace asdfvk

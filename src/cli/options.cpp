@@ -166,8 +166,7 @@ void completeFields(CommandLine& line, bool choosesPicture) {
                                                           : true;
     if (!isComputed) refuseOptions(fmt::format("{} {} needs --{}", option, name, row->needs));
     if (name == "error" && !estimates(options))
-      refuseOptions(
-          fmt::format("{} error needs an estimate; drop --no-estimate, and --seeds all, which has no error", option));
+      refuseOptions(fmt::format("{} error needs an error estimate; drop --no-estimate and --seeds all", option));
   }
 }
 
@@ -190,15 +189,16 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
   if (given.has("files-from") && batch.list.empty()) refuseOptions("--files-from: the name is empty");
   if (given.has("log") && batch.log.empty()) refuseOptions("--log: the name is empty");
   if (batch.list == "-" && readsInput)
-    refuseOptions("--files-from - and the mesh '-' both read standard input; give one of them a file");
+    refuseOptions("--files-from - and the mesh '-' both read standard input; name a file instead of one of the two");
   if (batch.isolates && readsInput)
     refuseOptions(
-        "--isolate and --memory-limit compute in other processes, which cannot read the mesh '-'; give it a file");
+        "--isolate and --memory-limit compute in other processes, which cannot read the mesh '-'; name a file instead "
+        "of '-'");
   if (batch.skipsExisting && readsInput)
-    refuseOptions("--skip-existing does not apply to the mesh '-'; give it a file");
+    refuseOptions("--skip-existing does not apply to the mesh '-'; name a file instead of '-'");
   if (!batch.isBatch()) {
     if (batch.jobCount > 1 && writesOnePage(line.outputs))
-      refuseOptions("one page takes one mesh after another; drop --jobs");
+      refuseOptions("for one page of all meshes, one mesh is computed after another; drop --jobs");
     return;
   }
   if (line.outputs.path == "-") refuseOptions("standard output (-o -) holds one result; give -o a folder");
@@ -214,19 +214,22 @@ void validateOptions(const CommandLine& line) {
   if (line.meshes.empty() && line.batch.list.empty() && !line.listDevices && !line.deviceReport)
     refuseOptions("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
-    refuseOptions("standard input ('-') can be read only once; name it once");
+    refuseOptions("standard input can be read only once; give - once");
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuseOptions("the name of a mesh is empty");
   if (line.outputs.path == "-" && line.outputs.json)
     refuseOptions("-o - and --json both write to standard output; give -o a file or drop --json");
   if (!line.outputs.picture.empty() && line.meshes.size() > 1)
-    refuseOptions("--picture takes one mesh; name one mesh, or run them one by one");
+    refuseOptions("--picture takes one mesh; name one mesh, or run asdf-vk once per mesh");
   if (line.outputs.picture == "-" && (line.outputs.path == "-" || line.outputs.json))
-    refuseOptions("--picture - writes to standard output, as do --json and -o -; give it a file, or drop them");
+    refuseOptions(
+        "--picture -, --json and -o - write to standard output, which only one of them can use; give --picture a file, "
+        "or drop the others");
   if (!line.outputs.points.empty() && line.meshes.size() > 1)
-    refuseOptions("--points takes one mesh; name one mesh, or run them one by one");
+    refuseOptions("--points takes one mesh; name one mesh, or run asdf-vk once per mesh");
   if (line.outputs.points == "-" && (line.outputs.path == "-" || line.outputs.json || line.outputs.picture == "-"))
     refuseOptions(
-        "--points - writes to standard output, as do --json, -o - and --picture -; give it a file, or drop them");
+        "--points -, --json, -o - and --picture - write to standard output, which only one of them can use; give "
+        "--points a file, or drop the others");
   const std::string& backend = line.session.backend;
   if ((backend == "cpu" || backend == "reference") && solverNeedsDevice(line.computation.options.solver))
     refuseOptions(fmt::format(

@@ -33,7 +33,7 @@ struct OptionTable {
 [[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
 [[nodiscard]] OptionRows outputRows();
 
-/// Makes the parser of the program. Its options set `line`.
+/// Makes the parser of the program. The options of the parser set `line`.
 [[nodiscard]] ArgumentParser parserOf(CommandLine& line);
 
 /// Parses the arguments after the name of the program. Throws Error of kind Usage, whose message names the option.

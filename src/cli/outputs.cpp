@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
-/// The name of a result: "horse.asdf.vtu" for "dir/horse.ply".
+/// The name of a result, for example "horse.asdf.vtu" for "dir/horse.ply".
 std::string resultName(const std::string& mesh, const std::string& format) {
   const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
   return stem + ".asdf." + (format.empty() ? "ply" : format);
@@ -43,7 +43,7 @@ std::string plannedFormat(const std::string& output, const WriteOptions& options
   }
 }
 
-/// The format that the extension of `path` names; empty if it names none.
+/// The format that the extension of `path` names; empty if the extension names no format.
 std::string formatNamedBy(const fs::path& path) {
   if (isPageName(path)) return kPageFormat;
   try {
@@ -77,7 +77,8 @@ std::string normalised(const fs::path& path) {
   return fs::absolute(followLinks(path), ignored).lexically_normal().string();
 }
 
-/// Finds files with two uses. Existing files are compared by device and inode, missing files by normalised path.
+/// Finds files that a run would use twice, for example as an input and as an output. Existing files are compared by
+/// device and inode, missing files by normalised path.
 class FileUses {
  public:
   /// Returns the earlier use of the file. If there is none, adds `use` and returns an empty text.
@@ -129,12 +130,13 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   if (batch.hasTree() && !outputs.path.empty() && !isFolder(outputs.path)) {
     std::error_code ignored;
     if (fs::exists(outputs.path, ignored) || !formatNamedBy(outputs.path).empty())
-      usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", outputs.path));
+      usageError(fmt::format("-o {} is not a folder; -r and --files-from need a folder", outputs.path));
   } else if (files.size() > 1 && !sharePage) {
     if (outputs.path == "-") usageError("standard output (-o -) holds one result; name one mesh");
     if (!outputs.path.empty() && !takesFolder(outputs, batch))
       usageError(fmt::format(
-          "-o {0} is not a folder, which several meshes need; write {0}/ to make it, or name one mesh", outputs.path));
+          "-o {0} is not a folder, but several meshes need a folder; write {0}/ to create the folder, or name one mesh",
+          outputs.path));
   }
 
   const WriteOptions options = writeOptionsOf(outputs, {});
@@ -154,9 +156,9 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
         usageError(fmt::format("{} is named twice; name it once", mesh));
       if (!isNew && !sharePage)
         usageError(fmt::format("{} and {} would both be written to {}; {}", other->second, mesh, output,
-                               batch.hasTree() ? "rename one of them, or compute it in a call of its own with "
-                                                 "another -o"
-                                               : "run them one by one with -o"));
+                               batch.hasTree()
+                                   ? "rename one of the two, or compute it in a separate call with another -o"
+                                   : "run asdf-vk once per mesh, with different -o"));
     }
     paths.push_back(output);
   }
@@ -215,7 +217,7 @@ void requireWritablePlace(const std::string& output) {
   };
   std::error_code error;
   const fs::file_status status = fs::status(output, error);
-  // A device or a FIFO is opened directly, so that its folder need not be writable.
+  // A device or a FIFO is opened without a temporary file. Therefore its folder need not be writable.
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
   const std::error_code reason = fs::status_known(status) ? std::error_code() : error;
   if (!fs::is_directory(folder, error)) fail(fmt::format("{} is not a directory; create it first", folder.string()));

@@ -15,8 +15,8 @@
 namespace asdfvk {
 
 struct Outputs {
-  std::string path;                 ///< Path of the result: a file, a directory, "-"; empty: beside each input.
-  std::string format;               ///< One of outputFormats(). Empty: the extension of `path`; ply if there is none.
+  std::string path;    ///< Path of the result: a file, a directory or "-" (standard output); empty: beside each input.
+  std::string format;  ///< One of outputFormats(). Empty: the extension of `path`; ply if there is none.
   std::vector<std::string> fields;  ///< Names of --fields, in this order; empty: the default of fieldNames().
   bool ascii = false;
   std::string colourOf = {};  ///< See WriteOptions.
@@ -39,18 +39,20 @@ struct BatchOptions {
   std::string log;               ///< File to which a record per mesh is appended; empty: none.
   bool skipsExisting = false;
   std::optional<Shard> shard;
-  double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Per mesh.
-  uint64_t memoryBytes = 0;                                         ///< Per mesh; 0: no limit.
+  double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Time limit per mesh.
+  uint64_t memoryBytes = 0;                                         ///< Memory limit per mesh; 0: no limit.
   bool isolates = false;                                            ///< Computes meshes in worker processes.
-  uint32_t jobCount = 0;  ///< Meshes computed at once; 0: depends on the sizes of the meshes.
+  uint32_t jobCount = 0;  ///< Number of meshes that are computed at once; 0: the sizes of the meshes decide.
 
-  /// Whether inputs come from folders or a list. Then -o is the root of a tree of results.
+  /// Whether inputs come from folders or a list. If true, -o is the root of a tree of results.
   [[nodiscard]] bool hasTree() const { return recurses || !list.empty(); }
-  /// Whether a record is written beside each output, and a progress line and a summary replace the reports.
+  /// Whether the run is a batch. In a batch, a record is written beside each output, and a progress line and a summary
+  /// replace the reports.
   [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
 };
 
-/// Reads a number of bytes, at least 1, such as "500M", "1.5g" or "4096", in powers of 1024. Unset for other texts.
+/// Reads a number of bytes, at least 1, such as "500M", "1.5g" or "4096". The letters mean powers of 1024. Returns
+/// nothing for other texts.
 [[nodiscard]] std::optional<uint64_t> parseByteCount(const std::string& text);
 
 /// Names of the fields to write: Outputs::fields, or by default the fields that the options compute.
@@ -66,8 +68,9 @@ inline constexpr const char* kPageFormat = "html";
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
 
 /// Returns the path of the result of each input, "-" for standard output. If BatchOptions::hasTree(), results are in a
-/// tree below -o, whose folders need not exist. Throws Error{OptionConflict} if two outputs (results, records, log,
-/// picture, points) have the same path, if an output is an input, or if several meshes have one output that is no page.
+/// tree below -o, whose folders need not exist. Throws Error{OptionConflict} in three cases: two outputs (results,
+/// records, log, picture, points) have the same path; an output is also an input; several meshes have one output that
+/// is not a page.
 [[nodiscard]] std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                                    std::span<const InputFile> inputs);
 
@@ -82,7 +85,8 @@ inline constexpr const char* kPageFormat = "html";
 /// Creates the folder of the file `output`. Throws Error{OutputNotWritable}.
 void makeFolderOf(const std::string& output);
 
-/// Throws Error{OutputNotWritable} if the file cannot be written. Called before the computation, to report this early.
+/// Throws Error{OutputNotWritable} if the file cannot be written. Called before the computation, so that the user need
+/// not wait for this error.
 void requireWritablePlace(const std::string& output);
 
 }  // namespace asdfvk

@@ -15,7 +15,7 @@ namespace {
 
 using FieldList = std::vector<std::reference_wrapper<const Field>>;
 
-/// The fields of --fields; without --fields all fields that a page can show, the default fields first.
+/// The fields of --fields. Without --fields: all fields that a page can show, beginning with the default fields.
 FieldList shownFields(const MeshOutcome& outcome) {
   const Result& result = outcome.result;
   FieldList shown;

@@ -128,7 +128,7 @@ const std::array kOutputRows{
               .text = "Report as JSON on standard output, one line per mesh"},
     OptionRow{.name = "format",
               .access = ASDFVK_MEMBER(Outputs, format),
-              .text = "Format of the result if the name of -o does not determine it",
+              .text = "Format of the result if the name of -o does not determine the format",
               .defaultText = "ply",
               .moreNames = outputFormats},
     OptionRow{.name = "ascii", .access = ASDFVK_MEMBER(Outputs, ascii), .text = "Write PLY as text"},
@@ -146,21 +146,20 @@ const std::array kOutputRows{
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->colourOf); }},
     OptionRow{.name = "vertex-colours",
               .access = ASDFVK_MEMBER(Outputs, coloursVertices),
-              .text = "Also colour the vertices of PLY, which Blender shows",
+              .text = "Also colour the vertices of PLY; Blender shows vertex colours",
               .more = "`.glb` and `.obj` always have vertex colours."},
-    OptionRow{
-        .name = "points",
-        .text =
-            "Also write a skeleton point for each face, half of the shape diameter below it. PLY: points with radius "
-            "and segment. SWC: points with radius, joined into trees. - is PLY on standard output. For one mesh only",
-        .placeholder = "FILE.ply|FILE.swc",
-        .wanted = "a file that ends in .ply or .swc",
-        .read =
-            [](void* t, const OptionValue& value) {
-              return (hasExtension(textOf(value), ".ply") || hasExtension(textOf(value), ".swc")) &&
-                     readName<&Outputs::points>(t, value);
-            },
-        .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
+    OptionRow{.name = "points",
+              .text = "Also write a skeleton point for each face, half of the shape diameter below the face. PLY: "
+                      "points with radius and segment. SWC: points with radius, joined into trees. - is PLY on "
+                      "standard output. For one mesh only",
+              .placeholder = "FILE.ply|FILE.swc",
+              .wanted = "a file that ends in .ply or .swc",
+              .read =
+                  [](void* t, const OptionValue& value) {
+                    return (hasExtension(textOf(value), ".ply") || hasExtension(textOf(value), ".swc")) &&
+                           readName<&Outputs::points>(t, value);
+                  },
+              .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
     OptionRow{.name = "quiet", .access = ASDFVK_MEMBER(Outputs, quiet), .text = "Print errors only"},
     OptionRow{.name = "verbose",
               .access = ASDFVK_MEMBER(Outputs, verbose),
@@ -186,8 +185,8 @@ const std::array kOutputRows{
               .read = readPictureOf,
               .write = noValue},
     OptionRow{.name = "picture-view",
-              .text = "Direction of the view in degrees: to the right of the broad side of the mesh (-360 to 360) and "
-                      "upwards (-90 to 90)",
+              .text = "Direction of the view: azimuth in degrees to the right of the broad side of the mesh (-360 to "
+                      "360), and elevation (-90 to 90)",
               .placeholder = "AZIMUTH,ELEVATION",
               .needs = "picture",
               .defaultText = "30,18 (for thin places the view that shows them best)",
@@ -196,8 +195,8 @@ const std::array kOutputRows{
               .write = noValue},
     OptionRow{.name = "picture-up",
               .access = ASDFVK_CHOICE(Outputs, pictureView.up, kUps),
-              .text = "Up axis of the picture. auto: z of STL and 3MF, else y, unless the mesh stands more stably on "
-                      "another axis",
+              .text = "Up axis of the picture. auto: z for STL and 3MF; for other formats y, or another axis if only "
+                      "on that axis the mesh stands stably",
               .needs = "picture"},
 };
 
@@ -205,7 +204,7 @@ const std::array kBatchRows{
     OptionRow{.name = "recursive",
               .group = kBatchGroup,
               .access = ASDFVK_MEMBER(BatchOptions, recurses),
-              .text = "Compute every mesh below the given folders. The results are in the same tree below -o",
+              .text = "Compute every mesh below the given folders. The results have the same subfolders below -o",
               .flags = "-r,--recursive"},
     OptionRow{.name = "files-from",
               .access = ASDFVK_MEMBER(BatchOptions, list),
@@ -227,19 +226,18 @@ const std::array kBatchRows{
               .write = noValue},
     OptionRow{.name = "log",
               .access = ASDFVK_MEMBER(BatchOptions, log),
-              .text = "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads it",
+              .text = "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads the records",
               .placeholder = "FILE.jsonl"},
     OptionRow{.name = "skip-existing",
               .access = ASDFVK_MEMBER(BatchOptions, skipsExisting),
-              .text = "Skip meshes that have a result of the same input, options and version"},
-    OptionRow{
-        .name = "timeout",
-        .access = ASDFVK_MEMBER(BatchOptions, timeoutSeconds),
-        .range = aboveUpTo(0, kMaxSeconds),
-        .text =
-            "Fail a mesh that takes longer, with exit code 8. Without --isolate the limit applies between steps only",
-        .placeholder = "SECONDS",
-        .defaultText = "-"},
+              .text = "Skip meshes that already have a result of the same input, options and version"},
+    OptionRow{.name = "timeout",
+              .access = ASDFVK_MEMBER(BatchOptions, timeoutSeconds),
+              .range = aboveUpTo(0, kMaxSeconds),
+              .text = "Fail a mesh that takes longer than this, with exit code 8. Without --isolate the limit applies "
+                      "between steps only",
+              .placeholder = "SECONDS",
+              .defaultText = "-"},
     OptionRow{
         .name = "memory-limit",
         .text = "Fail a mesh that takes more memory than this, such as 500M or 2G, with exit code 8; implies --isolate",
@@ -249,7 +247,7 @@ const std::array kBatchRows{
         .write = noValue},
     OptionRow{.name = "isolate",
               .access = ASDFVK_MEMBER(BatchOptions, isolates),
-              .text = "Compute in worker processes, so that a mesh that crashes or hangs fails alone"},
+              .text = "Compute in worker processes: if a mesh crashes or hangs, only this mesh fails"},
     OptionRow{.name = "jobs",
               .access = ASDFVK_MEMBER(BatchOptions, jobCount),
               .range = fromTo(1, kMaxJobCount),
@@ -263,8 +261,8 @@ const std::array kDeviceRows{
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(CommandLine, listDevices),
               .text = "List Vulkan devices and whether each is usable",
-              .more = "Can be combined with `--json`, `--quiet`, `--threads` and `--require-gpu` (exit code 3 if no "
-                      "GPU is usable) only."},
+              .more = "Only `--json`, `--quiet`, `--threads` and `--require-gpu` (exit code 3 if no GPU is usable) can "
+                      "be combined with `--list-devices`."},
     OptionRow{.name = "device-report",
               .access = ASDFVK_MEMBER(CommandLine, deviceReport),
               .text = "Print a report on the device as JSON, with a self-test and the rate of each variant of the "

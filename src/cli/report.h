@@ -25,16 +25,17 @@ struct MeshOutcome {
   const Result& result;
 };
 
-/// The report as aligned lines. The first line has the name of the mesh and the verdict or the row "mesh". Further rows
-/// and the output files follow. With --verbose the report has all of reportRows(). Otherwise it has at most six lines
-/// of at most 100 columns; long file names take more columns.
+/// The report as aligned lines. The first line has the name of the mesh, and the verdict on the thickness or the size
+/// of the mesh. Lines with further results and with the output files follow. With --verbose the report has all of
+/// reportRows(). Without --verbose the report has at most six lines of at most 100 columns; long file names take more
+/// columns.
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
 
-/// The lines about the devices of the session, with a remark if Vulkan runs on the CPU. Without isVerbose, the text is
-/// empty unless another backend replaces Vulkan or a CPU device was chosen among several devices.
+/// The lines about the devices of the session, with a remark if Vulkan runs on the CPU. Without isVerbose, there is a
+/// text in two cases only: another backend replaces Vulkan, or a CPU device was chosen among several devices.
 [[nodiscard]] std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose);
 
-/// One line per device; if there is none, a line with the reason.
+/// One line per device; if there is no device, one line with the reason.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
 /// One line of JSON with the keys of docs/formats.md.

@@ -24,7 +24,7 @@ constexpr const char* kOutputGroup = "Output";
 constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clocks.
 constexpr uint64_t kAllFaces = std::numeric_limits<uint64_t>::max();
 
-/// 0.1 for "10%" and for "0.1".
+/// Returns 0.1 for "10%" and for "0.1".
 std::optional<double> shareIn(std::string_view text) {
   const bool isPercent = text.ends_with('%');
   const auto number = numberIn<double>(text.substr(0, text.size() - (isPercent ? 1 : 0)));
@@ -151,16 +151,17 @@ const std::array kComputationRows{
         .name = "recipe",
         .group = kSeedGroup,
         .access = COMPUTATION_CHOICE(recipe, kRecipes),
-        .text = "Set of options; single options override it. paper: the method of the ASDF paper. balanced: about half "
-                "of the error of paper. quality: also pools the rays of neighbouring seeds, for the least error",
+        .text =
+            "Set of options; single options override the set. paper: the method of the ASDF paper. balanced: "
+            "about half the error of paper. quality: also pools the rays of neighbouring seeds, for the least error",
         .more = "[method.md](method.md#recipes) lists the options of each set.",
         .apply = [](void* t) { applyRecipe(static_cast<ComputationSettings*>(t)->recipe, optionsOf(t)); }},
     OptionRow{.name = "definition",
               .access = COMPUTATION_CHOICE(options.cone.definition, kDefinitions),
               .text = "Definition of the shape diameter. paper: as in the ASDF paper. cgal: as CGAL's sdf_values "
                       "without post-processing, with --rays 25 --seeds all unless these are given",
-              .more = "`cgal` excludes the options that need `--definition paper`, and `--recipe quality`, which "
-                      "rotates the cones ([method.md](method.md)).",
+              .more = "`cgal` excludes the options that need `--definition paper`. It also excludes `--recipe "
+                      "quality`, because this recipe rotates the cones ([method.md](method.md)).",
               .apply = [](void* t) { applyDefinition(optionsOf(t).cone.definition, optionsOf(t)); }},
     OptionRow{.name = "seeds",
               .text = "Faces that cast rays: a share, a count or all faces. auto: 10%, but at least 3,000",
@@ -176,10 +177,11 @@ const std::array kComputationRows{
         .name = "max-error",
         .text = "Add seeds until the estimated average error is at most E of the range of the values; with rel, until "
                 "the estimated median of error / value is at most E. Starts with 2% of the faces, or with --seeds",
-        .more = "E is compared with the estimate plus 1.5 standard errors. With `rel`, half of the faces are within E "
-                "of their value, whatever the range is ([accuracy.md](accuracy.md)); this is fulfilled if half of the "
-                "faces cast rays. A text of 0.1 or more needs a `%`, because `0.5` may mean 0.5% or 50%. Excludes "
-                "`--no-estimate` and `--seeds all`.",
+        .more =
+            "E is compared with the estimate plus 1.5 standard errors. With `rel`, half of the faces are within E of "
+            "their value, whatever the range is ([accuracy.md](accuracy.md)). If half of the faces cast rays, this "
+            "goal is reached. A number of 0.1 or more needs a `%`, because `0.5` may mean 0.5% or 50%. Excludes "
+            "`--no-estimate` and `--seeds all`.",
         .placeholder = "E%[rel]",
         .keywordType = "float | str",
         .wanted = "an error above 0% and below 100%, such as 1% (of the range) or 5%rel (of the value)",
@@ -206,7 +208,7 @@ const std::array kComputationRows{
     OptionRow{.name = "rng-seed",
               .access = COMPUTATION_MEMBER(options.randomSeed),
               .range = {.min = 0},
-              .text = "Start of all random numbers; the same number gives the same bits",
+              .text = "Start value of all random numbers; the same value gives the same bits",
               .placeholder = "N",
               .keyword = "random-seed"},
     OptionRow{.name = "time-budget",
@@ -219,8 +221,8 @@ const std::array kComputationRows{
     OptionRow{.name = "estimate",
               .access = COMPUTATION_MEMBER(options.estimatesError),
               .text = "Do not estimate the error. This saves about as much time as the interpolation takes",
-              .more = "The sampler then selects all seeds, and none is placed at large expected errors or extreme "
-                      "values, which costs a little accuracy.",
+              .more = "The sampler then selects all seeds. No seed is placed at large expected errors or extreme "
+                      "values, so that the result is a little less accurate.",
               .flags = "--no-estimate"},
     OptionRow{.name = "rays",
               .access = COMPUTATION_MEMBER(options.cone.rayCount),
@@ -251,8 +253,8 @@ const std::array kComputationRows{
                       "hashed: by a hash of the face index, so that errors of neighbouring faces are independent",
               .needs = "definition=paper"},
     OptionRow{.name = "smooth",
-              .text = "Bilateral filter of the values over R rings of faces, in P passes. auto: R and P by the number "
-                      "of faces. Use it with --seeds all and --cone-rotation hashed",
+              .text = "Bilateral filter of the values over R rings of faces, in P passes. auto: the number of faces "
+                      "determines R and P. Use the filter with --seeds all and --cone-rotation hashed",
               .more = "The filter removes up to a third of the error against many rays. The error estimate and "
                       "`--max-error` refer to the unfiltered values.",
               .placeholder = "off|auto|RxP",
@@ -267,22 +269,22 @@ const std::array kComputationRows{
                       "values and map them to 0 .. 1, as CGAL does"},
     OptionRow{.name = "segment",
               .access = COMPUTATION_CHOICE(options.segmentation, kSegmentations),
-              .text = "Segmentation for the field segment. parts: the parts that people see; --segment without a value "
-                      "means parts. cgal: soft clustering and graph cut, as CGAL does; implies --postprocess cgal; use "
-                      "it with --seeds all",
+              .text = "Segmentation for the field segment. parts: parts as people see them; --segment without a value "
+                      "means parts. cgal: soft clustering and graph cut as in CGAL; implies --postprocess cgal; use "
+                      "cgal with --seeds all",
               .bareValue = "parts",
               .wanted = "one of none|parts|cgal; the option parts sets the number of parts"},
     OptionRow{.name = "parts",
               .access = COMPUTATION_MEMBER(options.parts.partCount),
               .range = fromTo(1, kMaxPartCount),
-              .text = "Number of parts. Without it the segmentation chooses the number",
+              .text = "Number of parts. Without --parts, the segmentation chooses the number",
               .placeholder = "N",
               .needs = "segment=parts"},
     OptionRow{.name = "detail",
               .access = COMPUTATION_MEMBER(options.parts.detail),
               .range = fromTo(kMinDetail, kMaxDetail),
-              .text = "Level of detail. It divides the cost at which the merging of regions stops; a larger number "
-                      "gives more parts",
+              .text = "Level of detail: a larger number gives more parts. The cost at which the merging of regions "
+                      "stops is divided by X",
               .more = "Excludes `--parts`.",
               .placeholder = "X",
               .needs = "segment=parts"},
@@ -308,8 +310,8 @@ const std::array kComputationRows{
               .access = COMPUTATION_CHOICE(options.measure, kMeasures),
               .text = "Quantity to measure. sdf: the shape diameter, with the fields sdf and seed. thickness: the wall "
                       "thickness, with the fields thickness and least_thickness. both: all four fields",
-              .more = "The wall thickness is the diameter of the largest ball inside that touches the face. It is "
-                      "measured at all faces, whatever `--seeds` is. `thickness` traces no rays."},
+              .more = "The wall thickness is the diameter of the largest ball that touches the face from inside. The "
+                      "thickness is measured at all faces, whatever `--seeds` is. `thickness` traces no rays."},
     OptionRow{.name = "thinner-than",
               .range = above(0),
               .text = "Report whether and where the surface is thinner than T, in the unit of the mesh; implies "
@@ -332,8 +334,8 @@ const std::array kComputationRows{
                   }},
     OptionRow{.name = "fail-if-thinner",
               .range = above(0),
-              .text = "As --thinner-than, with exit code 6 if a point is thinner than T, and exit code 5 if parts of "
-                      "the surface cannot be judged",
+              .text = "Like --thinner-than, but with exit codes: 6 if a point is thinner than T, 5 if parts of the "
+                      "surface cannot be judged",
               .placeholder = "T",
               .defaultText = "-",
               .keyword = "",
@@ -372,30 +374,30 @@ const std::array kComputationRows{
               .access = COMPUTATION_MEMBER(options.computesCentres),
               .text = "Add the fields centre (skeleton points) and component",
               .flags = ""},
-    OptionRow{
-        .name = "weights",
-        .group = kExperimentGroup,
-        .access = COMPUTATION_CHOICE(options.interpolation.weights, kWeights),
-        .text =
-            "Edge weights of the dual graph. distance: 1 / distance of the barycentres. feature: by the dihedral angle",
-        .more = "See [method.md](method.md)."},
+    OptionRow{.name = "weights",
+              .group = kExperimentGroup,
+              .access = COMPUTATION_CHOICE(options.interpolation.weights, kWeights),
+              .text = "Edge weights of the dual graph. distance: 1 / distance of the barycentres. feature: depending "
+                      "on the dihedral angle",
+              .more = "See [method.md](method.md)."},
     OptionRow{
         .name = "guidance",
         .access = COMPUTATION_CHOICE(options.interpolation.guidance, kGuidances),
         .text =
-            "Guidance field of the Poisson equation. none: harmonic interpolation. curvature: its divergence is minus "
-            "the curvature. prediction: the gradient of values predicted from the hits of neighbouring seeds"},
+            "Guidance field of the Poisson equation. none: harmonic interpolation. curvature: a field whose divergence "
+            "is minus the curvature. prediction: the gradient of values that the hits of neighbouring seeds predict"},
     OptionRow{.name = "pooling",
               .access = COMPUTATION_MEMBER(options.interpolation.pooling),
               .range = fromTo(0, 1),
-              .text = "Weight of the prediction in the values; 0 keeps traced values. Above 0 needs --guidance "
-                      "prediction",
+              .text =
+                  "Weight of the prediction in the values; 0 keeps traced values. A weight above 0 needs --guidance "
+                  "prediction",
               .placeholder = "P"},
     OptionRow{.name = "solver",
               .access = COMPUTATION_MEMBER(options.solver),
               .text = "Solver of the Poisson equation. On the device: conjugate gradients (cg) or jacobi. On the CPU: "
                       "conjugate gradients in float32 (cpu), or in double (eigen)",
-              .more = "Where float32 does not reach the tolerance, `eigen` continues. `auto` is `cg` on a GPU, and "
+              .more = "If float32 does not reach the tolerance, `eigen` continues. `auto` is `cg` on a GPU, and "
                       "`cpu` if the CPU traces. With `cg` and `jacobi` the device also predicts values.",
               .valueNames = "auto|cg|jacobi|cpu|eigen"},
     OptionRow{.name = "tolerance",
@@ -410,12 +412,13 @@ const std::array kComputationRows{
               .range = {.min = 1},
               .text = "Greatest number of iterations of the solver",
               .placeholder = "N"},
-    OptionRow{.name = "per",
-              .group = kOutputGroup,
-              .access = COMPUTATION_CHOICE(options.per, kPerElements),
-              .text = "Elements of the fields. vertex: for each field per face, add a field per vertex of the same "
-                      "name, with area-weighted means over the faces of a vertex. .csv and .npy then have fields per "
-                      "vertex only"},
+    OptionRow{
+        .name = "per",
+        .group = kOutputGroup,
+        .access = COMPUTATION_CHOICE(options.per, kPerElements),
+        .text =
+            "Elements of the fields. vertex: for each face field, add a vertex field with the same name. Its values "
+            "are area-weighted means over the faces of a vertex. .csv and .npy then have vertex fields only"},
 };
 
 const std::array kSessionRows{

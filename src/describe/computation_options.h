@@ -8,7 +8,7 @@ namespace asdfvk {
 struct ComputationSettings {
   Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before all other options.
   Options options;
-  /// Limit that also determines the exit code. complete() copies it to options.thickness.thinnerThan.
+  /// Limit that also determines the exit code. complete() copies this limit to options.thickness.thinnerThan.
   std::optional<double> failIfThinner;
   LengthUnit failIfThinnerUnit = LengthUnit::OfMesh;
 };
@@ -24,13 +24,13 @@ struct SessionSettings : SessionOptions {
 /// Applies what the given options imply; idempotent. Throws Error{OptionOutOfRange}, Error{UnknownName}, and
 /// Error{OptionConflict} if given options have no effect or contradict each other.
 ASDFVK_API void complete(ComputationSettings& computation, const GivenOptions& given);
-/// complete() for the library, where options that differ from the defaults count as given.
+/// Like complete(), for callers of the library. Options that differ from the defaults count as given.
 [[nodiscard]] Options completed(const Options& options);
 
 /// Throws as complete() does.
 ASDFVK_API void requireValid(SessionSettings session, OptionSpelling spelling);
 
-/// The options with which a run can be repeated. An option without effect has no value.
+/// The options that repeat the run. An option without effect has no value.
 [[nodiscard]] std::vector<std::pair<std::string, OptionValue>> reportedOptions(const ComputationSettings& computation,
                                                                                const SessionSettings& session);
 

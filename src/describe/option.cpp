@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kAutomatic = "auto";
 
-/// "time_budget" or "timeBudget" for "time-budget".
+/// Returns "time_budget" or "timeBudget" for "time-budget".
 std::string inCase(std::string_view name, OptionSpelling spelling) {
   std::string text;
   for (size_t i = 0; i < name.size(); ++i) {
@@ -34,7 +34,7 @@ bool isInRange(const OptionRange& range, double value) {
   return isAbove && (range.excludesMax ? value < range.max : value <= range.max) && std::isfinite(value);
 }
 
-/// Unset if the value is not a number.
+/// Returns nothing if the value is not a number.
 std::optional<double> numberOf(const OptionValue& value) {
   if (const auto* whole = std::get_if<uint64_t>(&value)) return static_cast<double>(*whole);
   if (const auto* real = std::get_if<double>(&value)) return *real;

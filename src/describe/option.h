@@ -42,7 +42,7 @@ struct OptionAccess {
   /// Special: there is no member; OptionRow::read and OptionRow::write are used instead.
   OptionKind kind = OptionKind::Special;
   OptionMember (*member)(void* target) = nullptr;
-  std::string (*names)() = nullptr;  ///< The names of a Choice: "paper|balanced|quality".
+  std::string (*names)() = nullptr;  ///< The names of a Choice, for example "paper|balanced|quality".
 };
 
 template <typename Member>
@@ -63,7 +63,7 @@ template <const auto& kNames, typename T>
           }};
 }
 
-/// OptionRow::access of a member of Target. ASDFVK_CHOICE: of a member with named values.
+/// Makes the OptionRow::access of a member of Target. ASDFVK_CHOICE does so for a member with named values.
 #define ASDFVK_MEMBER(Target, path)                                            \
   OptionAccess {                                                               \
     kindOfMember<decltype((std::declval<Target&>().path))>(),                  \
@@ -93,10 +93,12 @@ struct OptionRow {
   const char* group = nullptr;  ///< Heading in the help; null: the group of the row before, see withGroups().
   OptionAccess access = {};
   OptionRange range = {};
-  const char* text = "";         ///< Text of the help, without range, default and final full stop.
-  const char* more = "";         ///< Further sentences for the man page and docs/options.md.
-  const char* placeholder = "";  ///< Stands for the value in the help. Empty for options without a value or with names.
-  /// The option that this option needs, with allowed values: "measure=thickness|both", "thinner-than".
+  const char* text = "";  ///< Text of the help, without range, default and final full stop.
+  const char* more = "";  ///< Further sentences for the man page and docs/options.md.
+  /// Stands for the value in the help. Empty if the option has no value or if its values have names.
+  const char* placeholder = "";
+  /// The option that this option needs, with the values that it may have, for example "measure=thickness|both" or
+  /// "thinner-than".
   const char* needs = "";
   const char* defaultText = nullptr;  ///< Shown instead of the default value.
   const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
@@ -127,7 +129,7 @@ template <size_t N>
 [[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
 
 [[nodiscard]] ASDFVK_API std::string spelled(const OptionRow& row, OptionSpelling spelling);
-/// The option and its value for the front end: --segment cgal, segment=cgal, segment='cgal'.
+/// The option and its value, spelled for the front end: --segment cgal, segment=cgal, segment='cgal'.
 [[nodiscard]] std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
@@ -137,9 +139,9 @@ template <size_t N>
 [[nodiscard]] ASDFVK_API std::vector<std::string> namesOf(const OptionRow& row);
 /// The placeholder, or the names of the values with bars between them. Empty for a flag.
 [[nodiscard]] ASDFVK_API std::string placeholderOf(const OptionRow& row);
-/// "from 0 to 1". Empty without a range.
+/// A text such as "from 0 to 1". Empty without a range.
 [[nodiscard]] ASDFVK_API std::string rangeText(const OptionRow& row);
-/// "a number from 0 to 1".
+/// A text such as "a number from 0 to 1".
 [[nodiscard]] ASDFVK_API std::string wantedText(const OptionRow& row);
 
 /// Throws Error{OptionOutOfRange} and Error{UnknownName} with the detail "option" and a message such as "--rays: '0' is
@@ -151,7 +153,7 @@ ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue&
                           OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API OptionValue valueOf(const OptionRow& row, const void* target);
-/// "-" for no value, "on" or "off" for a flag.
+/// The value as a text: "-" for no value, "on" or "off" for a flag.
 [[nodiscard]] std::string toText(const OptionValue& value);
 
 /// The default value for documents. defaults: a target with default values.
@@ -159,7 +161,7 @@ ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue&
 
 [[nodiscard]] bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target);
 
-/// The needed option with its value: "--segment cgal". Empty if the row needs no option.
+/// The needed option with its value, for example "--segment cgal". Empty if the row needs no option.
 [[nodiscard]] ASDFVK_API std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling);
 
 /// The options that the caller has set, and their spelling in messages.
@@ -170,17 +172,19 @@ struct GivenOptions {
   [[nodiscard]] bool has(std::string_view name) const { return names.contains(name); }
 };
 
-/// Throws Error{OptionConflict} if a given option has no effect: "--clusters needs --segment cgal".
+/// Throws Error{OptionConflict} if a given option has no effect, with a message such as "--clusters needs --segment
+/// cgal".
 void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given);
 
-/// Throws Error{OptionOutOfRange} or Error{UnknownName} for a value out of range. target: a copy of the settings, whose
-/// members are assigned their own values.
+/// Throws Error{OptionOutOfRange} or Error{UnknownName} for a value out of range. target: a copy of the settings. To
+/// check a member, the function assigns the value of the member to the member.
 void requireInRange(OptionRows rows, void* target, OptionSpelling spelling);
 
-/// The message, with the options in braces, such as {seeds=all}, spelled for the front end.
+/// Returns the message with the options in braces, such as {seeds=all}, replaced by their spelling in the front end.
 [[nodiscard]] std::string withSpelledOptions(OptionRows rows, std::string_view message, OptionSpelling spelling);
 
-/// Throws Error{OptionConflict} with the detail "option", the first in braces, and withSpelledOptions(message).
+/// Throws Error{OptionConflict} with the message withSpelledOptions(message). The detail "option" is the first option
+/// in braces.
 [[noreturn]] ASDFVK_API void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling);
 
 /// Up to three names that are similar to `name`, for example "--seeds or --rng-seed" for "--seed". Similar names differ

@@ -47,7 +47,7 @@ void refuseContradictions(const Options& options, const GivenOptions& given) {
                  given.spelling);
   if (options.interpolation.pooling > 0 && options.interpolation.guidance != Guidance::Prediction)
     refuseOption(
-        "{pooling} needs a prediction, which {recipe=paper} and {guidance=none} or curvature exclude; drop one",
+        "{pooling} needs a prediction, which {recipe=paper} and {guidance=none} or curvature exclude; drop one of them",
         given.spelling);
   if (options.parts.partCount && (given.has("detail") || options.parts.detail != 1))
     refuseOption("{parts} and {detail} contradict each other; drop one", given.spelling);

@@ -15,7 +15,7 @@ void to_json(nlohmann::ordered_json& json, const TraceVariant& variant);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const Report& report);
 
-/// The JSON report's key "options": the options that affect the result.
+/// The value of the key "options" in the JSON report: the options that affect the result.
 [[nodiscard]] nlohmann::ordered_json optionValues(const ComputationSettings& computation,
                                                   const SessionSettings& session);
 

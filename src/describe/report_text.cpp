@@ -72,12 +72,13 @@ std::string shortErrorRow(const Report& report) {
   }
   const ErrorEstimate& estimate = *report.estimatedError;
   std::string text = fmt::format("about {:.2g} % of the range on average", 100 * estimate.average);
-  if (estimate.relativeMedian > 0)  // 0 if most faces cast rays: "0 %" would suggest no errors.
+  // The median is 0 if most faces cast rays; "0 %" would suggest that there are no errors.
+  if (estimate.relativeMedian > 0)
     text += fmt::format(", {} % of the value in the median", twoDigits(estimate.relativeMedian));
   return text;
 }
 
-/// The row of the segments: "7 (5 to 9 at nearby detail); the largest 53, 16 and 7.1 % of the area".
+/// The text of the segments: "7 (5 to 9 at nearby detail); the largest 53, 16 and 7.1 % of the area".
 std::string shortSegmentRow(const Report& report) {
   std::string text = groupDigits(*report.segmentCount);
   if (!report.parts) return text;
@@ -148,7 +149,8 @@ std::string timeRow(const StageSeconds& seconds) {
   return fmt::format("{:.3g} s{}", sum, stages);
 }
 
-/// The rows of the full report, with capitalised titles and continued rows joined, without the list of thin regions.
+/// The rows of the full report without the list of thin regions. Titles are capitalised. A row that continues another
+/// row is appended to that row.
 ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spelling) {
   ReportRows summary;
   bool isThinRow = false;
@@ -193,7 +195,8 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
     rows = {{"mesh", meshRow(report)}, {"diameter", shortValueRow(report)}};
   }
   if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));
-  // The thickness matters more than the error of the diameter. A failed check also has an error message.
+  // With a thickness, the estimated error of the diameter is left out. Without room for the result of a check, the
+  // error message still reports a failed check.
   constexpr size_t kMaxRows = 5;
   if ((report.estimatedError && !report.thickness) || (report.check && rows.size() < kMaxRows))
     rows.emplace_back("error", shortErrorRow(report));

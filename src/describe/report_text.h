@@ -14,8 +14,8 @@ namespace asdfvk {
 /// Rows of title and text. A row without a title continues the previous row.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// The rows of the full report: thicknessRows(), or the short report if the thickness was not measured; then details of
-/// values, parts, seeds, device, solver and times. Titles have at most nine characters.
+/// The rows of the full report. The report begins with thicknessRows(), or with the short report if the thickness was
+/// not measured. Details of values, parts, seeds, device, solver and times follow. Titles have at most nine characters.
 [[nodiscard]] ReportRows reportRows(const Report& report, OptionSpelling spelling);
 
 /// The rows of the short report: at most five, so that a report has at most six lines.
@@ -34,8 +34,9 @@ struct ReportTexts {
 /// Verdict, unjudged faces, size, thin regions, sharp edges and more. Precondition: report.thickness is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report, OptionSpelling spelling);
 
-/// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or the least thickness
-/// without a limit; the numbers of unjudged faces, if any; the thickness and the thin regions.
+/// At most three rows. The first has the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12"; without
+/// a limit, the first row has the least thickness. The second has the numbers of unjudged faces, if there are any. The
+/// last has the thickness and the thin regions.
 [[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling);
 
 /// One line: "the check failed: " and the reason.

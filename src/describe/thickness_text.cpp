@@ -21,10 +21,10 @@ std::string leastText(const ThicknessReport& thickness) {
 }
 
 const char* sharpException(const ThicknessReport& thickness) {
-  return thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " but at sharp edges" : "";
+  return thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " except at sharp edges" : "";
 }
 
-/// A row for each kind of faces that are not judged with certainty.
+/// One row per kind of faces that cannot be judged with certainty.
 ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) {
   ReportRows rows;
   const auto add = [&rows](uint64_t count, const char* noun, const std::string& rest) {
@@ -86,7 +86,7 @@ void addList(const char* title, const std::string& heading, const std::vector<It
 std::string sharpHeading(const ThicknessReport& thickness, OptionSpelling spelling) {
   const std::string count = counted(thickness.sharpEdges.size(), "sharp edge or tip", "sharp edges or tips");
   if (!thickness.thinnerThan) return count;
-  if (thickness.allowsSharpEdges) return count + ": allowed, with all that is thin around them";
+  if (thickness.allowsSharpEdges) return count + ": allowed, together with the thin surface around them";
   return count + withSpelledOptions(computationRows(), ": thinner than any limit; {allow-sharp-edges} leaves them out",
                                     spelling);
 }

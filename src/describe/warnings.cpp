@@ -48,8 +48,9 @@ std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
       "input faces have fewer than three corners: they get no value");
   add("zeroAreaFaceCount", defects.zeroAreaFaceCount, face + "has zero area: it casts no rays",
       faces + "have zero area: they cast no rays");
-  add("duplicateFaceCount", defects.duplicateFaceCount, face + "duplicates an earlier one: its rays ignore its copies",
-      faces + "duplicate earlier ones: their rays ignore their copies");
+  add("duplicateFaceCount", defects.duplicateFaceCount,
+      face + "duplicates an earlier face: the rays of a face ignore its copies",
+      faces + "duplicate earlier ones: the rays of a face ignore its copies");
   add("nonManifoldEdgeCount", defects.nonManifoldEdgeCount,
       "edge has more than two faces: values are interpolated across all of them",
       "edges have more than two faces: values are interpolated across all of them");
@@ -88,19 +89,18 @@ Warning missingValues(const MissingValues& missing) {
 
 Warning rangeDominated(double robustShare) {
   return {WarningCode::RangeDominated,
-          fmt::format("a few faces have most of the range of the values (98 % of the faces are within {:.2g} % of it), "
-                      "so that errors over the range look small",
+          fmt::format("a few faces span most of the range of the values (98 % of the faces are within {:.2g} % of the "
+                      "range), so that errors divided by the range look small",
                       100 * robustShare),
           {{"robustShare", numberText(robustShare)}}};
 }
 
 Warning rangeDominated(double robustShare, const ErrorEstimate& estimate) {
-  return {
-      WarningCode::RangeDominated,
-      fmt::format("most values are small against their range, so that errors over the range look small: {:.2g} % of "
-                  "the range on average, but {:.0f} % of the value in the median",
-                  100 * estimate.average, 100 * estimate.relativeMedian),
-      {{"robustShare", numberText(robustShare)}}};
+  return {WarningCode::RangeDominated,
+          fmt::format("most values are small compared with their range, so that errors divided by the range look "
+                      "small: {:.2g} % of the range on average, but {:.0f} % of the value in the median",
+                      100 * estimate.average, 100 * estimate.relativeMedian),
+          {{"robustShare", numberText(robustShare)}}};
 }
 
 Warning finishedOnCpu(const SolverReport& solver) {
@@ -159,7 +159,8 @@ Warning skippedContent(const std::vector<std::string>& skipped) {
 
 Warning uncertainParts(double agreement) {
   return {WarningCode::UncertainParts,
-          fmt::format("the parts are uncertain: divisions from other numbers of patches agree by only {:.2f} of 1",
+          fmt::format("the parts are uncertain: with other numbers of patches, the agreement of the parts is only "
+                      "{:.2f} (1 means equal parts)",
                       agreement),
           {{"agreement", numberText(agreement)}}};
 }

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-// Functions that make a warning: a sentence, with its values as details. src/pipeline/prepared_mesh.cpp has another
-// one.
+// Functions that make a warning: a sentence, and the values in the sentence as details. src/pipeline/prepared_mesh.cpp
+// has one more such function.
 
 /// One warning per kind of defect. isOfPolygons: sentences say "triangles" instead of "faces".
 [[nodiscard]] std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons);
@@ -43,10 +43,10 @@ struct MissingValues {
 
 [[nodiscard]] Warning uncertainParts(double agreement);
 
-/// areaShare: share of the area in faces that are larger than half of their value.
+/// areaShare: share of the area in faces that are larger than half of their shape diameter.
 [[nodiscard]] Warning coarseParts(double areaShare);
 
-/// minShare: share of the area that no component reaches.
+/// minShare: every component has a smaller share of the area than this.
 [[nodiscard]] Warning onlySmallComponents(double minShare, uint64_t partCount);
 
 }  // namespace asdfvk

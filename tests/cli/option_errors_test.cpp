@@ -116,11 +116,11 @@ TEST_CASE("skeleton points go to one .ply file, and a picture shows none of thei
   CHECK_EQ(refusal({"a.ply", "--points", "b.obj"}), "--points: 'b.obj' is not a file that ends in .ply or .swc");
   CHECK_EQ(refusal({"a.ply", "--points", ""}), "--points: '' is not a file that ends in .ply or .swc");
   CHECK_EQ(refusal({"a.ply", "b.ply", "--points", "c.ply"}),
-           "--points takes one mesh; name one mesh, or run them one by one");
+           "--points takes one mesh; name one mesh, or run asdf-vk once per mesh");
   for (const auto& other : {std::vector<std::string>{"--json"}, {"-o", "-"}, {"--picture", "-"}}) {
     std::vector<std::string> arguments{"a.ply", "--points", "-"};
     arguments.insert(arguments.end(), other.begin(), other.end());
-    CHECK(refusal(arguments).starts_with("--points - writes to standard output"));
+    CHECK(refusal(arguments).starts_with("--points -, --json, -o - and --picture - write to standard output"));
   }
   CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "centre"}),
            "--picture-of: 'centre' has three components; a picture shows a field of one component");
@@ -221,7 +221,7 @@ TEST_CASE("options that would have no effect are refused") {
 
 TEST_CASE("pooling without a prediction is refused") {
   const std::string message =
-      "--pooling needs a prediction, which --recipe paper and --guidance none or curvature exclude; drop one";
+      "--pooling needs a prediction, which --recipe paper and --guidance none or curvature exclude; drop one of them";
   CHECK_EQ(refusal({"a.ply", "b.ply", "--pooling", "0.5", "--recipe", "paper"}), message);
   CHECK_EQ(refusal({"a.ply", "--recipe", "quality", "--guidance", "none"}), message);
   CHECK_EQ(refusal({"a.ply", "--recipe", "paper", "--pooling", "0"}), "accepted");

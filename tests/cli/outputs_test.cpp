@@ -140,8 +140,8 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
   const std::vector<InputFile> colliding{{.path = "x/a.off"}, {.path = "x/a.ply"}};
   CHECK_THROWS_WITH_AS(
       (void)planOutputs(line.outputs, line.batch, colliding),
-      "x/a.off and x/a.ply would both be written to x/a.asdf.npy; rename one of them, or compute it in a "
-      "call of its own with another -o",
+      "x/a.off and x/a.ply would both be written to x/a.asdf.npy; rename one of the two, or compute it in "
+      "a separate call with another -o",
       Error);
   const std::vector<InputFile> twice{{.path = "x/a.off"}, {.path = "x/../x/a.off"}};
   CHECK_THROWS_WITH_AS((void)planOutputs(line.outputs, line.batch, twice), "x/../x/a.off is named twice; name it once",

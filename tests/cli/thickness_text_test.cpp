@@ -61,7 +61,7 @@ TEST_CASE("the first line is the verdict with the limit, the least thickness and
   thickness.min = 1;
   thickness.allowsSharpEdges = true;
   thickness.sharpEdges.resize(1);
-  CHECK(textOf(sharp).starts_with("part.stl: PASS: nowhere thinner than 0.8 but at sharp edges\n"));
+  CHECK(textOf(sharp).starts_with("part.stl: PASS: nowhere thinner than 0.8 except at sharp edges\n"));
 }
 
 TEST_CASE("what is not judged is named, also where the verdict is another one") {
@@ -114,7 +114,7 @@ TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, 
              "  thickness by area p1 1.1, p5 2, p50 2, p95 2, max 4\n"
              "  mesh      ");
   thickness.allowsSharpEdges = true;
-  checkHolds(textOf(result), "2 sharp edges or tips: allowed, with all that is thin around them\n");
+  checkHolds(textOf(result), "2 sharp edges or tips: allowed, together with the thin surface around them\n");
 }
 
 TEST_CASE("the document has every value of the thickness") {

@@ -37,7 +37,7 @@ TEST_CASE("the warning of missing values has its likely causes") {
 TEST_CASE("the warning of a defect names its count in the report") {
   const std::vector<Warning> warnings = warningsOf({.duplicateFaceCount = 3, .unreferencedVertexCount = 1}, true);
   REQUIRE(warnings.size() == 2);
-  CHECK_EQ(warnings[0].message, "3 triangles duplicate earlier ones: their rays ignore their copies");
+  CHECK_EQ(warnings[0].message, "3 triangles duplicate earlier ones: the rays of a face ignore its copies");
   CHECK_EQ(detailOf(warnings[0], "defect"), "duplicateFaceCount");
   CHECK_EQ(detailOf(warnings[0], "count"), "3");
   CHECK_EQ(detailOf(warnings[1], "defect"), "unreferencedVertexCount");

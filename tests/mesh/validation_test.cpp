@@ -128,7 +128,7 @@ TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
   CHECK(defects.boundaryEdgeCount == 0);
   CHECK(defects.nonManifoldEdgeCount == 0);  // Edges go by index.
   CHECK(sentencesOf(twice) ==
-        std::vector<std::string>{"12 faces duplicate earlier ones: their rays ignore their copies"});
+        std::vector<std::string>{"12 faces duplicate earlier ones: the rays of a face ignore its copies"});
 }
 
 TEST_CASE("on a mesh of polygons the sentences count triangles and name them") {
@@ -137,5 +137,5 @@ TEST_CASE("on a mesh of polygons the sentences count triangles and name them") {
   const std::vector<std::string> sentences = sentencesOf(mesh);
   REQUIRE(sentences.size() >= 2);
   CHECK(sentences[0] == "1 triangle has zero area: it casts no rays");
-  CHECK(sentences[1] == "2 triangles duplicate earlier ones: their rays ignore their copies");
+  CHECK(sentences[1] == "2 triangles duplicate earlier ones: the rays of a face ignore its copies");
 }
