@@ -25,7 +25,7 @@ bool isSamePath(const fs::path& a, const fs::path& b) {
   return fs::absolute(a, ignored).lexically_normal() == fs::absolute(b, ignored).lexically_normal();
 }
 
-/// The hash of an output. If an output has a second file (.mtl), the hash of both hashes.
+/// The hash of an output. For an output with a second file (.mtl), returns the hash of both hashes.
 std::optional<std::string> outputHashOf(const fs::path& output) {
   std::optional<std::string> hash = contentHashOf(output);
   const std::optional<std::string> beside = hash ? contentHashOf(besidePathOf(output)) : std::nullopt;

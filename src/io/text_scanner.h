@@ -39,7 +39,7 @@ class TextScanner {
     return false;
   }
 
-  /// The next word of this line; empty where there is none.
+  /// The next word of this line; empty if there is none.
   [[nodiscard]] std::string_view wordOnLine() { return atLineEnd() ? std::string_view() : scanWord(); }
   [[nodiscard]] std::string_view word(std::string_view expected);
   /// Reads a decimal number, with or without an exponent, or inf or nan. Numbers that are too small for double become

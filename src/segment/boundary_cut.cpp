@@ -84,7 +84,8 @@ void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, c
   });
 }
 
-/// Improves the labels by a graph cut over the faces that may change, and their neighbours, whose labels are fixed.
+/// Improves the labels by a graph cut. The graph has the faces that may change, and the neighbours of these faces with
+/// fixed labels.
 void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount,
                   std::span<const Choice> choices, const RunControl& control) {
   std::vector<uint32_t> itemOf(labels.size(), kNoLabel), faces;

@@ -125,8 +125,8 @@ class WindowFilter {
   uint32_t longest_ = 0;
 };
 
-/// A power of two that brings the greatest magnitude into [0.5, 1), so that squares neither overflow nor underflow. 1
-/// if all values are 0 or missing.
+/// A power of two that brings the greatest magnitude into [0.5, 1), so that squares neither overflow nor underflow.
+/// Returns 1 if all values are 0 or missing.
 double unitOf(std::span<const double> values) {
   double greatest = 0;
   for (const double value : values)

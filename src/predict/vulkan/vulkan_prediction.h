@@ -21,11 +21,9 @@ class VulkanPredictionKernels {
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] Definition definition() const { return definition_; }
   [[nodiscard]] uint32_t rayCount() const { return rayCount_; }
-  /// Computes hit points. Bindings: faces, table, hits, points. Each workgroup serves one
-  /// seed.
+  /// Computes hit points. Bindings: faces, table, hits, points. Each workgroup handles one seed.
   [[nodiscard]] const ComputePipeline& points() const { return points_; }
-  /// Predicts values. Bindings: faces, points, work, values. Each workgroup serves
-  /// kFaceLaneCount items.
+  /// Predicts values. Bindings: faces, points, work, values. Each workgroup handles kFaceLaneCount items.
   [[nodiscard]] const ComputePipeline& faces() const { return faces_; }
   static constexpr uint32_t kFaceLaneCount = 64;
 

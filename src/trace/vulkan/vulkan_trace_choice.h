@@ -72,7 +72,7 @@ struct VulkanWorkgroupShape {
 /// Traversal by single lanes (shaders/wide_walk.glsl). Results depend on the shape only if a ray hits equally near
 /// triangles.
 struct VulkanWalkShape {
-  uint32_t stackSize = kMaxBvhDepth;  ///< Entries, at least kMaxBvhDepth.
+  uint32_t stackSize = kMaxBvhDepth;  ///< Number of entries, at least kMaxBvhDepth.
   /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one
   /// node are tested one by one. The tests begin when each lane has triangles or no node left (Aila and Laine 2009).
   bool postponesTriangles = true;
