@@ -3,9 +3,9 @@
 
     bench/known_shapes.py [--faces 1310720] [--backend auto] [--build build/develop]
 
---faces: greatest number of faces. The animal is left out if it has more faces. Needs python3-numpy. Exact values are
-those of a sphere, a slab and a cylinder without facets and ends, by the definition of docs/method.md in a few lines of
-NumPy. The animal is compared with the reference.
+--faces: greatest number of faces of a mesh; larger meshes are left out. Needs python3-numpy. The exact values are for a
+smooth sphere, an infinite slab and an infinite smooth cylinder. NumPy computes them by the definition of
+docs/method.md. The animal has no exact values; it is compared with the reference.
 """
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 RAY_COUNT = 30
 SIZES = [320 * 4**level for level in range(7)]
 ANIMAL_FACES = 100_000
-SAMPLE = 4_000  # Number of traced faces of large shapes.
+SAMPLE = 4_000  # Number of faces with rays on large shapes.
 HEAD = "|     faces | measured | median   | mean     | max      | order |\n" \
        "|----------:|---------:|---------:|---------:|---------:|------:|"
 
 
 def cone(degrees: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Angles to the axis and around it, and weights of the rays."""
+    """For each ray: angle to the axis, angle around the axis, weight."""
     i = np.arange(RAY_COUNT)
     to_axis = np.arccos(1 - (i + 0.5) / RAY_COUNT * (1 - np.cos(np.radians(degrees) / 2)))
     return to_axis, i * np.pi * (3 - np.sqrt(5)), 1 / to_axis
 
 
 def directions(normals: np.ndarray, degrees: float) -> np.ndarray:
-    """(m, rays, 3): the rays of the cone of each face."""
+    """Returns (m, rays, 3): the directions of the rays of each face."""
     z = -normals
     sign = np.where(z[:, 2] < -0.7, -1.0, 1.0)
     a = -1 / (sign + z[:, 2])
@@ -49,7 +49,7 @@ def directions(normals: np.ndarray, degrees: float) -> np.ndarray:
 
 
 def mean(lengths: np.ndarray, hit_cosines: np.ndarray, degrees: float) -> np.ndarray:
-    """Weighted mean without false hits and outliers, (m,). lengths, hit_cosines (n_f . n_g): (m, rays)."""
+    """Returns (m,): weighted means without false hits and outliers. lengths, hit_cosines (n_f . n_g): (m, rays)."""
     lengths = np.where(hit_cosines > 1e-3, np.nan, lengths)
     median = np.nanmedian(lengths, 1, keepdims=True)
     kept = np.abs(lengths - median) <= np.nanstd(lengths, 1, keepdims=True) + 1e-5 * median
@@ -68,7 +68,7 @@ def of_slab(_: np.ndarray, normals: np.ndarray, degrees: float) -> np.ndarray:
 
 
 def of_cylinder(centres: np.ndarray, normals: np.ndarray, degrees: float) -> np.ndarray:
-    """Values of an infinite cylinder along z of radius 0.25, at its points nearest to the barycentres."""
+    """Values of an infinite cylinder of radius 0.25 around z, at its points nearest to the barycentres `centres`."""
     rays = directions(normals, degrees)[..., :2]
     start = centres[:, :2] * 0.25 / np.hypot(*centres[:, :2].T)[:, None]
     lengths = -2 * np.einsum("mrk,mk->mr", rays, start) / (rays**2).sum(2)
@@ -76,18 +76,19 @@ def of_cylinder(centres: np.ndarray, normals: np.ndarray, degrees: float) -> np.
     return mean(lengths, np.einsum("mrk,mk->mr", hits / 0.25, normals[:, :2]), degrees)
 
 
-# For each shape: name, exact values, and the faces far enough from rim and ends for a cone of the given angle.
+# For each shape: name, function of the exact values, and function that selects faces. A selected face is so far from
+# rim and caps that its rays do not hit them.
 SHAPES = {
     "icosphere": ("Sphere, radius 1", of_sphere, lambda c, n, degrees: np.ones(len(c), bool)),
-    "slab": ("Slab, 2 x 2 x 0.1, faces 0.19 from the rim", of_slab,
+    "slab": ("Slab, 2 x 2 x 0.1, only faces at least 0.19 away from the rim", of_slab,
              lambda c, n, degrees: (np.abs(n[:, 2]) > 0.9) & (np.abs(c[:, :2]).max(1) < 0.81)),
-    "cylinder": ("Cylinder, radius 0.25, length 5, faces {} from the caps", of_cylinder,
+    "cylinder": ("Cylinder, radius 0.25, length 5, only faces at least {} away from the caps", of_cylinder,
                  lambda c, n, degrees: (np.abs(n[:, 2]) < 0.1) & (np.abs(c[:, 2]) < (1.55 if degrees > 80 else 2.04))),
 }
 
 
 def read_ply(path: pathlib.Path) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and faces of a file of asdf-vk-generate."""
+    """Reads vertices and faces from a file of asdf-vk-generate."""
     head, _, data = path.read_bytes().partition(b"end_header\n")
     counts = [int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element")]
     vertices = np.frombuffer(data, "<f4", 3 * counts[0]).reshape(-1, 3)
