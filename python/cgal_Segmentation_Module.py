@@ -1,4 +1,4 @@
-"""The extension module cgal_Segmentation_Module of neuron pipelines, on asdf_vk instead of CGAL.
+"""Replaces the extension module cgal_Segmentation_Module of neuron pipelines. Uses asdf_vk instead of CGAL.
 
     import cgal_Segmentation_Module
     code = cgal_Segmentation_Module.cgal_segmentation("neuron", 3, 0.20)
@@ -6,7 +6,7 @@
 
     labels, values = cgal_Segmentation_Module.cgal_segmentation_arrays(vertices, faces, 3, 0.20)
 
-Nothing is printed. Definitions and differences: asdf_vk.compat.cgal.
+The functions print nothing. asdf_vk.compat.cgal describes the definitions, and the differences from CGAL.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ __all__ = ["cgal_segmentation", "cgal_segmentation_arrays"]
 
 DONE, CANNOT_OPEN, CANNOT_PARSE, EMPTY, NOT_TRIANGLES = 1, 2, 3, 4, 6
 
-_COUNTS_LIMIT = 1 << 16  # An OFF file must have its counts within this number of bytes.
+_COUNTS_LIMIT = 1 << 16  # The counts of an OFF file must be within this number of bytes from its start.
 
 
 def cgal_segmentation(
@@ -43,20 +43,20 @@ def cgal_segmentation(
     expansion: Literal["all", "first"] | None = "all",
     **options: Unpack[BackendOptions],
 ) -> int:
-    """Computes values and segments of the mesh PATH.off and writes them beside it.
+    """Computes values and segments of the mesh PATH.off, and writes them in the same folder.
 
     clusters: 2 to 100. smoothness: 0 to 1000.
     expansion, options: as in asdf_vk.compat.cgal.
 
-    PATH-cgal_{clusters}_{smoothness:.2f}.csv has the segment of each face, from 0 on, a line per face in the order of
-    the mesh; PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the values from 0 to 1, with 6 significant digits. The
-    files get these names when both are complete.
+    Both output files have a line per face, in the order of the mesh. PATH-cgal_{clusters}_{smoothness:.2f}.csv has the
+    segment of each face, from 0 on. PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the value of each face from 0 to
+    1, with 6 significant digits. The files get these names when both are complete.
 
-    Returns 1: done; 2: PATH.off cannot be opened; 3: PATH.off is no OFF file or violates the format; 4: the mesh has no
-    faces; 6: a face is not a triangle. Raises asdf_vk.Error for other failures, such as fewer different values than
-    clusters, and OSError if a file cannot be written.
+    Returns a code. 1: done; 2: PATH.off cannot be opened; 3: PATH.off is not a valid OFF file; 4: the mesh has no
+    faces; 6: a face is not a triangle. Raises OSError if a file cannot be written. Raises asdf_vk.Error for all other
+    failures, for example fewer different values than clusters.
 
-    In a process that was forked after a use of asdf_vk, the work runs in a new process of the same interpreter.
+    If this process was forked after a use of asdf_vk, the function computes in a new process of the same interpreter.
     """
     path = os.fsdecode(path_without_extension)
     try:
@@ -71,7 +71,7 @@ def cgal_segmentation(
             raise
         return _in_new_process(path, clusters, smoothness, {"expansion": expansion, **options})
     name = f"{path}-cgal_{clusters}_{smoothness:.2f}"
-    # ravel(): NumPy 2 types the result of tolist() as a list of numbers only for an array of one dimension.
+    # ravel() is for the type checker: with NumPy 2, tolist() is a list of numbers only for an array of one dimension.
     segments = "".join([f"{label}\n" for label in labels.ravel().tolist()])
     numbers = "".join([f"{value:g}\n" for value in values.ravel().tolist()])
     _write_whole({f"{name}.csv": segments, f"{name}_sdf.csv": numbers})
@@ -87,9 +87,9 @@ def cgal_segmentation_arrays(
     expansion: Literal["all", "first"] | None = "all",
     **options: Unpack[BackendOptions],
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """Like cgal_segmentation(), but in memory, without files and return codes.
+    """Like cgal_segmentation(), but without files and return codes.
 
-    vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`, and None.
+    vertices, faces: (n, 3) and (m, 3). Or `vertices` is an object with both attributes, and `faces` is None.
     Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,). Raises asdf_vk.Error.
     """
     for name, value in (("clusters", clusters), ("smoothness", smoothness)):
@@ -105,7 +105,7 @@ def _read_triangles(path: str) -> asdf_vk.Mesh | int:
     try:
         with open(path, "rb") as file:
             start = file.read(_COUNTS_LIMIT)
-    except (OSError, ValueError):  # ValueError: not a valid name of a file.
+    except (OSError, ValueError):  # A ValueError means that the path is not a valid file name.
         return CANNOT_OPEN
     words = b"\n".join(line.split(b"#")[0] for line in start.splitlines()).split()
     if not words or not words[0].endswith(b"OFF"):
@@ -122,7 +122,7 @@ def _read_triangles(path: str) -> asdf_vk.Mesh | int:
 
 
 def _write_whole(texts: dict[str, str]) -> None:
-    """Writes temporary files beside the files, and renames them when all are complete."""
+    """Writes temporary files in the folders of the files. Renames them when all are complete."""
     suffix = f".{os.getpid()}-{threading.get_ident()}.tmp"
     try:
         for path, text in texts.items():

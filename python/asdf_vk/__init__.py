@@ -1,11 +1,11 @@
-"""Shape diameter function of triangle meshes on Vulkan: how thick the shape is, seen from each face.
+"""Shape diameter function of triangle meshes on Vulkan: the local diameter of the shape at each face.
 
     import asdf_vk
     values = asdf_vk.shape_diameter(vertices, faces)    # float32 (m,), in the unit of the mesh, NaN = no value
     labels = asdf_vk.segment(vertices, faces)           # int32 (m,)
 
-`vertices` is (n, 3) float, `faces` (m, 3) int. A single object with these two attributes (trimesh.Trimesh) is also
-allowed.
+`vertices` is a float array of shape (n, 3), and `faces` is an int array of shape (m, 3). Instead of the two arrays, you
+can pass one object with these attributes, for example a trimesh.Trimesh.
 """
 
 from __future__ import annotations
@@ -56,6 +56,6 @@ __all__ = [
     "write_points",
 ]
 
-for _name in __all__:  # Tracebacks and help() name the module that users import.
+for _name in __all__:  # Tracebacks and help() then name `asdf_vk`, the module that users import.
     if callable(globals()[_name]):
         globals()[_name].__module__ = __name__

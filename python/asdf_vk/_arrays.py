@@ -1,4 +1,4 @@
-"""Checks arrays of the caller, and copies them only where the library needs another type or layout."""
+"""Checks arrays of the caller. Copies an array only if the library needs another type or layout."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MAX_ROW_COUNT = 2**32 - 1  # Indices have 32 bits.
 
 
 def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
-    """Accepts vertices and faces, a Mesh, or an object with `vertices` and `faces`."""
+    """Returns an argument for the extension. Accepts two arrays, a Mesh, or an object with `vertices` and `faces`."""
     if faces is None:
         if isinstance(mesh, _core.Mesh):
             return mesh
@@ -56,7 +56,7 @@ def polygon_arrays(
 
 
 def points_array(value: Any, name: str) -> NDArray[Any]:
-    """Returns (n, 3), C-contiguous: float32 for float16 and float32, otherwise float64. NaN is allowed."""
+    """Returns (n, 3), C-contiguous. float16 and float32 become float32, all other types float64. NaN is allowed."""
     array = _rows(as_array(value, name, "fiu", "real numbers"), name)
     return _native(array, np.float32 if array.dtype in (np.float32, np.float16) else np.float64, name)
 
@@ -82,7 +82,7 @@ def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
 
 
 def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
-    """Returns a mask of faces, (count,) uint8. value: a mask, (count,) bool, or indices of faces."""
+    """Returns a mask of faces, (count,) uint8. `value` is a mask, (count,) bool, or an array of face indices."""
     array = as_array(value, "faces", "bfiu", "bool (a mask) or indices of faces")
     if array.size == 0:
         array = np.zeros(0, np.int64)
@@ -103,7 +103,7 @@ def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
 
 
 def field_array(value: Any, name: str) -> NDArray[Any]:
-    """Returns an array: bool and uint8 as uint8, other integers as uint32 (-1: 2**32 - 1), real numbers as float64."""
+    """Returns bool and uint8 as uint8, other integers as uint32 (-1 becomes 2**32 - 1), and real numbers as float64."""
     array = as_array(value, f"field {name}", "bfiu", "numbers")
     if array.ndim not in (1, 2):
         raise error_of("arraySize", f"field {name} has the shape {array.shape}, not (items,) or (items, components)")
@@ -121,7 +121,7 @@ def field_array(value: Any, name: str) -> NDArray[Any]:
 
 
 def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
-    """Returns an array. kinds: allowed kinds of NumPy, "iu" for integers. wanted: their name, for the message."""
+    """Returns an array. kinds: allowed kinds of NumPy types, such as "iu". wanted: name of the kinds in messages."""
     try:
         array = np.asarray(value)
     except (MemoryError, KeyboardInterrupt):
@@ -131,7 +131,7 @@ def as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
     if np.ma.isMaskedArray(value) and np.ma.getmaskarray(value).any():
         raise error_of("arrayType", f"{name} is a masked array with masked entries; fill or remove them")
     if array.dtype.kind not in kinds:
-        if array.size == 0:  # An empty array may have any type: [] is an array of float64.
+        if array.size == 0:  # An empty array may have any type, because NumPy converts [] to float64.
             return np.zeros(array.shape, np.uint8)
         if array.ndim == 0 and array.dtype == object:
             raise error_of("arrayType", f"{name} is an object of type {type(value).__name__}, not an array of {wanted}")
@@ -146,7 +146,7 @@ def _require_range(array: NDArray[Any], greatest: int, subject: str) -> None:
 
 
 def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
-    """Returns (n, 3), for [] (0, 3)."""
+    """Returns an array of shape (n, 3); [] becomes an array of shape (0, 3)."""
     if array.shape == (0,):
         return array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -157,7 +157,7 @@ def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
-    """Returns the array itself if its type, byte order, alignment and layout fit, otherwise a copy."""
+    """Returns the array itself if its type, byte order, alignment and layout fit. If not, returns a converted copy."""
     try:
         with np.errstate(over="ignore"):
             return np.require(array, dtype, ["C_CONTIGUOUS", "ALIGNED"])

@@ -1,4 +1,4 @@
-"""Runs one computation, for the free functions and for Scene."""
+"""Runs one computation. The free functions and Scene call this module."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from . import _core
 from ._errors import MeshWarning, error_of
 from ._options import Progress, checked_progress
 
-_STACK_LEVEL = 4  # Warnings name the line that calls the public function.
+_STACK_LEVEL = 4  # A warning names the line of the caller's code that calls the public function.
 
 
 def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
-    """Removes `progress` from the options and returns it. Raises UsageError for a name that is not in `allowed`."""
+    """Removes `progress` from the options and returns it. Raises UsageError for an option name that is not allowed."""
     progress = checked_progress(options.pop("progress", None))
     for name in options:
         if name not in allowed:
@@ -44,7 +44,7 @@ def computed(
     options: dict[str, Any],
     implied: dict[str, Any],
 ) -> _core.ComputedFields:
-    """Calls `compute` with the options of the caller and those that the function implies. Issues the warnings."""
+    """Calls `compute` with the options of the caller and the implied options. Issues the warnings of the report."""
     progress = split_progress(options, _core.option_names())
     result = compute(_merged(options, implied), progress)
     for warning in result.warnings():
@@ -53,12 +53,12 @@ def computed(
 
 
 def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) -> NDArray[Any]:
-    """Returns the field per face; per vertex if the options have per="vertex"."""
+    """Returns the values of a field per face, or per vertex if the options have per="vertex"."""
     return result.array(name, options.get("per") == "vertex")
 
 
 def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
-    """Returns the options, with measure="both" if they would measure only the thickness."""
+    """Returns the options; measure="thickness" becomes measure="both"."""
     measure = options.get("measure")
     has_limit = measure is None and options.get("thinner_than") is not None
     is_thickness = isinstance(measure, str) and measure == "thickness"

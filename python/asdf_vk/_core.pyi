@@ -18,5 +18,5 @@ class Mesh:
     @property
     def unit(self) -> str: ...
 
-# Only this package uses the other names.
+# This file declares only the public names. All other names are private to the package.
 def __getattr__(name: str) -> Any: ...

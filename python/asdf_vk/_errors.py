@@ -1,4 +1,4 @@
-"""Exceptions: one class per kind of error, with the code of the library."""
+"""Exceptions: one class per kind of error. Each exception has the error code of the library."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from . import _core
 class Error(Exception):
     """Base of all errors of asdf_vk.
 
-    code: name of the error in the library, for example "indexOutOfRange".
-    details: values of the error by name.
+    code: name of the error, for example "indexOutOfRange" (include/asdf_vk/error.h).
+    details: named values that occur in the message.
     """
 
     def __init__(self, message: str, code: str, details: dict[str, str] | None = None) -> None:
@@ -24,7 +24,7 @@ class Error(Exception):
 
 
 class UsageError(Error, ValueError):
-    """An option is unknown, out of range or contradicts another."""
+    """An option is unknown, is out of range, or contradicts another option."""
 
 
 class InputError(Error, ValueError):
@@ -36,13 +36,13 @@ class ArrayTypeError(InputError, TypeError):
 
 
 class DeviceError(Error, RuntimeError):
-    """There is no usable device, or the device was lost or is too small."""
+    """There is no usable device, the device was lost, or the mesh exceeds a limit of the device."""
 
 
 class OutputError(Error, OSError):
     """A result cannot be written."""
 
-    def __str__(self) -> str:  # OSError would print an error number.
+    def __str__(self) -> str:  # The __str__ of OSError would print an error number.
         return str(self.args[0])
 
 
@@ -51,9 +51,9 @@ class CancelledError(Error):
 
 
 class MeshWarning(UserWarning):
-    """Warns of a property of the mesh or of its values that may affect the results.
+    """A property of the mesh or of its values may affect the results.
 
-    code: name of the warning in the library, for example "missingValues".
+    code: name of the warning, for example "missingValues" (docs/formats.md).
     """
 
     def __init__(self, message: str, code: str) -> None:
@@ -74,7 +74,7 @@ _CLASS_OF_KIND: dict[str, type[Error]] = {
 
 
 def error_of(code: str, message: str, details: dict[str, str] | None = None) -> Error:
-    """Returns the exception for an error code. Joins the lines of the message: a repr() in it may have several."""
+    """Returns the exception for an error code. Joins the lines of the message, because a repr() can have several."""
     message = " ".join(line.strip() for line in message.splitlines())
     if code == "arrayType":
         return ArrayTypeError(message, code, details)

@@ -15,11 +15,12 @@ Mesh = _core.Mesh
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Reads a PLY, OFF, OBJ, STL, GLB, glTF or 3MF file. Keeps all faces, in file order.
+    """Reads a PLY, OFF, OBJ, STL, GLB, glTF or 3MF file. Keeps all faces, in the order of the file.
 
-    The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. If the file has faces
-    that are not triangles, `faces` is their triangulation, and `face_of_triangle` (m,) has the face of the file for
-    each triangle. Functions then return a value per face of the file, `face_count` in all. Raises InputError.
+    The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. If a face of the file is
+    not a triangle, `faces` has the triangles into which the faces are cut. `face_of_triangle` (m,) then has the index
+    of the file's face for each triangle, and functions return a value per face of the file (`face_count` values).
+    Raises InputError.
     """
     return _core.read_mesh(_path(path))
 
@@ -30,8 +31,8 @@ def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: Arra
     vertices: (n, 3). corners: (k,) indices of vertices, for each face counter-clockwise seen from outside.
     first_corner: (m + 1,), ascending from 0 to k: face i has the corners corners[first_corner[i]:first_corner[i + 1]].
 
-    Functions return a value per face. If a face has several triangles, it gets the least of their thicknesses, and
-    area-weighted means of their other values. Arrays are copied. Raises InputError.
+    Functions return a value per face. The thickness of a face is the least thickness of its triangles. Other values of
+    a face are area-weighted means over its triangles. Arrays are copied. Raises InputError.
     """
     return _core.mesh_of_polygons(*polygon_arrays(vertices, corners, first_corner))
 
@@ -51,13 +52,13 @@ def write(
 
     mesh: a Mesh, an object with `vertices` and `faces`, or a tuple of these two arrays.
     fields: a result of compute(), or a mapping from names to arrays per face, (items,) or (items, 3). The first field
-        of real numbers is the quality of a .ply; without segments it also gives the colours.
-    further: further results of the same mesh, for a page. The other formats hold one result.
-    vertex_fields: a mapping from names to arrays per vertex; None: the vertex fields of `fields` if it is an Info.
-    format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png"; empty: the extension decides.
+        of real numbers is the property `quality` of a .ply. If there are no segments, it also determines the colours.
+    further: further results of the same mesh; for pages only, because all other formats hold one result.
+    vertex_fields: a mapping from names to arrays per vertex. None: if `fields` is an Info, its vertex fields are used.
+    format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png". Empty: the extension decides the format.
     ascii: write a .ply as text.
-    labels: names of the results on a page; by default the name of the file, with a number if there are several.
-    picture_of: the field that a picture shows; empty: the segments, otherwise the first field.
+    labels: names of the results on a page. Default: the name of the file; several results are also numbered.
+    picture_of: the field that a picture shows. Empty: the segments, or the first field if there are no segments.
 
     The file is replaced atomically. Raises OutputError, InputError, UsageError.
     """
@@ -76,7 +77,7 @@ def write(
         raise error_of("optionConflict", "pages and pictures show fields per face; drop vertex_fields")
     if kind == "html":
         name = "mesh" if target == "-" else os.path.splitext(os.path.basename(target))[0]
-        name = os.fsencode(name).decode(errors="replace")  # Names of files may be no UTF-8.
+        name = os.fsencode(name).decode(errors="replace")  # The name of a file need not be valid UTF-8.
         reports = (result._shown if isinstance(result, Info) else None for result in results)
         layers = zip(map(_arrays_of, results), _labels_of(results, labels, name), reports)
         _core.write_page(target, argument, name, list(layers))
@@ -113,12 +114,12 @@ def _labels_of(results: list[Any], labels: Sequence[str] | None, name: str) -> S
 def write_points(
     path: str | os.PathLike[str], points: ArrayLike, radii: ArrayLike, *, components: ArrayLike | None = None
 ) -> None:
-    """Writes skeleton points with their radii: trees in .swc, a point cloud in .ply (binary). Replaces atomically.
+    """Writes skeleton points with radii: trees in .swc, a point cloud in binary .ply. Replaces the file atomically.
 
-    points, radii: (k, 3) and (k,), for example of skeleton_points(). Points with a number that is not finite are left
-        out, in .swc also points whose radius is not above 0.
-    components: (k,) integers, for example info.fields["component"] of compute(centres=True). In .swc, each component is
-        a tree. None: one tree.
+    points, radii: (k, 3) and (k,), for example from skeleton_points(). A point is left out if a number is not finite.
+        In .swc, a point is also left out if its radius is not above 0.
+    components: (k,) integers, for example info.fields["component"] of compute(centres=True). A .swc has a tree per
+        component. None: one tree.
 
     A tree is the minimum spanning tree of its points. Its root is the point with the greatest radius. Raises
     OutputError, InputError, UsageError.

@@ -1,4 +1,4 @@
-"""The free functions: one mesh, one call."""
+"""The free functions, which compute one mesh in one call."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
 
 
 def _computed(vertices: Any, faces: Any, options: dict[str, Any], **implied: Any) -> _core.ComputedFields:
-    """Computes on the session of the backend options, and removes these options."""
+    """Computes on the session that the backend options describe, and removes these options."""
     session = session_of(options)
     mesh = mesh_argument(vertices, faces)
     return computed(lambda own, progress: session._opened.compute(mesh, own, progress), options, implied)
 
 
 def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]) -> Info:
-    """Computes fields and report for all given options in one pass.
+    """Computes the fields that the options request, and the report.
 
     vertices: (n, 3) float32 or float64, or an object with `vertices` and `faces` (Mesh, trimesh.Trimesh).
-    faces: (m, 3) int32, uint32 or int64 indices, counter-clockwise seen from outside. Other integer types are
-        converted. float64 and 32-bit integers are used in place.
+    faces: (m, 3) indices of any integer type, counter-clockwise seen from outside. float64 vertices and 32-bit indices
+        are used without a copy.
     options: measure="thickness" or "both", segment="parts" or "cgal", centres=True and per="vertex" add fields;
         docs/python.md explains all options.
 
@@ -44,13 +44,15 @@ def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[Fun
 def shape_diameter(
     vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]
 ) -> NDArray[np.float32]:
-    """Shape diameter function: how thick the shape is behind each face.
+    """Shape diameter function: the local diameter of the shape at each face.
 
-    vertices, faces: as for compute(), which also returns the report.
-    options: seeds (faces that cast rays: 0.1, 5000, "10%", "all" or "auto"), rays, cone_angle, recipe, max_error, orient,
-        backend, threads, progress, ... (docs/python.md). per="vertex": the mean over the faces of each vertex.
+    vertices, faces: as for compute(). To get the report too, use compute().
+    options: seeds (faces from which rays start: 0.1, 5000, "10%", "all" or "auto"), rays, cone_angle, recipe,
+        max_error, orient, backend, threads, progress, ... (docs/python.md).
+    per="vertex" in the options: a value per vertex, the mean over its faces.
 
-    Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value. Raises and warns like compute().
+    Returns float32 (m,) per face, or (n,) per vertex, in the unit of the mesh. NaN means no value. Raises and warns
+    like compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, with_diameter(given)), "sdf", given)
@@ -59,15 +61,15 @@ def shape_diameter(
 def thickness(
     vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]
 ) -> NDArray[np.float32]:
-    """Wall thickness: diameter of the largest ball that touches a face from inside and crosses no opposing wall.
+    """Wall thickness: diameter of the largest ball that touches a face from inside and does not cross an opposing wall.
 
     vertices, faces: as for compute(). All faces are measured; `seeds` has no effect. Further options:
-    thinner_than: judge whether any point of the surface is thinner than this length (unit of the mesh), and find the
-        thin regions. compute(..., measure="thickness", thinner_than=X).thickness has the verdict and the regions.
+    thinner_than: a limit in the unit of the mesh. compute(..., measure="thickness", thinner_than=X).thickness then has
+        the verdict and the regions that are thinner than the limit.
     allow_sharp_edges: leave thin regions with a sharp edge or tip out of the verdict. Needs thinner_than.
 
-    Returns float32 (m,) at the barycentres, or (n,) with per="vertex", in the unit of the mesh, NaN = no value. Raises
-    and warns like compute().
+    Returns float32 (m,) at the barycentres, or (n,) with per="vertex", in the unit of the mesh. NaN means no value.
+    Raises and warns like compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, given, measure="thickness"), "thickness", given)
@@ -80,17 +82,17 @@ def segment(
     method: Literal["parts", "cgal"] | None = "parts",
     **options: Unpack[FunctionOptions],
 ) -> NDArray[np.int32]:
-    """Segments of the surface: parts by shape diameter and line of sight, or CGAL's segmentation.
+    """Segments of the surface: parts such as limbs and handles, or the segments of CGAL.
 
     vertices, faces: as for compute().
     method="parts" has the options parts (number of parts, 1 to 100; None: automatic) and detail (0.1 to 10; greater
         values give more parts).
-    method="cgal" has the options clusters (of values, 2 to 100, default 5), smoothness (default 0.26) and expansion
-        ("all" clusters, or only the "first" as in CGAL 5.5.1). Segments of CGAL's values need definition="cgal" too;
-        see asdf_vk.compat.cgal.
+    method="cgal" has the options clusters (number of clusters of values, 2 to 100, default 5), smoothness (default
+        0.26) and expansion ("all" clusters, or only the "first" as in CGAL 5.5.1). To segment CGAL's values, add
+        definition="cgal"; see asdf_vk.compat.cgal.
 
-    Returns int32 (m,) or (n,), labels 0 to k - 1 ascending by mean value, -1 for a face without a triangle. Raises and
-    warns like compute().
+    Returns int32 (m,) per face, or (n,) per vertex: labels 0 to k - 1, ascending by mean value. A face without a
+    triangle has the label -1. Raises and warns like compute().
     """
     given = dict(options)
     return values_of(_computed(vertices, faces, given, segment=method_of(method)), "segment", given)
@@ -99,12 +101,12 @@ def segment(
 def skeleton_points(
     vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]
 ) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-    """Points half-way through the shape: each barycentre moved inwards by half of the shape diameter.
+    """Skeleton points: each barycentre, moved inwards by half of the shape diameter of its face.
 
     vertices, faces, options: as for shape_diameter().
 
-    Returns points, float64 (m, 3), and radii, float32 (m,), half of the shape diameters. Both are NaN if a face has no
-    value. Raises and warns like compute().
+    Returns points, float64 (m, 3), and radii, float32 (m,). A radius is half of the shape diameter. If a face has no
+    value, its point and radius are NaN. Raises and warns like compute().
     """
     given = dict(options)
     return skeleton_of(_computed(vertices, faces, given, centres=True), given)
@@ -119,15 +121,15 @@ def radii(
     progress: Progress | None = None,
     **options: Unpack[BackendOptions],
 ) -> NDArray[np.float64]:
-    """Radius of the largest ball in the shape that is centred at each point, for example at nodes of a skeleton.
+    """Radii of the largest balls in the shape around given points, for example around nodes of a skeleton.
 
     vertices, faces: as for shape_diameter(); faces is None if `vertices` is an object with both.
-    points: (k, 3). orient: as for asdf_vk.Scene. Scene.radii() saves time for several calls.
+    points: (k, 3). orient: as for asdf_vk.Scene. For several calls on one mesh, Scene.radii() is faster.
     options: session, or backend, device, require_gpu and threads.
 
-    Returns float64 (k,), in the unit of the mesh: the distance to the nearest face. NaN for a point in front of this
-    face or outside of the bounding box. Surfaces inside of the shape, for example of overlapping parts, also limit the
-    ball. Raises InputError, UsageError, DeviceError, CancelledError.
+    Returns float64 (k,), in the unit of the mesh: the distance of each point to its nearest face. The radius is NaN if
+    the point is in front of this face or outside of the bounding box. Surfaces inside of the shape, for example of
+    overlapping parts, also limit the ball. Raises InputError, UsageError, DeviceError, CancelledError.
     """
     with Scene(vertices, faces, orient=orient, **options) as scene:
         return scene.radii(points, progress=progress)

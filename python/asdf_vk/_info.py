@@ -16,34 +16,35 @@ class Info(Report):
     """Report and fields of a computation."""
 
     fields: dict[str, NDArray[Any]] = field(repr=False)
-    """Fields per face: "sdf" float32, "seed" uint8 (1 where rays were cast), "error" float32 (expected error), ..."""
+    """Fields per face: "sdf" float32, "seed" uint8 (1 if rays started at the face), "error" float32, and others."""
     vertex_fields: dict[str, NDArray[Any]] = field(repr=False)
-    """Fields per vertex, with per="vertex"."""
+    """Fields per vertex; empty without per="vertex"."""
     reversed_faces: NDArray[np.int64] = field(repr=False)
-    """Indices of the faces whose orientation was reversed, ascending."""
+    """Ascending indices of the faces whose orientation was reversed."""
     _shown: _core.ShownReport = field(repr=False)
 
     def _repr_html_(self) -> str:
-        """A table for notebooks."""
+        """Returns a table as HTML, which notebooks show."""
         rows = (f"<tr><th>{title}</th><td>{html.escape(text)}</td></tr>" for title, text in self._shown.summary)
         return f"<table>{''.join(rows)}</table>"
 
     @property
     def seed(self) -> NDArray[np.uint8]:
-        """(m,), 1 where rays were cast."""
+        """(m,): 1 if rays started at the face, else 0."""
         return self.fields["seed"]
 
     @property
     def error(self) -> NDArray[np.float32] | None:
-        """(m,), expected error in the unit of the mesh; None without an estimate."""
+        """(m,): expected error in the unit of the mesh. None without an error estimate."""
         return self.fields.get("error")
 
     @property
     def thin(self) -> NDArray[np.bool_]:
-        """(m,), whether a point of the face is thinner than the limit; false without a limit."""
+        """(m,): whether a point of the face is thinner than the limit. All false without a limit."""
         report = self.thickness
         if report is None or report.thinner_than is None or not report.regions:
-            return np.zeros(self.face_count, bool)  # Without a thin region, a value is below the limit by rounding.
+            # If the report has no thin region, values are below the limit only because of rounding.
+            return np.zeros(self.face_count, bool)
         return self.fields["least_thickness"] < np.float32(report.thinner_than)
 
 

@@ -21,7 +21,7 @@ def checked_progress(progress: Any) -> Progress | None:
 
 
 class ConeOptions(TypedDict, total=False):
-    """Options of the cone of rays for Scene.at(), as in ComputeOptions."""
+    """Options of Scene.at(), with the same meaning as in ComputeOptions."""
 
     definition: Literal["paper", "cgal"] | None
     rays: int | None
@@ -35,7 +35,7 @@ class CallOptions(TypedDict, total=False):
     """Options of every call."""
 
     progress: Progress | None
-    """Called with a fraction from 0 to 1 and the name of the stage; False cancels (CancelledError)."""
+    """Called with a fraction from 0 to 1 and the name of the stage. If it returns False, CancelledError is raised."""
 
 
 class PointOptions(ConeOptions, CallOptions, total=False):
@@ -43,11 +43,11 @@ class PointOptions(ConeOptions, CallOptions, total=False):
 
 
 class SceneOptions(ComputeOptions, CallOptions, total=False):
-    """Options of the other methods of Scene."""
+    """Options of the methods of Scene, except Scene.at()."""
 
 
 class BackendOptions(SessionOptions, total=False):
-    """The backend of a call: `session`, or the session that the free functions keep for the other options."""
+    """The session of a call: `session`, or the default session for the given `backend`, `device` and so on."""
 
     session: Session | None
 

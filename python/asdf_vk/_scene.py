@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
 
 class Scene:
-    """A mesh prepared once for many queries: geometry, bounding volume hierarchy, and tracers of a session.
+    """A mesh that is prepared once for many queries. Keeps geometry, bounding-volume hierarchy and tracers.
 
     vertices, faces: as for shape_diameter(). Arrays are copied.
     orient: "keep", "auto" (reverse inverted closed components) or "flip" (reverse all faces).
     options: session, or backend, device, require_gpu and threads.
 
-    `faces=` of the methods is a region: a mask, (m,) bool, or indices of faces. Only faces of the region cast rays and
-    get values; the rays hit the whole mesh. Any number of threads may use a scene; one computation of a session runs at
-    a time.
+    `faces=` of the methods selects a region: a mask, (m,) bool, or indices of faces. Only faces of the region cast rays
+    and get values. Rays can hit all faces of the mesh. Any number of threads may use a scene. A session runs one
+    computation at a time.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Scene:
         session = session_of(settings)
         split_progress(settings, ())
         mesh = mesh_argument(vertices, faces)
-        if isinstance(mesh, tuple):  # Copies, because the caller may change the arrays after this call.
+        if isinstance(mesh, tuple):  # The scene copies the arrays, because the caller may change them after this call.
             mesh = mesh[0].copy(), mesh[1].copy()
         self._open: _core.Scene | None = _core.Scene(
             session._opened, mesh, {"orient": orient}, checked_progress(progress)
@@ -72,20 +72,20 @@ class Scene:
         return self._open
 
     def at(self, points: ArrayLike, normals: ArrayLike, **options: Unpack[PointOptions]) -> NDArray[np.float32]:
-        """Shape diameter at points, by a cone of rays around the reversed normal.
+        """Shape diameter at points. The cone of rays at a point has the reversed normal as axis.
 
         points: (k, 3), on the surface or inside. normals: (k, 3), outwards, of any length above 0.
         options: definition, rays, cone_angle, false_hit_angle, outlier_deviations, cone_rotation, progress.
 
-        Returns float32 (k,), in the unit of the mesh, NaN = no value. Rays start 1e-5 of the diagonal of the bounding
-        box below the point, so that they do not hit the surface at the point.
+        Returns float32 (k,), in the unit of the mesh. NaN means no value. Rays start below the point, at a depth of
+        1e-5 of the diagonal of the bounding box. So they do not hit the surface at the point.
         """
         settings: dict[str, Any] = dict(options)
         progress = split_progress(settings, ConeOptions.__annotations__)
         return self._opened.values_at(*pairs_array(points, normals), settings, progress)
 
     def distance(self, points: ArrayLike, *, progress: Progress | None = None) -> NDArray[np.float64]:
-        """Distance of each point to the nearest point of the surface, for points inside and outside.
+        """Distance of each point to the nearest point of the surface. Points may be inside or outside of the shape.
 
         points: (k, 3). Returns float64 (k,), in the unit of the mesh, never negative. Ignores faces without an area.
         Raises InputError if a point is not finite or no face has an area.
@@ -93,7 +93,7 @@ class Scene:
         return self._opened.distance(float_points(points), False, checked_progress(progress))
 
     def radii(self, points: ArrayLike, *, progress: Progress | None = None) -> NDArray[np.float64]:
-        """Radius of the largest ball in the shape that is centred at each point. Like asdf_vk.radii()."""
+        """Radii of the largest balls in the shape around given points, like asdf_vk.radii()."""
         return self._opened.distance(float_points(points), True, checked_progress(progress))
 
     def _computed(self, faces: ArrayLike | None, options: dict[str, Any], **implied: Any) -> _core.ComputedFields:
@@ -120,7 +120,7 @@ class Scene:
     def segment(
         self, *, method: Literal["parts", "cgal"] | None = "parts", **options: Unpack[SceneOptions]
     ) -> NDArray[np.int32]:
-        """Like asdf_vk.segment(), for the whole mesh."""
+        """Like asdf_vk.segment(), for the whole mesh. Regions are not supported."""
         given = dict(options)
         return values_of(self._computed(None, given, segment=method_of(method)), "segment", given)
 

@@ -1,4 +1,4 @@
-"""Devices, sessions, and the sessions of the free functions."""
+"""Devices, sessions, and the default sessions of the free functions."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ class Device:
     kind: str
     usable: bool
     reason: str
-    """"chosen" for the default device. For other devices, the reason why the device is rejected or has a lower rank."""
+    """"chosen" for the default device. For other devices: why the device is rejected or ranks lower."""
 
 
 def devices() -> list[Device]:
-    """Returns the Vulkan devices of this machine; an empty list without a Vulkan loader."""
+    """Returns the Vulkan devices of this machine. The list is empty if there is no Vulkan loader."""
     return [Device(**device) for device in _core.devices()]
 
 
 class Session:
-    """A device with its pipelines, kept for any number of meshes.
+    """An open device with its pipelines, for any number of meshes.
 
-    backend: "auto" (Vulkan, else the CPU), "vulkan", "cpu" (single precision) or "reference" (double precision).
-    device: a Vulkan device, by index or by a part of its name; empty: the device of the highest rank.
-    require_gpu: raise DeviceError if the CPU would trace.
-    threads: number of CPU threads; 0: the number of cores. Results do not depend on the number.
-    None stands for the default of an option.
+    backend: "auto" (Vulkan if available, else the CPU), "vulkan", "cpu" (float32) or "reference" (double precision).
+    device: index of a Vulkan device, or a part of its name. Empty: the device of the highest rank.
+    require_gpu: raise DeviceError if no GPU is usable.
+    threads: number of CPU threads; 0 means the number of cores. Results do not depend on this number.
+    The value None means the default of an option.
 
-    Any number of threads may use a session; one computation runs at a time. Raises DeviceError.
+    Any number of threads may use a session. A session runs one computation at a time. Raises DeviceError.
     """
 
     def __init__(
@@ -67,11 +67,11 @@ class Session:
 
     @property
     def runs_on_cpu(self) -> bool:
-        """Whether the CPU traces: "cpu", "reference", or a CPU device of Vulkan."""
+        """Whether the CPU traces: backend "cpu" or "reference", or a Vulkan device on the CPU."""
         return self._opened.runs_on_cpu
 
     def close(self) -> None:
-        """Releases the device. Open scenes of the session keep the device."""
+        """Releases the device. If scenes of the session are open, the device is released after they are closed."""
         self._open = None
 
     def __enter__(self) -> Session:
@@ -93,14 +93,14 @@ class Session:
 
 
 def flag_of(value: Any, name: str) -> bool:
-    """Returns a flag; False for None. Raises UsageError for other types."""
+    """Returns a bool; None becomes False. Raises UsageError for other types."""
     if value is not None and not isinstance(value, (bool, np.bool_)):
         raise error_of("optionOutOfRange", f"{name}={value!r} is not True or False")
     return bool(value)
 
 
 def thread_count(threads: Any) -> int:
-    """Returns a checked number of CPU threads; 0 and None mean the number of cores."""
+    """Checks and returns a number of CPU threads. 0 and None mean the number of cores."""
     return _core.session_key({"threads": threads})[3]
 
 
@@ -109,7 +109,7 @@ _default_sessions_lock = threading.Lock()
 
 
 def _renew_lock() -> None:
-    """Replaces the lock in a forked process, where the thread that holds it does not exist."""
+    """Replaces the lock in a forked process, because the thread that holds the lock exists only in the parent."""
     global _default_sessions_lock
     _default_sessions_lock = threading.Lock()
 
@@ -118,7 +118,7 @@ os.register_at_fork(after_in_child=_renew_lock)
 
 
 def default_session(**options: Any) -> Session:
-    """The session of the free functions for these options, opened at first use and kept."""
+    """Returns the default session for these options. Opens it at first use, and keeps it."""
     key = _core.session_key(options)
     with _default_sessions_lock:
         session = _default_sessions.get(key)
@@ -130,7 +130,7 @@ def default_session(**options: Any) -> Session:
 
 @atexit.register
 def close_default_sessions() -> None:
-    """Releases the devices that the free functions use. A later call opens them again."""
+    """Releases the devices of the default sessions. A later call of a free function opens them again."""
     with _default_sessions_lock:
         _default_sessions.clear()
 
@@ -139,7 +139,7 @@ _BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
 
 
 def session_of(options: dict[str, Any]) -> Session:
-    """Returns the session that `options` name or describe, and removes these options."""
+    """Returns the session that the options name (`session`) or describe (`backend`, ...). Removes these options."""
     session = options.pop("session", None)
     given = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
     described = {name: value for name, value in given.items() if value is not None}

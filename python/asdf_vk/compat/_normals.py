@@ -12,7 +12,7 @@ from .._errors import error_of
 
 
 def face_normals(mesh: Any) -> NDArray[np.float64]:
-    """Returns (m, 3), outwards, of any length: `mesh.face_normals`, or computed. Degenerate faces may have 0."""
+    """Returns outward normals, (m, 3), of any length: `mesh.face_normals`, or computed. Degenerate faces may have 0."""
     if hasattr(mesh, "face_normals"):
         return _checked(mesh.face_normals, "face_normals", len(mesh.faces))
     a, b, c = _corners(mesh)
@@ -21,7 +21,7 @@ def face_normals(mesh: Any) -> NDArray[np.float64]:
 
 
 def vertex_normals(mesh: Any) -> NDArray[np.float64]:
-    """Returns (n, 3): `vertex_normals` of the object, or unit means over the faces, weighted by their angles."""
+    """Returns (n, 3): `mesh.vertex_normals` if it exists, else angle-weighted means over faces, of length 1."""
     if hasattr(mesh, "vertex_normals"):
         return _checked(mesh.vertex_normals, "vertex_normals", len(mesh.vertices))
     a, b, c = _corners(mesh)

@@ -4,18 +4,18 @@
     values, (low, high) = cgal.sdf_values(vertices, faces)
     labels, count = cgal.segmentation_from_sdf_values(vertices, faces, values)
 
-Names of parameters and defaults are those of CGAL. The functions follow the manual and the outputs of CGAL 5.5.1 and
-contain none of its code. Differences:
+The functions have CGAL's names of parameters and CGAL's defaults. They follow the manual and the outputs of CGAL 5.5.1,
+and contain no code of CGAL. Differences:
 
-- A missing value is NaN in results; CGAL has -1. Both are accepted in arguments.
-- All clusters are expanded by default, as in some versions of CGAL; expansion="first" is the rule of CGAL 5.5.1.
-- Meshes need not be manifold. Two faces of equal orientation are neighbours across an edge that no other face has. An
-  edge of more faces is divided into several edges, as if CGAL's readers had split its vertices. CGAL's readers also
-  reverse faces of such meshes.
-- It is an error (InputError) if there are fewer different values than clusters (code "tooFewValues"), or if no face has
-  a value (code "noValues"). CGAL then crashes or does not end.
-- None stands for the default of each keyword.
-- number_of_clusters is 2 to 100, smoothing_lambda 0 to 1000, number_of_rays 1 to 1024.
+- In results, a missing value is NaN; in CGAL it is -1. In arguments, NaN and -1 are missing values.
+- By default the graph cut expands all clusters, as in some versions of CGAL. expansion="first" is for CGAL 5.5.1.
+- Meshes need not be manifold. Two faces are neighbours across an edge if they traverse it in opposite directions and
+  no third face has this edge. An edge of more faces is divided into several edges, as in CGAL's readers. CGAL's
+  readers also reverse faces of such meshes; these functions do not.
+- Two cases raise an InputError: fewer different values than clusters (code "tooFewValues"), and no face with a value
+  (code "noValues"). CGAL crashes or does not end in these cases.
+- The value None of a keyword means its default.
+- Ranges: number_of_clusters 2 to 100, smoothing_lambda 0 to 1000, number_of_rays 1 to 1024.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
 
 __all__ = ["sdf_values", "sdf_values_postprocessing", "segmentation_from_sdf_values"]
 
-_MISSING = -1  # CGAL's mark of a face without a value.
-_ANGLE_DIGITS = 9  # Degrees are rounded, so that 2/3 pi is 120.
+_MISSING = -1  # In CGAL, the value of a face without a value.
+_ANGLE_DIGITS = 9  # Degrees are rounded, so that 2/3 pi becomes exactly 120.
 
 
 def sdf_values(
@@ -53,21 +53,21 @@ def sdf_values(
     progress: Progress | None = None,
     **options: Unpack[BackendOptions],
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
-    """CGAL's sdf_values(): the shape diameter of each face, by default post-processed.
+    """CGAL's sdf_values(): the shape diameter of each face. By default the values are post-processed.
 
     vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`; see asdf_vk.shape_diameter().
     cone_angle: full opening angle in radians, above 0 and below pi; rounded to 1e-9 degrees.
     number_of_rays: per face, 1 to 1024.
     postprocess: apply sdf_values_postprocessing().
-    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The values of the other faces are
-        interpolated; segments then differ from those of CGAL.
-    progress: called with a fraction from 0 to 1 and the name of the stage; False cancels.
+    seeds: faces from which rays start: "all" as in CGAL, a share such as 0.1, or a count. The values of the other faces
+        are interpolated; then segments differ from CGAL's segments.
+    progress: called with a fraction from 0 to 1 and the name of the stage. If it returns False, the call is cancelled.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
-    Returns the values, float64 (m,), and a pair of numbers in the unit of the mesh. Post-processed values are
-    in [0, 1], without NaN; the pair is the least and the greatest smoothed value before the mapping to [0, 1]. Without
-    post-processing, the values are in the unit of the mesh, NaN = no value; the pair is the least and the greatest
-    value, or NaN if no face has a value. Raises InputError, UsageError, DeviceError, CancelledError. Issues
+    Returns the values, float64 (m,), and a pair of numbers in the unit of the mesh. Post-processed values are in [0,
+    1], without NaN. The pair then has the least and the greatest smoothed value before the mapping to [0, 1]. Without
+    post-processing, the values are in the unit of the mesh; NaN means no value. The pair then has the least and the
+    greatest value, or NaN if no face has a value. Raises InputError, UsageError, DeviceError, CancelledError. Issues
     MeshWarning.
     """
     try:
@@ -108,10 +108,10 @@ def sdf_values_postprocessing(
 
     vertices, faces: as for sdf_values(); faces is None if `vertices` is an object with both.
     sdf_values: (m,), at least 0 and finite; NaN and -1 are missing values. The array is not changed.
-    threads: CPU threads; 0: the number of cores. progress: as for sdf_values().
+    threads: number of CPU threads; 0 means the number of cores. progress: as for sdf_values().
 
-    Returns float64 (m,) in [0, 1], and a pair of the least and the greatest smoothed value, in the unit of
-    `sdf_values`. Smoothed values that are all equal are not mapped to [0, 1]. Raises InputError, CancelledError.
+    Returns float64 (m,) in [0, 1], and a pair: the least and the greatest smoothed value, in the unit of `sdf_values`.
+    If all smoothed values are equal, they are not mapped to [0, 1]. Raises InputError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
     values = _values_of(sdf_values, mesh)
@@ -131,21 +131,21 @@ def segmentation_from_sdf_values(
     threads: int | None = 0,
     progress: Progress | None = None,
 ) -> tuple[NDArray[np.int32], int]:
-    """CGAL's segmentation_from_sdf_values(): clusters of values, and a graph cut into segments.
+    """CGAL's segmentation_from_sdf_values(): clusters the values, and finds segments by a graph cut.
 
     vertices, faces: as for sdf_values_postprocessing().
-    sdf_values: (m,), post-processed: 0 to 1. Missing values, NaN and -1, are filled as by sdf_values_postprocessing().
-        The array is not changed.
+    sdf_values: (m,), post-processed values from 0 to 1. Missing values (NaN, -1) are filled as in
+        sdf_values_postprocessing(). The array is not changed.
     number_of_clusters: 2 to 100. A cluster has any number of segments.
-    smoothing_lambda: weight of the boundaries, 0 to 1000; CGAL's manual has 0 to 1.
+    smoothing_lambda: weight of the boundaries, 0 to 1000. The range in CGAL's manual is 0 to 1.
     output_cluster_ids: return the clusters instead of the segments.
-    expansion: clusters that the graph cut expands: "all", or only the "first" as in CGAL 5.5.1.
+    expansion: which clusters the graph cut expands: "all", or only the "first" as in CGAL 5.5.1.
     threads, progress: as for sdf_values_postprocessing().
 
-    Returns int32 (m,), labels 0 to k - 1 ascending by mean value, and k, the number of segments. With
-    output_cluster_ids, returns the clusters and `number_of_clusters`. The labels equal those of CGAL if the values
-    agree with those of CGAL to about 1e-5 of the range. Noise of 1e-3 may change many labels. Raises InputError,
-    UsageError, CancelledError.
+    Returns labels, int32 (m,), from 0 to k - 1, ascending by mean value; and k, the number of segments. With
+    output_cluster_ids, returns the clusters and `number_of_clusters`. If the values agree with CGAL's values to about
+    1e-5 of their range, the labels equal CGAL's labels. Noise of 1e-3 of the range may change many labels. Raises
+    InputError, UsageError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
     values = _values_of(sdf_values, mesh)
@@ -185,7 +185,7 @@ def _computed(
 
 
 def _values_of(sdf_values: ArrayLike, mesh: MeshArgument) -> NDArray[np.float64]:
-    """Returns (m,) values with NaN for missing values."""
+    """Returns values, (m,), with NaN for missing values."""
     count = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
     values = values_array(sdf_values, "sdf_values", count)
     return np.where(values == _MISSING, np.nan, values) if (values == _MISSING).any() else values

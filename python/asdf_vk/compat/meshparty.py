@@ -3,20 +3,22 @@
     from asdf_vk.compat import meshparty
     values = meshparty.shape_diameter_function(mesh_inds, mesh)
 
-Parameters and defaults are those of MeshParty (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). Nothing of
-MeshParty is imported. The function computes MeshParty's definition:
+The function has MeshParty's parameters and defaults (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). It does not
+import MeshParty. It computes MeshParty's definition:
 
-- A ray starts one unit of length below its vertex, at vertex - vertex normal. MeshParty's meshes are in nanometres; a
-  mesh that is about one unit large must be scaled first.
-- num_points directions: a Vogel disk of radius 1 at the height 1 / tan(cone_angle) above the start, around the reversed
-  vertex normal. cone_angle is half of the opening angle, in radians.
-- The length of a ray is the distance from its start to its first hit. Its weight is 1 / angle, with the angle between
-  the ray and the normal of the face that it hits. A ray is dropped if its angle is below median - deviation, or above
-  both median + deviation and a right angle. Median and standard deviation are those of the angles of the cone.
-- The value is the weighted mean of the lengths; NaN if no ray hits.
+- A ray starts one unit of length below its vertex, at vertex - vertex normal. MeshParty's meshes are in nanometres.
+  Scale a mesh first if its size is about one unit.
+- The num_points rays go from the start to the points of a Vogel disk of radius 1. The axis of the disk is the reversed
+  vertex normal, and its distance from the start is 1 / tan(cone_angle). cone_angle is half of the opening angle, in
+  radians.
+- The length of a ray is the distance from its start to its first hit. The angle of a ray is the angle between the ray
+  and the normal of the hit face; the weight of the ray is 1 / angle. A ray is dropped if its angle is below median -
+  deviation. It is also dropped if its angle is above median + deviation and above 90 degrees. Median and standard
+  deviation are computed over the angles of all rays of the cone.
+- The value is the weighted mean of the lengths. It is NaN if no ray hits anything.
 
-Differences: hits are computed in double precision, in Embree in float32. If no ray of any cone hits, all values are
-NaN; MeshParty fails.
+Differences: hits are computed in double precision; MeshParty uses Embree, which computes in float32. If no ray of any
+cone hits anything, all values are NaN; MeshParty fails in this case.
 """
 
 from __future__ import annotations
@@ -48,7 +50,7 @@ def shape_diameter_function(
     cone_angle: float | None = math.pi / 3,
     **options: Unpack[BackendOptions],
 ) -> NDArray[np.float64]:
-    """Weighted mean of the lengths of a cone of rays below vertices of a mesh.
+    """Weighted mean of ray lengths below vertices of a mesh, by MeshParty's definition.
 
     mesh_inds: (k,) indices of vertices.
     mesh: a meshparty.trimesh_io.Mesh, a trimesh.Trimesh, or any object with `vertices` and `faces`;
@@ -56,7 +58,7 @@ def shape_diameter_function(
     num_points: rays per vertex. cone_angle: half of the opening angle, in radians, above 0 and below pi.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
-    Returns float64 (k,), in the unit of the mesh, NaN = no value. Raises InputError, UsageError.
+    Returns float64 (k,), in the unit of the mesh. NaN means no value. Raises InputError, UsageError.
     """
     num_points = 30 if num_points is None else num_points
     cone_angle = math.pi / 3 if cone_angle is None else cone_angle
@@ -86,14 +88,14 @@ def shape_diameter_function(
 
 
 def _directions(count: int, cone_angle: float) -> NDArray[np.float64]:
-    """Returns unit directions around z, (count, 3)."""
+    """Returns directions of length 1 around the z axis, (count, 3)."""
     turn = math.pi * (3 - math.sqrt(5)) * np.arange(count)  # The golden angle.
     radius = np.sqrt(np.arange(count) / count)
     return unit(np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full(count, 1 / math.tan(cone_angle))], axis=1))
 
 
 def _frames(axes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Returns rotations of z to the axes, (k, 3, 3): by the polar angle around y, then by the azimuth around z."""
+    """Returns (k, 3, 3): rotations of z to each axis. First the polar angle around y, then the azimuth."""
     x, y, cos_theta = axes.T
     theta, phi = np.arccos(np.clip(cos_theta, -1, 1)), np.arctan2(y, x)
     sin_theta, sin_phi, cos_phi = np.sin(theta), np.sin(phi), np.cos(phi)
@@ -130,7 +132,7 @@ def _values(
 def _means(
     lengths: NDArray[np.float64], angles: NDArray[np.float64], weights: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns the weighted mean of each row without its outliers. Rays with the angle NaN do not count."""
+    """Returns the weighted mean of each row without outliers. Ignores rays with the angle NaN."""
     means = np.full(len(angles), np.nan)
     some = np.isfinite(angles).any(axis=1)
     lengths, angles, weights = lengths[some], angles[some], weights[some]

@@ -3,15 +3,15 @@
     from asdf_vk.compat import trimesh
     values = trimesh.thickness(mesh, points)
 
-Parameters and defaults are those of trimesh 4; nothing of trimesh is imported. As in trimesh, a value is infinite if
-nothing is hit or no wall opposes. Differences:
+The function has the parameters and defaults of trimesh 4. It does not import trimesh. As in trimesh, a value is
+infinite without a hit or an opposing wall. Differences:
 
 - "max_sphere": only opposing walls stop the ball (docs/thickness.md). In trimesh any wall stops the ball, so that
-  values fall to 0 at every convex edge. Inside of a closed component, no value is greater than the diameter of the
-  largest ball in the component. trimesh iterates until the radius changes by less than 1e-6 of the diagonal; values
-  here are exact for the facets.
-- "ray": the ray starts 1e-5 of the diagonal of the bounding box below the point. Its length is measured from this
-  start.
+  values fall to 0 at every convex edge. In a closed component, a value is at most the diameter of the largest ball
+  inside. The values are exact for the facets; trimesh iterates until the radius changes by less than 1e-6 of the
+  diagonal.
+- "ray": the ray starts below the point, at a depth of 1e-5 of the diagonal of the bounding box. Its length is
+  measured from this start.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ def thickness(
     """Thickness of a mesh at points of its surface.
 
     mesh: a trimesh.Trimesh, or any object with `vertices` (n, 3) and `faces` (m, 3).
-    points: (k, 3). exterior: measure outside of the mesh instead of inside, trimesh's "reach".
-    normals: (k, 3), outwards, of any length above 0; None: the normal of the face nearest to each point, from
-        `mesh.face_normals` if the mesh has them.
-    method: "max_sphere": diameter of the largest ball that touches the point; "ray": length of the ray along the
-        reversed normal.
+    points: (k, 3). exterior: measure outside of the mesh instead of inside; trimesh calls this "reach".
+    normals: (k, 3), outwards, of any length above 0. None: each point has the normal of its nearest face, from
+        `mesh.face_normals` if it exists.
+    method: "max_sphere" is the diameter of the largest ball that touches the surface at the point. "ray" is the length
+        of the ray along the reversed normal.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
     Returns float64 (k,), in the unit of the mesh. Raises InputError, UsageError, DeviceError.
@@ -59,7 +59,7 @@ def thickness(
         raise error_of("unknownName", f"method={method!r} is unknown; the names are max_sphere, ray")
     exterior = flag_of(exterior, "exterior")
     places = points_array(points, "points").astype(np.float64)
-    # The triangles, also if a Mesh has polygons, because normals belong to triangles.
+    # Normals belong to triangles. If a Mesh has polygons, this scene is made from its triangles.
     triangles = getattr(mesh, "vertices", mesh), getattr(mesh, "faces", None)
     with Scene(*triangles, orient="flip" if exterior else "keep", **options) as scene:
         if normals is None:
@@ -69,6 +69,6 @@ def thickness(
             axes = -axes
         if method == "max_sphere":
             values = scene._opened.thickness_at(places, axes, {}, None)
-        else:  # One ray on the axis, with false_hit_angle=0 to keep every hit.
+        else:  # One ray on the axis. false_hit_angle=0 keeps every hit.
             values = scene.at(places, axes, rays=1, cone_angle=0.01, false_hit_angle=0).astype(np.float64)
     return np.where(np.isnan(values), np.inf, values)

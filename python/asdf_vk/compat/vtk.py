@@ -4,7 +4,7 @@
     vtk.thickness(dataset, thinner_than=0.8)    # adds the cell array "thickness"
 
 `dataset` is a vtkPolyData, for example a pyvista.PolyData. Each polygon has one value. Cells that are not faces
-(vertices, lines) have NaN, or the segment -1.
+(vertices, lines) have the value NaN and the segment -1.
 """
 
 from __future__ import annotations
@@ -54,17 +54,17 @@ def compute(dataset: Any, **options: Unpack[FunctionOptions]) -> Info:
 
 
 def shape_diameter(dataset: Any, **options: Unpack[FunctionOptions]) -> NDArray[np.float32]:
-    """The shape diameter of each face; adds the cell arrays "sdf" and "seed"."""
+    """Returns the shape diameter of each face. Adds the cell arrays "sdf" and "seed"."""
     return compute(dataset, **options).fields["sdf"]
 
 
 def thickness(dataset: Any, **options: Unpack[FunctionOptions]) -> NDArray[np.float32]:
-    """The wall thickness of each face; adds the cell arrays "thickness" and "least_thickness"."""
+    """Returns the wall thickness of each face. Adds the cell arrays "thickness" and "least_thickness"."""
     return compute(dataset, **{**options, "measure": "thickness"}).fields["thickness"]  # type: ignore[arg-type]
 
 
 def segment(dataset: Any, **options: Unpack[FunctionOptions]) -> NDArray[np.int32]:
-    """The part of each face; adds the cell arrays "sdf", "seed" and "segment"."""
+    """Returns the part number of each face. Adds the cell arrays "sdf", "seed" and "segment"."""
     return compute(dataset, **{"segment": "parts", **options}).fields["segment"]  # type: ignore[arg-type]
 
 
