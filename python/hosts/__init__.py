@@ -3,18 +3,18 @@
 import numpy as np
 
 VERDICTS = {"passed": "PASS", "failed": "FAIL", "notJudged": "NOT JUDGED"}
-VIRIDIS = np.array(  # sRGB at 0, 1/4, ... 1.
+VIRIDIS = np.array(  # The colour map viridis as sRGB, at 0, 1/4, 1/2, 3/4 and 1.
     [(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383), (0.993, 0.906, 0.144)]
 )
 
 
 def digits_of(text_of, value, other) -> str:
-    """Returns text_of(value, digits): four digits, and up to six where it takes more to differ from another number."""
+    """Returns text_of(value, digits): four digits, or up to six to differ from the text of another number."""
     return text_of(value, next((n for n in (4, 5, 6) if text_of(value, n) != text_of(other, n)), 4))
 
 
 def colours_of(values, low: float, high: float, thin, grey: float):
-    """(m, 3) sRGB: viridis from low to high, red where `thin`, grey without a value."""
+    """Returns (m, 3) sRGB colours: red if `thin`, grey without a value, else viridis from low to high."""
     colours = np.full((len(values), 3), grey)
     has_value = np.isfinite(values)
     shares = np.clip((values[has_value] - low) / max(high - low, 1e-30), 0, 1)

@@ -1,11 +1,11 @@
-"""Add-on of Blender 3.4 and later: shape diameter, wall thickness with a limit, and parts of a mesh.
+"""Add-on for Blender 3.4 and later: computes shape diameter, wall thickness and parts of a mesh.
 
-Install: Edit, Preferences, Add-ons, Install, this file; then the sidebar of the 3D view (N) has a tab "asdf-vk". In a
-script: `bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.8)`.
+Install this file: Edit, Preferences, Add-ons, Install. Then the sidebar of the 3D view (key N) has the tab "asdf-vk".
+In a script, call `bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.8)`.
 
 Results are stored on the mesh: attributes of the domain FACE (sdf, thickness, least_thickness, segment), the colour
-attribute "asdf-vk", and a material per part. Thin faces are selected. Lengths are measured in the world, scale
-included, in units of Blender. Modifiers are not applied.
+attribute "asdf-vk", and a material per part. Thin faces are selected. Lengths include the scale of the object and are
+in units of Blender. Modifiers are not applied.
 """
 
 import sys
@@ -29,11 +29,11 @@ bl_info = {
 
 COLOURS = "asdf-vk"  # Name of the colour attribute.
 FIELDS = ("sdf", "seed", "thickness", "least_thickness", "segment")  # Names of the other attributes.
-REPORT = "asdf_vk_report"  # Property of the mesh with the text of the last result.
+REPORT = "asdf_vk_report"  # Name of the property of the mesh that has the text of the last result.
 MEASURES = (
-    ("DIAMETER", "Shape Diameter", "How thick the shape is behind each face: the mean length of many rays"),
+    ("DIAMETER", "Shape Diameter", "Local diameter of the shape at each face: the mean length of many rays"),
     ("THICKNESS", "Wall Thickness", "Thickness of the wall at each face; faces below the limit are selected"),
-    ("PARTS", "Parts", "The parts of the shape, each with a material"),
+    ("PARTS", "Parts", "Parts of the shape; each part gets a material"),
 )
 
 
@@ -56,7 +56,7 @@ def module():
 
 
 def mesh_of(asdf_vk, obj):
-    """Returns the faces of the object in the world as a Mesh of asdf_vk, and whether their orientation is reversed."""
+    """Returns the faces in world coordinates as a Mesh of asdf_vk, and whether the object mirrors them."""
     mesh = obj.data
     if not mesh.polygons:
         raise ValueError(f"{obj.name} has no faces")
@@ -75,7 +75,7 @@ def mesh_of(asdf_vk, obj):
 
 
 class Computation(threading.Thread):
-    """asdf_vk.compute() in a separate thread. The main thread reads `fraction` and sets `is_cancelled`."""
+    """Runs asdf_vk.compute() in a separate thread. The main thread reads `fraction` and sets `is_cancelled`."""
 
     def __init__(self, asdf_vk, mesh, options) -> None:
         super().__init__(daemon=True)
@@ -100,14 +100,14 @@ def linear(colours):
 
 
 def colours_of(values, thin):
-    """Linear colours: viridis from the 1st to the 99th percentile, red where thin, grey without a value."""
+    """Returns linear colours: red if thin, grey without a value, else viridis from the 1st to the 99th percentile."""
     has_value = np.isfinite(values)
     low, high = np.percentile(values[has_value], (1, 99)) if has_value.any() else (0, 1)
     return linear(module().hosts.colours_of(values, low, high, thin, grey=0.5))
 
 
 def colour_of_part(part: int):
-    """Linear colour of a part. Hues of successive parts are a golden angle apart."""
+    """Returns the linear colour of a part. The hues of successive parts differ by the golden angle."""
     hue = (0.05 + part * 0.381966) % 1 * 6
     channels = [0.25 + 0.65 * min(max(abs((hue + shift) % 6 - 3) - 1, 0), 1) for shift in (0, 4, 2)]
     return linear(np.array(channels))
@@ -135,7 +135,7 @@ def set_colours(mesh, colours) -> None:
 
 
 def select_faces(mesh, selected) -> None:
-    """Selects faces with their edges and vertices, and nothing else."""
+    """Selects the given faces with their edges and vertices. Deselects everything else."""
     corners, edges = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.loops), np.int32)
     sizes = np.empty(len(mesh.polygons), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
@@ -164,7 +164,7 @@ def set_materials(mesh, segments) -> None:
 
 
 def length(context, value: float, other: float = np.nan) -> str:
-    """A length in the unit of the scene: four digits, or up to six to differ from the text of another length."""
+    """Text of a length in the unit of the scene: four digits, or up to six to differ from the text of `other`."""
     settings = context.scene.unit_settings
 
     def text(number: float, digits: int) -> str:
@@ -214,7 +214,8 @@ class Options:
     limit: FloatProperty(name="Limit", description="Least allowed thickness; 0: none", min=0, unit="LENGTH", precision=4)
     allow_sharp_edges: BoolProperty(name="Allow sharp edges", description="Thin places at a sharp edge do not count")
     parts: IntProperty(name="Parts", description="Number of parts; 0: automatic", min=0, max=100)
-    all_faces: BoolProperty(name="Trace all faces", description="Slower; no value is interpolated")
+    all_faces: BoolProperty(name="Trace all faces",
+                            description="Cast rays from every face: slower, but no value is interpolated")
 
 
 class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
@@ -270,14 +271,14 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         return {"FINISHED"}
 
     def execute(self, context):
-        """Waits for the result; for scripts and `blender -b`."""
+        """Computes and waits for the result. Used by scripts and by `blender -b`."""
         if not self.start(context):
             return {"CANCELLED"}
         self.computation.run()
         return self.finish(context)
 
     def invoke(self, context, event):
-        """Computes in the background; the window stays responsive."""
+        """Starts the computation in the background, so that the window stays responsive."""
         if bpy.app.background:
             return self.execute(context)
         if not self.start(context):
@@ -294,7 +295,7 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         if event.type == "ESC":
             self.computation.is_cancelled = True
         if event.type in {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "MOUSEMOVE"}:
-            return {"PASS_THROUGH"}  # The user may turn and zoom the view.
+            return {"PASS_THROUGH"}  # Events pass through, so that the user can turn and zoom the view.
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         fraction = self.computation.fraction
@@ -339,7 +340,7 @@ class VIEW3D_PT_asdf_vk(bpy.types.Panel):
 
 class Preferences(bpy.types.AddonPreferences):
     bl_idname = __name__
-    folder: StringProperty(name="Folder of asdf_vk", description="Folder that holds the package", subtype="DIR_PATH")
+    folder: StringProperty(name="Folder of asdf_vk", description="Folder that contains the package", subtype="DIR_PATH")
 
     def draw(self, context):
         self.layout.prop(self, "folder")

@@ -1,9 +1,9 @@
-"""Macro of FreeCAD 0.20 and later: checks the wall thickness of the selected shape in mm.
+"""Macro for FreeCAD 0.20 and later: compares the wall thickness of the selected shape with a limit in mm.
 
-Copy this file into the folder of macros (Macro, Macros, User macros location), select a solid or a mesh, and run the
-macro. The limit is entered in a panel. The result is a group with the thin places, and with a mesh in the colours of
-its thickness, red below the limit. A click on a place, in the panel or in the tree, shows the place. In a script, also
-with freecadcmd:
+Copy this file into the folder of macros (Macro, Macros, User macros location). Select a solid or a mesh, and run the
+macro. A panel asks for the limit. The result is a group with the thin places and a coloured mesh. The colours show the
+thickness; red is below the limit. A click on a place, in the panel or in the tree, shows the place. Scripts, also with
+freecadcmd, call check():
 
     import asdf_vk_freecad
     report = asdf_vk_freecad.check(document.Body, 0.8).thickness
@@ -21,7 +21,8 @@ import numpy as np
 import Part
 
 PLACE_COUNT = 50  # Greatest number of listed places.
-TRIANGLE_COUNT = 40000  # Triangles are divided up to this number, to show where on a plane a wall is thin.
+# Greatest number of triangles after division. Large triangles are divided, so that the colours show thin places.
+TRIANGLE_COUNT = 40000
 RED = (0.85, 0.1, 0.1)
 
 
@@ -39,7 +40,7 @@ def module():
 
 
 def length(value: float, limit: float) -> str:
-    """A length in mm: four digits, or up to six to differ from the text of the limit."""
+    """Text of a length in mm: four digits, or up to six to differ from the text of the limit."""
     return module().hosts.digits_of(lambda number, digits: f"{number:.{digits}g} mm", value, limit)
 
 
@@ -49,7 +50,7 @@ def summary(report) -> str:
 
 
 def triangles_of(obj, deviation: float):
-    """Vertices (n, 3) in mm in the document, and triangles (m, 3). No two solids share a vertex."""
+    """Returns vertices (n, 3), in mm and document coordinates, and triangles (m, 3). Solids do not share vertices."""
     if obj.isDerivedFrom("Mesh::Feature"):
         placed = obj.Mesh.copy()
         placed.Placement = obj.getGlobalPlacement()
@@ -93,10 +94,11 @@ def divided(vertices, triangles):
 def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = False, progress=None):
     """Checks the walls of an object, and adds the result to its document.
 
-    limit: mm. deviation: greatest distance of the triangles from curved faces, mm; a wall between two curved faces can
-    look thinner by twice this length. progress: called with a fraction from 0 to 1 and a text; False cancels. Returns
-    the report of asdf_vk.compute(): .thickness.verdict, .thickness.min, .thickness.regions, .fields. Raises
-    ImportError, ValueError, asdf_vk.Error; after asdf_vk.CancelledError the document is unchanged.
+    limit: in mm. deviation: greatest distance between the triangles and curved faces, in mm; the measured thickness
+    between two curved faces can be too small by twice this length. progress: called with a fraction from 0 to 1 and a
+    text; if it returns False, the check is cancelled. Returns the report of asdf_vk.compute(), for example
+    .thickness.verdict, .thickness.min, .thickness.regions, .fields. Raises ImportError, ValueError, asdf_vk.Error. A
+    cancelled check (asdf_vk.CancelledError) does not change the document.
     """
     asdf_vk = module()
     if not limit > 0 or not deviation > 0:
@@ -115,7 +117,7 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
 
 
 def colours_of(info, limit: float) -> list:
-    """Viridis from the limit to the greatest value, grey without a value, red where thinner than the limit."""
+    """Returns colours: red if thinner than the limit, grey without a value, else viridis from the limit upwards."""
     least = info.fields["least_thickness"]
     high = max(float(np.nanmax(least, initial=limit)), limit * 1.001)
     colours = module().hosts.colours_of(least, limit, high, info.thin, grey=0.6)
@@ -123,7 +125,7 @@ def colours_of(info, limit: float) -> list:
 
 
 def result_of(obj):
-    """The group with the result of the last check of an object; None without one."""
+    """Returns the group with the result of the last check of an object, or None if there is no result."""
     return next((group for group in obj.Document.Objects if getattr(group, "CheckedObject", None) == obj.Name), None)
 
 
@@ -144,7 +146,7 @@ def add_result(obj, vertices, triangles, info, limit: float) -> None:
     group.addProperty("App::PropertyString", "Verdict", "Thickness").Verdict = verdict
 
     mesh = document.addObject("Mesh::Feature", "ThicknessMesh")
-    mesh.Label = f"{obj.Label}: {summary(info.thickness)}"  # FreeCAD appends a number to a label that is in use.
+    mesh.Label = f"{obj.Label}: {summary(info.thickness)}"  # If a label is already in use, FreeCAD appends a number.
     mesh.Mesh = Mesh.Mesh(vertices[triangles].tolist())
     mesh.addProperty("App::PropertyColorList", "FaceColors", "Thickness").FaceColors = colours_of(info, limit)
     values = info.fields["least_thickness"].tolist()
@@ -159,7 +161,7 @@ def add_result(obj, vertices, triangles, info, limit: float) -> None:
 
 
 def add_place(document, region, limit: float):
-    """A thin place: the line through the wall, or a point at a sharp edge."""
+    """Adds a thin place: a line through the wall, or a point at a sharp edge."""
     place, opposite = FreeCAD.Vector(*region.place), FreeCAD.Vector(*region.opposite)
     is_point = place.distanceToPoint(opposite) < 1e-7
     line = document.addObject("Part::Feature", "Place")
@@ -185,7 +187,7 @@ def show_place(place) -> None:
         camera = FreeCADGui.activeDocument().activeView().getCameraNode()
     except (ImportError, RuntimeError):
         return
-    if hasattr(camera, "height"):  # An orthographic view also shows some of the neighbourhood.
+    if hasattr(camera, "height"):  # The height of an orthographic view includes some of the neighbourhood of the place.
         result = place.InList[0].Group[0].Mesh.BoundBox
         camera.height.setValue(max(camera.height.getValue(), 0.4 * result.DiagonalLength))
 

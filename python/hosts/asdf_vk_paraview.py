@@ -1,16 +1,17 @@
-"""Filters of ParaView 5.11 and later: shape diameter, wall thickness and parts as cell arrays.
+"""Filters for ParaView 5.11 and later: shape diameter, wall thickness and parts as cell arrays.
 
-In ParaView: Tools, Manage Plugins, Load New. In pvpython, pvbatch and the Python Shell of ParaView:
+In ParaView, load this file: Tools, Manage Plugins, Load New. In pvpython, pvbatch and the Python Shell of ParaView:
 
     from asdf_vk.hosts import asdf_vk_paraview
     asdf_vk_paraview.load(globals())
     walls = WallThickness(Input=part, Limit=0.8)
 
-The filters are in the menu Filters, asdf-vk. ParaView 5.11 imports a function that Python 3.11 removed. With Python
-3.11, as in Debian 12, ParaView 5.11 therefore loads Python plug-ins only after this import.
+The filters are in the menu Filters, asdf-vk. ParaView 5.11 imports a function that Python 3.11 has removed. This module
+adds the function. Therefore, with Python 3.11, as in Debian 12, ParaView 5.11 can load Python plug-ins only after this
+module was imported.
 
-Input is a vtkPolyData; other datasets need the filter Extract Surface first. asdf_vk.compat.vtk has functions with the
-same results for scripts of VTK and PyVista.
+Input is a vtkPolyData. Convert other datasets with the filter Extract Surface. For scripts with VTK or PyVista,
+asdf_vk.compat.vtk has functions with the same results.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ except ImportError as error:
     ) from error
 
 if not hasattr(inspect, "getargspec"):
-    inspect.getargspec = inspect.getfullargspec  # For ParaView 5.11.
+    inspect.getargspec = inspect.getfullargspec  # ParaView 5.11 needs this function, which Python 3.11 has removed.
 
 from paraview import print_error, print_warning
 from paraview.util.vtkAlgorithm import VTKPythonAlgorithmBase, smdomain, smhint, smproperty, smproxy
@@ -39,7 +40,7 @@ YES_OR_NO = '<BooleanDomain name="bool"/>'
 
 
 class SurfaceFilter(VTKPythonAlgorithmBase):
-    """A filter that copies a surface and adds arrays. Its options are keywords of asdf_vk.compute()."""
+    """Base class of the filters: copies a surface and adds arrays. Options are keywords of asdf_vk.compute()."""
 
     def __init__(self, **options) -> None:
         super().__init__(nInputPorts=1, nOutputPorts=1, inputType="vtkPolyData", outputType="vtkPolyData")
@@ -76,7 +77,7 @@ class SurfaceFilter(VTKPythonAlgorithmBase):
 @smproperty.input(name="Input")
 @smdomain.datatype(dataTypes=["vtkPolyData"], composite_data_supported=False)
 class ShapeDiameter(SurfaceFilter):
-    """Cell arrays: sdf, and seed, which is 1 where rays were cast."""
+    """Adds the cell arrays sdf and seed. seed is 1 if rays started at the cell, else 0."""
 
     @smproperty.intvector(name="TraceAllFaces", label="Trace All Faces", default_values=0)
     @smdomain.xml(YES_OR_NO)
@@ -124,7 +125,7 @@ class WallThickness(SurfaceFilter):
 @smproperty.input(name="Input")
 @smdomain.datatype(dataTypes=["vtkPolyData"], composite_data_supported=False)
 class ShapeParts(SurfaceFilter):
-    """Cell arrays: segment (number of the part, from 0), sdf and seed."""
+    """Adds the cell arrays segment (number of the part, from 0), sdf and seed."""
 
     def __init__(self) -> None:
         super().__init__(segment="parts")
@@ -136,7 +137,7 @@ class ShapeParts(SurfaceFilter):
 
 
 def load(names: dict | None = None) -> None:
-    """Loads this file as a plug-in; names: globals() of a script that has imported paraview.simple."""
+    """Loads this file as a plug-in. names: globals() of a script that has imported paraview.simple."""
     from paraview.simple import LoadPlugin
 
     LoadPlugin(__file__, ns=names)
