@@ -1,4 +1,5 @@
-// asdfvk-write-keywords FILE: writes asdf_vk/_keywords.py, the keywords of the options. The build runs it.
+// asdfvk-write-keywords FILE: writes asdf_vk/_keywords.py, which has the keywords of the options. The build runs this
+// program.
 #include <fstream>
 #include <regex>
 
@@ -56,7 +57,7 @@ int main(int argc, char** argv) {
   const std::string text =
       "\"\"\"Keywords of the options. Written by the build from src/describe/computation_options.cpp.\"\"\"\n\n"
       "from __future__ import annotations\n\nfrom typing import Literal, TypedDict\n" +
-      keywordClass("ComputeOptions", "Options of the computation. None stands for the default of an option.",
+      keywordClass("ComputeOptions", "Options of the computation. The value None means the default of an option.",
                    computationRows(), &computation) +
       keywordClass("SessionOptions", "Options of a session.", sessionRows(), &session);
   return std::ofstream(argv[1]) << text << std::flush ? 0 : 1;

@@ -16,7 +16,7 @@ std::vector<py::ssize_t> shapeOf(const Field& field) {
   return shape;
 }
 
-/// Makes a field from an array of doubles, bytes or uint32, (items,) or (items, components).
+/// Makes a field from an array of double, uint8 or uint32, (items,) or (items, components).
 Field fieldOf(const std::string& name, const py::array& array, FieldLocation location) {
   Field field{.name = name, .label = name, .unit = {}, .location = location, .componentCount = 1, .values = {}};
   if (array.ndim() == 2) field.componentCount = static_cast<uint32_t>(array.shape(1));

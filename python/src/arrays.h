@@ -18,12 +18,12 @@ namespace asdfvk::python {
 
 [[nodiscard]] bool isFlag(const pybind11::handle& object);
 
-/// The entries of a C-contiguous array of T, in place. Throws Error{ArrayType} for any other array.
+/// The entries of a C-contiguous array of T, without a copy. Throws Error{ArrayType} for any other array.
 template <typename T>
 [[nodiscard]] std::span<const T> entriesOf(const pybind11::array& array);
 
 /// A view of a Mesh, or of a tuple of vertices (#V x 3 double or float) and faces (#F x 3 uint32). The object must
-/// outlive the view. Throws Error{ArrayType} for anything else.
+/// outlive the view. Throws Error{ArrayType} for objects of other types.
 [[nodiscard]] MeshView viewOf(const pybind11::object& mesh);
 
 /// A read-only array that views `data` and keeps `owner` alive.
@@ -35,14 +35,15 @@ template <typename T>
   return array;
 }
 
-/// The fields of two dictionaries from names to arrays of doubles, bytes or uint32. Throws like entriesOf().
+/// Fields from two dictionaries, which map names to arrays of double, uint8 or uint32. Throws like entriesOf().
 [[nodiscard]] std::vector<Field> fieldsOf(const pybind11::dict& perFace, const pybind11::dict& perVertex);
 
 /// The numbers as float32. Throws like requireSingles().
 [[nodiscard]] pybind11::array_t<float> singles(std::span<const double> numbers, const std::string& name);
 
-/// A copy of a field as an array, (items,) or (items, components). Real numbers become float32, by singles(), if
-/// `single` is set and the field has one component; otherwise double. uint32 becomes int32: 0xffffffff becomes -1.
+/// A copy of a field as an array, (items,) or (items, components). If `single` is set and the field has one component,
+/// real numbers become float32 (see singles()); in all other cases they are double. uint32 becomes int32, so that
+/// 0xffffffff becomes -1.
 [[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
 
 /// The entries as bytes, for pickle.

@@ -7,7 +7,8 @@ namespace asdfvk::python {
 void bindFiles(pybind11::module_& module);
 
 /// Adds ShownReport(computed_fields), write_picture(path, mesh, fields, name) and write_page(path, mesh, name, layers).
-/// name: of the field, empty: the first field; of the mesh. layers: tuples of fields, label, and a ShownReport or None.
+/// In write_picture(), `name` is the name of a field; empty: the first field. In write_page(), `name` is the name of
+/// the mesh. layers: tuples of fields, label, and a ShownReport or None.
 void bindShown(pybind11::module_& module);
 
 void bindScenes(pybind11::module_& module);

@@ -101,14 +101,14 @@ Mesh meshOf(const py::tuple& state) {
 }  // namespace
 
 void bindFiles(py::module_& module) {
-  py::class_<Mesh>(module, "Mesh", "A mesh as read_mesh() returns it: all faces of the file, in file order.")
+  py::class_<Mesh>(module, "Mesh", "A mesh as read_mesh() returns it: all faces of the file, in the order of the file.")
       .def_property_readonly("vertices", verticesOf, "(n, 3) float64, in the unit of the file; read-only.")
       .def_property_readonly("faces", facesOf,
                              "(m, 3) int32 triangles, counter-clockwise seen from outside; read-only.")
       .def_property_readonly("face_count", &Mesh::inputFaceCount,
                              "Number of faces of the file. Functions return a value for each face.")
       .def_property_readonly("face_of_triangle", faceOfTriangle,
-                             "(m,) int32, the face of the file of each triangle; None if all faces are triangles.")
+                             "(m,) int32: index of the file's face per triangle; None if all faces are triangles.")
       .def_property_readonly(
           "unit", [](const Mesh& self) { return self.unit; },
           "Unit of length that the file states (3MF, glTF), for example \"mm\"; empty for other formats.")

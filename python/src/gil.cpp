@@ -7,7 +7,8 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// The destructor blocks an unwinding thread for ever. A catch clause within another handler would end the process.
+/// If the stack is unwound by pthread_exit(), the destructor blocks the thread for ever. A catch clause cannot replace
+/// this object: inside of another handler, it would end the process.
 class UnwindingStop {
  public:
   UnwindingStop() = default;

@@ -26,13 +26,13 @@ constexpr auto kPollInterval = std::chrono::milliseconds(20);
 
 std::atomic<pid_t> firstProcess{0};
 
-/// The state that the working thread writes and the calling thread reports.
+/// Progress of the work. The worker thread writes it, and the calling thread reports it.
 struct Progress {
   std::atomic<double> fraction{0};
   std::atomic<const char*> stage{""};
 };
 
-/// Calls `callback` if the progress has changed. Returns whether the work may go on.
+/// Calls `callback` if the progress has changed. Returns false if the callback cancels the work.
 class ProgressCall {
  public:
   ProgressCall(const Progress& progress, const py::object& callback) : progress_(progress), callback_(callback) {}
@@ -54,8 +54,8 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
-/// Runs each task on a thread of its own. A thread is started only if no other is idle, and is kept until the process
-/// ends, because TBB 2021.8 leaks about 10 KB at the end of a thread that used it while the processors were busy.
+/// Runs each task on a separate thread. A new thread is started only if no thread is idle. Threads are kept until the
+/// process ends, because TBB 2021.8 can leak about 10 KB when a thread that used TBB ends.
 class Workers {
  public:
   /// `task` may be destroyed after its future is ready.
@@ -94,16 +94,16 @@ class Workers {
   std::condition_variable ready_, finished_;
   std::queue<std::packaged_task<void()>> tasks_;
   size_t idle_ = 0;
-  size_t unfinished_ = 0;  ///< Tasks that wait or run.
+  size_t unfinished_ = 0;  ///< Tasks that wait for a thread or run.
 };
 
 Workers& workers() {
-  // Not destroyed at exit, because threads still wait in it.
+  // The object is not destroyed at exit, because threads still wait for tasks.
   static auto* workers = new Workers;
   return *workers;
 }
 
-/// The source whose stop is requested at the end of the process.
+/// At the end of the process, a stop of this source is requested.
 std::stop_source& endOfProcess() {
   static auto* source = new std::stop_source;
   return *source;

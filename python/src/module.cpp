@@ -1,4 +1,4 @@
-// asdf_vk._core: the library for the Python package. The package validates arrays and names.
+// The extension asdf_vk._core, with which the Python package calls the library. The package validates arrays and names.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -18,7 +18,7 @@ using namespace pybind11::literals;
 namespace asdfvk::python {
 namespace {
 
-/// Raises the exception class of asdf_vk._errors that fits the kind of the error.
+/// Raises an exception of asdf_vk._errors. The kind of the error selects the class.
 void raise(const Error& error) {
   const py::object make = py::module_::import("asdf_vk._errors").attr("error_of");
   const py::object exception =
@@ -84,9 +84,9 @@ PYBIND11_MODULE(_core, module) {
 #undef PyInit__core
 
 extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
-  // pybind11 2 waits forever for the GIL if the first interpreter that uses it is a sub-interpreter.
+  // Without this check, pybind11 2 would wait forever for the GIL if a sub-interpreter imports the module first.
   if (PyInterpreterState_Get() == PyInterpreterState_Main()) return asdfvkInitialiseCore();
   PyErr_SetString(PyExc_ImportError,
-                  "asdf_vk can be imported by the main interpreter of a process only, not by sub-interpreters");
+                  "asdf_vk can be imported only by the main interpreter of a process, not by sub-interpreters");
   return nullptr;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr OptionSpelling kSpelling = OptionSpelling::SnakeCase;
 
-/// An integer of Python or NumPy as an option value. An integer beyond uint64 becomes a real number.
+/// An integer of Python or NumPy as an option value. An integer that does not fit into uint64 becomes a real number.
 OptionValue wholeOf(const py::handle& object) {
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
   if (index) {
@@ -31,7 +31,7 @@ OptionValue textOf(const py::handle& object) {
   Py_ssize_t size = 0;
   if (const char* text = PyUnicode_AsUTF8AndSize(object.ptr(), &size))
     return std::string(text, static_cast<size_t>(size));
-  PyErr_Clear();  // An unpaired surrogate has no UTF-8.
+  PyErr_Clear();  // A text with an unpaired surrogate cannot be encoded in UTF-8.
   return {};
 }
 
@@ -39,7 +39,7 @@ OptionValue textOf(const py::handle& object) {
 OptionValue valueOf(const py::handle& object) {
   if (isFlag(object)) return PyObject_IsTrue(object.ptr()) == 1;
   if (PyUnicode_Check(object.ptr())) return textOf(object);
-  if (py::isinstance<py::tuple>(object) && py::len(object) == 2) {  // The rings and passes of `smooth`.
+  if (py::isinstance<py::tuple>(object) && py::len(object) == 2) {  // A pair: the rings and passes of `smooth`.
     const auto pair = py::reinterpret_borrow<py::tuple>(object);
     const OptionValue first = valueOf(pair[0]), second = valueOf(pair[1]);
     if (!std::holds_alternative<uint64_t>(first) || !std::holds_alternative<uint64_t>(second)) return {};

@@ -10,7 +10,8 @@
 
 namespace asdfvk::python {
 
-/// The text as a str. Bytes that are not UTF-8, as in names of files, become surrogates, like in os.fsdecode().
+/// The text as a str. Bytes that are not UTF-8 become surrogates, as in os.fsdecode(). Names of files can have such
+/// bytes.
 [[nodiscard]] pybind11::str textOf(const std::string& text);
 
 [[nodiscard]] pybind11::dict dictOf(const std::vector<ErrorDetail>& details);

@@ -22,7 +22,7 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Returns compute(session, control), run on the session when no other thread uses it.
+/// Waits until no other thread uses the session, and returns compute(session, control).
 template <typename Compute>
 auto runOn(SharedSession& session, const py::object& progress, const Compute& compute) {
   std::invoke_result_t<const Compute&, Session&, const RunControl&> result;
@@ -30,7 +30,7 @@ auto runOn(SharedSession& session, const py::object& progress, const Compute& co
   return result;
 }
 
-/// A scene with the session and the arrays to which the scene refers.
+/// A scene, together with the session and the arrays to which the scene refers.
 class SharedScene {
  public:
   SharedScene(std::shared_ptr<SharedSession> session, const py::object& mesh, const py::dict& options,
@@ -44,7 +44,7 @@ class SharedScene {
         },
         progress);
   }
-  /// See SharedSession::release(), and for forked processes ~SharedSession().
+  /// SharedSession::release() describes the release, and ~SharedSession() describes forked processes.
   ~SharedScene() {
     if (isForkedProcess()) {
       (void)scene_.release();
@@ -118,7 +118,7 @@ class SharedScene {
 }  // namespace
 
 void bindScenes(py::module_& module) {
-  // An array is made when it is read.
+  // The array of a field is made when Python reads the field.
   py::class_<Result>(module, "ComputedFields")
       .def("names",
            [](const Result& self, bool perVertex) {

@@ -31,7 +31,7 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// Sets label and unit of a field whose name is that of a field of a result.
+/// Sets label and unit of a field, if its name is the name of a result field.
 void describe(Field& field) {
   for (const FieldRow& row : fieldRows())
     if (row.name == field.name && static_cast<size_t>(row.type) == field.values.index()) {
@@ -40,12 +40,13 @@ void describe(Field& field) {
     }
 }
 
-/// The fields of one component, segments first. Throws Error{OptionConflict} for no field or one of a wrong size.
+/// The fields with one component; segments are first. Throws Error{OptionConflict} if there is no such field, or if a
+/// field has a wrong size.
 std::vector<Field> shownFields(const py::dict& perFace, uint64_t faceCount) {
   std::vector<Field> fields = fieldsOf(perFace, {});
   std::erase_if(fields, [](const Field& field) { return field.componentCount != 1; });
   if (fields.empty())
-    throw Error(ErrorCode::OptionConflict, "there is nothing to show; give a field per face of one component");
+    throw Error(ErrorCode::OptionConflict, "there is nothing to show; give a field per face with one component");
   for (Field& field : fields) {
     if (field.size() != faceCount)
       throw Error(ErrorCode::OptionConflict, "the field " + field.name + " has " + std::to_string(field.size()) +
@@ -58,7 +59,7 @@ std::vector<Field> shownFields(const py::dict& perFace, uint64_t faceCount) {
   return fields;
 }
 
-/// A result with the scene that pictures need.
+/// A result, together with the scene that pictures need.
 Result shownResult(const MeshView& mesh, const RunControl& control) {
   StageSeconds seconds;
   StageClock clock(seconds);
@@ -83,10 +84,10 @@ void writePicture(const std::filesystem::path& path, const py::object& mesh, con
       py::none());
 }
 
-/// What pages show of the report of a computation.
+/// The parts of a report that pages show.
 struct ShownReport {
   ReportTexts texts;
-  ThicknessReport thickness;  ///< Without a limit if the thickness was not measured.
+  ThicknessReport thickness;  ///< Has no limit if the thickness was not measured.
   ThinSurface thinSurface;
 };
 
@@ -101,7 +102,7 @@ py::list summaryOf(const ShownReport& shown) {
   return rows;
 }
 
-/// For pickle. Texts that are not UTF-8 are replaced.
+/// The report as text for pickle. Bytes that are not UTF-8 are replaced.
 py::tuple stateOfShown(const ShownReport& shown) {
   const auto& [texts, thickness, surface] = shown;
   const Json json = Json::array({texts.summary, texts.errorSentence, texts.warnings, texts.defects});
