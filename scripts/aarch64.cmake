@@ -1,4 +1,5 @@
-# Cross-compiles for aarch64 with Debian's compiler, and runs programs of the build under qemu (scripts/test-systems).
+# Toolchain of scripts/test-systems: cross-compiles for aarch64 with Debian's compiler, and runs the programs under
+# qemu.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

@@ -49,7 +49,7 @@ def _say(text: str) -> None:
 
 
 def _interrupt(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
-    """Runs the recipe and interrupts it by the events of the engine. Returns a text about its end."""
+    """Runs the recipe, and interrupts it by the events of the engine. Returns exit code, number of results and time."""
     start = time.monotonic()
     process = engine.submit(results)
     for event in engine.events(results):
@@ -69,7 +69,7 @@ def _interrupt(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
 
 
 def _resume(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
-    """Repeats the call, which must skip finished meshes. Returns a text about its end."""
+    """Repeats the call, which must skip finished meshes. Returns exit code, counts and time as text."""
     before, output_count_before = _statuses(results), output_count(results)
     start = time.monotonic()
     code = engine.submit(results).wait(RUN_LIMIT_SECONDS)
@@ -79,7 +79,7 @@ def _resume(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
     _say(f"{engine.name}: {ended}")
     if not engine.only_meshes_failed(code):
         raise Failed(f"the resumed run failed: {ended}")
-    # If a process was killed between writing a result and recording it, the result is computed again.
+    # A result is computed again if its process was killed before the record was written.
     least = output_count_before - len(engine.events(results))
     if counts["skipped"] < least:
         raise Failed(f"at least {least} meshes were done before: {ended}")
@@ -107,7 +107,7 @@ def _check(engine: Engine, surroundings: Surroundings, expected: pathlib.Path) -
         raise Failed(f"asdf-vk summarize counts {counts}")
     skipped_count = single_run(str(surroundings.program), surroundings.tree, results)
     if skipped_count != surroundings.tree.good_count:
-        raise Failed(f"a single run on top skips {skipped_count} of the results only")
+        raise Failed(f"a further single run skips only {skipped_count} of the results")
     events = ", ".join(event.what for event in engine.events(results))
     return Row(engine.name, engine.version(), events, interrupted, resumed)
 
@@ -149,7 +149,7 @@ def main() -> int:
     except Failed as reason:
         _say(f"FAILED: {reason}")
         return 1
-    print("| software | version | accidents | interrupted run | the same call again |")
+    print("| software | version | simulated failures | interrupted run | repetition of the call |")
     print("|---|---|---|---|---|")
     for row in rows:
         print(row.line())

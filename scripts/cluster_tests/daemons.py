@@ -1,4 +1,4 @@
-"""Background programs of the test, all on loopback."""
+"""Background programs of the test. All listen on the loopback interface only."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ def answers(port: int) -> bool:
 
 
 def processes_with(program: str, argument: str) -> list[int]:
-    """Numbers of the processes of `program` with an argument that contains `argument`, ascending."""
+    """Returns ascending ids of the processes of `program` that have an argument which contains `argument`."""
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             arguments = (folder / "cmdline").read_text(errors="replace").split("\0")
         except OSError:  # The process ended.
             continue
-        # The first argument of a script's process is the interpreter.
+        # In the process of a script, the first argument is the interpreter.
         names = [os.path.basename(one) for one in arguments[:2]]
         if program in names and any(argument in one for one in arguments):
             found.append(int(folder.name))
@@ -58,7 +58,7 @@ def processes_with(program: str, argument: str) -> list[int]:
 
 
 def kill(process_id: int) -> None:
-    """Stops the process before killing it, so that its files do not change when others look."""
+    """Stops the process before it is killed, so that its files do not change during the checks."""
     os.kill(process_id, signal.SIGSTOP)
     os.kill(process_id, signal.SIGKILL)
 

@@ -1,4 +1,4 @@
-"""A Dask cluster on loopback: a scheduler and two workers."""
+"""A Dask cluster on the loopback interface: a scheduler and two workers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from daemons import HOST, Failed, answers, free_ports, kill
 from engine import Engine, Event, Surroundings
 
 WORKER_COUNT = 2
-PYTHON = "/usr/bin/python3"  # The Python of Debian's packages.
+PYTHON = "/usr/bin/python3"  # The Python interpreter for which Debian's packages are installed.
 
 
 class DaskCluster(Engine):
@@ -36,7 +36,7 @@ class DaskCluster(Engine):
         recipe = self.recipe("dask_host.sh")
         self._start("scheduler", [recipe, "scheduler", str(self._file), "--host", HOST, "--port",
                                   str(self._port)], lambda: answers(self._port))
-        # The script waits for the file of the scheduler. The client below waits for the workers.
+        # The script of the workers waits for the file of the scheduler. The client below waits for the workers.
         self._start("workers", [recipe, "workers", str(self._file), str(WORKER_COUNT), "--host",
                                 HOST, "--local-directory", str(self.folder)], self._file.exists)
         file = str(self._file)

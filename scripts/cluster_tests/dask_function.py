@@ -13,7 +13,7 @@ from daemons import Failed
 from engine import RECIPES
 from meshes import summary
 
-# For each name: a program instead of asdf-vk, and code and message of its record. $5 is the log.
+# For each name: a shell script that replaces asdf-vk, and the expected code and message of the record. $5 is the log.
 _PROGRAMS = {
     "killed": ("kill -KILL $$", -9, ""),
     "ends without a record": ("echo a reason >&2; exit 3", 3, "a reason"),

@@ -19,8 +19,8 @@ RECIPES = pathlib.Path("docs/examples/cluster").resolve()
 
 @dataclasses.dataclass(frozen=True)
 class Surroundings:
-    program: pathlib.Path  # asdf-vk
-    folder: pathlib.Path  # build/cluster
+    program: pathlib.Path  # The program asdf-vk.
+    folder: pathlib.Path  # The folder build/cluster.
     tree: Tree
 
 
@@ -28,7 +28,7 @@ class Surroundings:
 class Event:
     """An interruption of the first run."""
 
-    share: float  # Share of the results after which it happens.
+    share: float  # The interruption happens when this share of the results exists.
     what: str
     happen: Callable[[], None]
 
@@ -78,11 +78,11 @@ class Engine(abc.ABC):
         while True:
             try:
                 return kill(self.process_of(results))
-            except ProcessLookupError:  # The process has just ended.
+            except ProcessLookupError:  # The process has ended in the meantime.
                 continue
 
     def only_meshes_failed(self, code: int) -> bool:
-        """Whether a run that ended with this code computed all meshes that can be computed."""
+        """Whether this exit code means that all valid meshes were computed."""
         return code == SOME_FAILED
 
     def stop(self) -> None:

@@ -12,10 +12,10 @@ from typing import Any
 from daemons import Failed
 
 SHAPES = ("animal", "hand", "figure", "sphere", "icosphere", "slab", "cylinder", "torus", "cube")
-FACE_COUNTS = (100, 5000)  # approximately
-# Every face casts many rays, so that a mesh takes long enough to be interrupted.
+FACE_COUNTS = (100, 5000)  # approximate numbers
+# Many rays per face, so that a mesh takes long enough to be interrupted.
 OPTIONS = ("--format", "npy", "--seeds", "all", "--rays", "100")
-# Each engine must compute the other meshes and record these failures.
+# Files that cannot be read. Each engine must record their failures and compute all other meshes.
 BROKEN = {
     "empty.ply": b"",
     "cut.off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n",
@@ -32,7 +32,7 @@ class Tree:
 
 
 def generate(generator: str, folder: pathlib.Path, count: int) -> Tree:
-    """Makes a tree that is the same for each call. Keeps existing files."""
+    """Makes the tree of folders and meshes, which is the same for each call. Keeps existing files."""
     numbers = random.Random(15)
     paths = []
     for index in range(count):
@@ -56,7 +56,7 @@ def generate(generator: str, folder: pathlib.Path, count: int) -> Tree:
 
 
 def outputs(results: pathlib.Path) -> dict[str, bytes]:
-    """Returns the bytes of the results by path below the folder."""
+    """Returns the bytes of each result. Keys are paths relative to the folder."""
     files = results.rglob("*.npy")
     return {str(file.relative_to(results)): file.read_bytes() for file in files}
 
@@ -66,7 +66,7 @@ def output_count(results: pathlib.Path) -> int:
 
 
 def records(results: pathlib.Path) -> list[dict[str, Any]]:
-    """Returns the records of all logs. Ignores lines that a kill has cut."""
+    """Returns the records of all logs. Ignores incomplete lines of killed processes."""
     found = []
     for log in sorted((results / "log").glob("*.jsonl")):
         for line in log.read_text().splitlines():
@@ -93,7 +93,7 @@ def single_run(program: str, tree: Tree, results: pathlib.Path) -> int:
 
 
 def summary(program: str, results: pathlib.Path) -> dict[str, int]:
-    """Returns the counts of `asdf-vk summarize`, which counts each mesh once."""
+    """Returns the numbers of meshes by status that `asdf-vk summarize` prints."""
     logs = [str(log) for log in (results / "log").glob("*.jsonl")]
     done = subprocess.run([program, "summarize", "--json", *logs], check=False,
                           capture_output=True, text=True)
@@ -110,7 +110,7 @@ _FIXED = ("inputHash", "optionsHash", "faceCount", "version", "commit", "device"
 
 
 def differences(results: pathlib.Path, expected: pathlib.Path) -> list[str]:
-    """Lists the differences between the outputs, and between the records."""
+    """Returns the differences between the results and between the records of two runs."""
     found = []
     ours, theirs = outputs(results), outputs(expected)
     for path in sorted(ours.keys() | theirs.keys()):
@@ -123,8 +123,8 @@ def differences(results: pathlib.Path, expected: pathlib.Path) -> list[str]:
         recorded.setdefault(record["input"], []).append(record)
     for record in records(expected):
         status = record["status"]
-        # A process that is killed after it has written the record beside the result writes no line to its log. The next
-        # run then has a record of status skipped, which is otherwise equal.
+        # A process can be killed after it has written the record beside the result, but before it writes to the log.
+        # The next run then logs a record with the status "skipped"; all other keys are equal.
         same = [one for one in recorded.get(record["input"], ())
                 if one["status"] in (status, "skipped")]
         if not same:

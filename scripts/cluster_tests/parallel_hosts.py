@@ -1,4 +1,4 @@
-"""GNU parallel over two hosts: two names of this machine, each with its own sshd."""
+"""GNU parallel over two hosts. The hosts are two names of this machine; each has a separate sshd."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class ParallelHosts(Engine):
 
     def __init__(self, surroundings: Surroundings) -> None:
         super().__init__(surroundings, "parallel")
-        # Not the settings and temporary files of the user.
+        # Separate folders, so that GNU parallel does not use the settings and temporary files of the user.
         self._environment["PARALLEL_HOME"] = str(self.folder / "home")
         self._environment["PARALLEL_SSH"] = f"ssh -F {self.folder}/ssh_config"
         self._environment.pop("PARALLEL", None)
@@ -52,7 +52,7 @@ class ParallelHosts(Engine):
 
     def start(self) -> None:
         (self.folder / "home").mkdir()
-        if os.getuid() == 0:  # sshd of root needs this folder of its init script.
+        if os.getuid() == 0:  # If sshd runs as root, it needs this folder, which the init script normally makes.
             pathlib.Path("/run/sshd").mkdir(mode=0o755, exist_ok=True)
         for name in ("host_key", "key"):
             command = ["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", str(self.folder / name)]
@@ -76,7 +76,7 @@ class ParallelHosts(Engine):
         return [Event(0.1, "SIGKILL to a process on a host", lambda: self.kill_process(results))]
 
     def only_meshes_failed(self, code: int) -> bool:
-        """Here the exit code is the number of failed jobs."""
+        """GNU parallel exits with the number of failed jobs."""
         results = self._surroundings.folder / f"results of {self.folder.name}"
         table = (results / "log/parallel.tsv").read_text().splitlines()
         column = table[0].split("\t").index("Exitval")

@@ -1,4 +1,4 @@
-"""A Slurm of one node: munged, slurmctld and slurmd on loopback, configured below build/cluster."""
+"""A Slurm cluster of one node on the loopback interface. The settings of all daemons are below build/cluster."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from engine import Engine, Event, Surroundings
 NODE = "localhost"
 CPU_COUNT = 2
 TASK_COUNT = 6
-MAX_SOCKET_PATH = 107  # Limit of Linux.
+MAX_SOCKET_PATH = 107  # Greatest length of the path of a socket in Linux.
 
 _CONFIGURATION = """
 ClusterName=test
@@ -71,7 +71,7 @@ class Slurm(Engine):
         (self.folder / "slurm.conf").write_text(_CONFIGURATION.format(
             user=getpass.getuser(), folder=self.folder, socket=socket, node=NODE, cpus=CPU_COUNT,
             controller_port=self._ports[0], node_port=self._ports[1]))
-        # --force: permissions of the parent folders of build do not matter for a test.
+        # --force accepts the folder build, whose parent folders may have any permissions.
         munged = ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={socket}"]
         munged += [f"--{name}-file={self.folder}/munge.{name}" for name in ("pid", "log", "seed")]
         self._start("munged", munged, socket.exists)

@@ -22,7 +22,8 @@ from implementations import (
     with_driver,
 )
 
-# Shapes of asdf-vk-generate with numbers of faces. The last mesh needs more texels than the smallest limit of a buffer.
+# Shapes of asdf-vk-generate with numbers of faces. The last mesh needs more texels than the least limit that Vulkan
+# allows.
 GENERATED = (("animal", 2000), ("torus", 1200), ("slab", 300), ("figure", 30000))
 REAL = (
     "models/fandisk.off",
@@ -188,7 +189,7 @@ def main() -> int:
         return 1
     meshes = _meshes(surroundings, arguments.quick)
     suites = () if arguments.no_suites else QUICK_SUITES if arguments.quick else SUITES
-    if not arguments.fake_suites:  # ctest runs most of these suites.
+    if not arguments.fake_suites:  # By default without fake devices, because ctest runs most of these suites on them.
         implementations = [
             dataclasses.replace(one, suites=()) if one.wrapper else one for one in implementations
         ]

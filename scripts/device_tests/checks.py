@@ -15,16 +15,16 @@ import subprocess
 
 from implementations import Implementation, Surroundings, ValidationLayer
 
-# Beginning of the name of the test case which shows that the validation layers report errors.
+# Beginning of the name of a test case. The case checks that the validation layers report errors.
 CONTROL = "control: the validation layers"
 SUITE_LIMIT_SECONDS = 1800
 RUN_LIMIT_SECONDS = 180
 
 KERNELS = ("seed", "ray", "packet")
 FETCHES = ("storage", "texel")
-# Errors of a device that does not support a variant.
+# Errors that mean that the device does not support a variant.
 REFUSALS = ("deviceLimit", "kernelUnsupported")
-# Rays per cone, and the greatest number of faces that cast rays; all these faces are checked.
+# Rays per cone, and the greatest number of seeds. All seeds are checked.
 RAY_COUNTS = {30: 1000, 1024: 32}
 FURTHER_OPTIONS = (("--solver", "cg"), ("--solver", "jacobi"))
 
@@ -51,7 +51,7 @@ class Mesh:
 
 @dataclasses.dataclass(frozen=True)
 class _Ended:
-    code: int  # Negative: minus the signal.
+    code: int  # Exit code; -N if signal N ended the process.
     output: str
     error: str
 
@@ -69,7 +69,7 @@ class Checks:
         self._logs.mkdir(parents=True, exist_ok=True)
 
     def suite(self, name: str) -> Outcome:
-        """Runs a test suite. The outcome has its failed cases."""
+        """Runs a test suite. The outcome lists the failed test cases."""
         command = [str(self._surroundings.build / f"tests/asdfvk-test-{name}")]
         command.append("--source-file-exclude=*real_meshes_test.cpp")
         ended = self._run(command, self._layer.environment, SUITE_LIMIT_SECONDS)
@@ -83,12 +83,12 @@ class Checks:
         return Outcome(name, Status.FAILED, detail, repeat)
 
     def matrix(self, meshes: list[Mesh]) -> list[Outcome]:
-        """Runs the variants, and the default variant, which no device may refuse."""
+        """Runs all variants and the default variant. A device may refuse variants, except the default variant."""
         cells = itertools.product(meshes, RAY_COUNTS, [(), *_variants()])
         return [self._computation(mesh, rays, variant, {}) for mesh, rays, variant in cells]
 
     def validated(self, mesh: Mesh) -> list[Outcome]:
-        """Runs each variant and each of the further options once. A message of the validation layer is an error."""
+        """Runs each variant and each further option with the validation layer. A message of it is an error."""
         environment = {**self._layer.environment, "ASDF_VK_VALIDATION": "1"}
         cells = (*_variants(), *FURTHER_OPTIONS)
         return [self._computation(mesh, 30, options, environment) for options in cells]
@@ -167,7 +167,7 @@ def _how_it_ended(code: int) -> str:
 
 
 def _failed_cases(output: str) -> list[str]:
-    """Names of failed cases in doctest's output, which prints the name before the first error of a case."""
+    """Returns the names of failed cases from doctest's output. doctest prints the name before the first error."""
     failed: dict[str, None] = {}
     case = ""
     for line in output.splitlines():

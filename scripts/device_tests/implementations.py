@@ -17,9 +17,9 @@ SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "diagnose", "cli")  #
 KERNEL_SUITES = ("vk", "trace", "poisson", "predict")
 FAKE_SUITES = (*KERNEL_SUITES, "pipeline", "diagnose")
 QUICK_SUITES = ("vk", "poisson", "predict")
-# lavapipe has a subgroup of one lane per 32 bits of these vectors.
+# Widths of the vectors of lavapipe in bits. A subgroup has one lane per 32 bits.
 _LAVAPIPE_VECTOR_BITS = (128, 256, 512)
-# Variables of the machine that do not belong to an implementation.
+# Environment variables of the machine that must not affect the tests.
 _UNRELATED_VARIABLES = (
     "VK_INSTANCE_LAYERS",
     "VK_LAYER_PATH",
@@ -48,15 +48,15 @@ class ValidationLayer:
 @dataclasses.dataclass(frozen=True)
 class Surroundings:
 
-    build: pathlib.Path  # The build folder of CMake.
-    folder: pathlib.Path  # build/devices
+    build: pathlib.Path  # The build folder.
+    folder: pathlib.Path  # The folder build/devices.
 
     @property
     def program(self) -> str:
         return str(self.build / "src/asdf-vk")
 
     def environment(self, *parts: dict[str, str]) -> dict[str, str]:
-        """Returns the environment of this process without settings of Vulkan, and with files below `folder` only."""
+        """Returns the environment of this process without settings of Vulkan. Programs write files below `folder`."""
         result = dict(os.environ)
         for name in _UNRELATED_VARIABLES:
             result.pop(name, None)
@@ -98,7 +98,7 @@ def _is_program(file: pathlib.Path) -> bool:
 
 
 class Drivers:
-    """Finds implementations. `missing` has the reasons why other implementations are not available."""
+    """Finds implementations. `missing` has a reason for each implementation that is not available."""
 
     def __init__(self, surroundings: Surroundings) -> None:
         self._surroundings = surroundings
@@ -194,7 +194,7 @@ class Drivers:
         return found
 
     def _newest_layer(self, folder: pathlib.Path) -> ValidationLayer:
-        """The validation layer of the package, which has no manifest."""
+        """The validation layer in a package without a layer manifest."""
         library = _find(folder, "libVkLayer_khronos_validation.so")
         version = _layer_version(library)
         extensions = {

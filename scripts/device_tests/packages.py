@@ -12,12 +12,12 @@ _LISTS_MAX_AGE_SECONDS = 24 * 3600
 
 
 class Unavailable(Exception):
-    """A package that the sources do not have, with the reason."""
+    """A package cannot be downloaded; the text has the reason."""
 
 
 class Candidate(NamedTuple):
     version: str
-    suite: str  # For example bookworm-backports.
+    suite: str  # Name of the release or suite, for example bookworm-backports.
 
 
 def _run(*command: str | pathlib.Path, cwd: pathlib.Path | None = None) -> str:
@@ -61,7 +61,7 @@ class PackageSources:
                 raise
 
     def newest(self, package: str) -> Candidate:
-        """Returns the newest version in the sources, regardless of pinning."""
+        """Returns the newest version in the sources. Ignores pinning."""
         best: Candidate | None = None
         for line in _run("apt-cache", *self._options, "madison", package).splitlines():
             _, version, origin = (part.strip() for part in line.split("|"))

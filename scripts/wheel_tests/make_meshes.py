@@ -1,4 +1,4 @@
-"""Makes ten meshes: closed meshes by asdf-vk-generate, and from them open meshes and meshes of several components.
+"""Makes ten meshes. asdf-vk-generate makes closed meshes; from these, the script makes open and composed meshes.
 
 usage: make_meshes.py GENERATOR FOLDER
 """
@@ -24,12 +24,12 @@ class Surface:
         self.faces = faces
 
     def without(self, share: float) -> Surface:
-        """Returns an open surface: leaves out this share of the faces, those with the greatest x."""
+        """Returns an open surface: leaves out a share of the faces, at the greatest x."""
         x = self.vertices[self.faces].mean(axis=1)[:, 0]
         return Surface(self.vertices, self.faces[x <= np.quantile(x, 1 - share)])
 
     def shifted(self, lengths: float) -> Surface:
-        """Returns the surface moved along x by this number of lengths of its bounding box."""
+        """Returns the surface moved along x by a multiple of the length of its bounding box."""
         return Surface(self.vertices + [lengths * np.ptp(self.vertices[:, 0]), 0, 0], self.faces)
 
     def beside(self, other: Surface) -> Surface:

@@ -1,8 +1,8 @@
-"""Compares the values of the installed module with those of the program asdf-vk, bit for bit, in a bare system.
+"""Compares the values of the installed module with the values of the program asdf-vk, bit by bit.
 
-usage: same_values.py FOLDER BACKEND...
-The folder has meshes. MESH.BACKEND.npy has the values of the program for MESH. Prints a table. Then checks that the
-module uses the libraries of the wheel, and that it has the right default backend without a Vulkan loader.
+usage: same_values.py FOLDER BACKEND... FOLDER contains meshes; MESH.BACKEND.npy has the values of the program for MESH.
+Prints a table. Then checks that the module uses the libraries of the wheel, and that the default backend without a
+Vulkan loader is "cpu".
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ BACKENDS: tuple[Backend, ...] = ("reference", "cpu")
 
 
 class Failed(Exception):
-    """A failure of a check, with its reason."""
+    """A check failed; the text has the reason."""
 
 
 def _compare(path: pathlib.Path, backend: Backend) -> str:
@@ -52,7 +52,7 @@ def _check_libraries() -> None:
 
 
 def _check_fallback(backend: str) -> None:
-    """Checks that the CPU computes without an option, and that the session has the reason."""
+    """Checks that the default backend is "cpu", and that the session states the reason."""
     with asdf_vk.Session() as session:
         lines = session.device_lines
         expected = "vulkan: not available: no Vulkan loader (libvulkan.so.1) was found"

@@ -1,4 +1,4 @@
-"""Builds a wheel that runs on a bare system; scripts/wheel describes it."""
+"""Builds a wheel that contains its libraries; scripts/wheel describes the wheel and the options."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ def _run(log: pathlib.Path, *command: str | pathlib.Path) -> None:
 
 
 def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
-    """Builds the plain wheel, which needs the libraries of this system."""
-    # setuptools also adds files that an earlier build left in this folder.
+    """Builds the wheel without libraries; it needs the libraries of this system."""
+    # Removed, because setuptools would add files that an earlier build left in this folder.
     for left in pathlib.Path("build").glob("lib.*"):
         shutil.rmtree(left)
-    # This file keeps options of an earlier CMAKE_ARGS.
+    # Removed, because this file has options of an earlier CMAKE_ARGS.
     for cache in pathlib.Path("build").glob("temp.*/CMakeCache.txt"):
         cache.unlink()
     options = ["--no-build-isolation", "--no-deps", "--no-index", f"--wheel-dir={folder}"]

@@ -1,4 +1,4 @@
-"""Properties of shared libraries: needed libraries, and the manylinux tag that allows them."""
+"""Properties of shared libraries: the libraries that they need, and the manylinux tag that their symbols allow."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from typing import NamedTuple
 
 Version = tuple[int, ...]
 
-# Libraries that the module may need and that every manylinux system (PEP 600) has. The wheel has none of them, because
-# an exception could not pass from one module to another with different copies of libstdc++ and libgcc_s.
+# Libraries that every manylinux system (PEP 600) has. The module may need them, and the wheel does not contain them.
+# With a second copy of libstdc++ and libgcc_s, an exception could not pass from one module to another.
 SYSTEM_LIBRARIES = frozenset({
     "libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2",
     "ld-linux-aarch64.so.1", "libstdc++.so.6", "libgcc_s.so.1", "libatomic.so.1", "libz.so.1",
 })  # fmt: skip
 
-# Highest versions of symbols for the least glibc of a tag, from the policies of auditwheel for x86_64. The C++
-# libraries of Debian 12 and 13 need at least glibc 2.34.
+# For each manylinux tag (its glibc version): the highest versions of symbols, from the policies of auditwheel for
+# x86_64. The C++ libraries of Debian 12 and 13 need at least glibc 2.34.
 _LIMITS: dict[Version, dict[str, Version]] = {
     (2, 34): {"GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13), "GCC": (7, 0, 0), "ZLIB": (1, 2, 9)},
     (2, 35): {"GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12, 0, 0), "ZLIB": (1, 2, 9)},
     (2, 39): {"GLIBCXX": (3, 4, 33), "CXXABI": (1, 3, 15), "GCC": (14, 0, 0), "ZLIB": (1, 2, 12)},
 }
-_GLIBC_OF_NAMES = {"ABI_DT_RELR": (2, 36)}  # GLIBC_ABI_DT_RELR, for compact relocations
+_GLIBC_OF_NAMES = {"ABI_DT_RELR": (2, 36)}  # GLIBC_ABI_DT_RELR is for compact relocations.
 
 
 class NotPortable(Exception):
-    """The library is not portable, with the reason."""
+    """The library is not portable; the text has the reason."""
 
 
 class Elf(NamedTuple):
@@ -36,7 +36,7 @@ class Elf(NamedTuple):
 
     needed: tuple[str, ...]
     run_path: str
-    versions: dict[str, Version]  # Highest needed version by name: GLIBC, GLIBCXX, ...
+    versions: dict[str, Version]  # For each name (GLIBC, GLIBCXX, ...): the highest version that the library needs.
 
     @classmethod
     def read(cls, path: pathlib.Path) -> Elf:
@@ -72,7 +72,7 @@ def highest(libraries: Iterable[Elf]) -> dict[str, Version]:
 
 
 def least_glibc(versions: dict[str, Version]) -> Version:
-    """Returns the least glibc version of a manylinux tag that allows these versions."""
+    """Returns the glibc version of the lowest manylinux tag that allows these symbol versions."""
     others = {name: version for name, version in versions.items() if name != "GLIBC"}
     for glibc, limits in _LIMITS.items():
         if all(version <= limits[name] for name, version in others.items()):

@@ -1,4 +1,4 @@
-"""Licences of the parts of a wheel that are from Debian's packages."""
+"""Licences of the libraries of Debian in a wheel."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 import shutil
 import subprocess
 
-# Headers of these packages are compiled into the module. Copied libraries have their own licence files.
+# Packages whose headers are compiled into the module. The licences of copied libraries are found by their files.
 HEADER_PACKAGES = ("libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "nlohmann-json3-dev", "python3-pybind11")
 _COMMON = pathlib.Path("/usr/share/common-licenses")
 
@@ -26,9 +26,9 @@ def _version(package: str) -> str:
 
 
 def add_licences(folder: pathlib.Path, carried: dict[str, pathlib.Path]) -> None:
-    """Fills the folder: a file for each package, the texts of /usr/share/common-licenses that they cite, and a list.
+    """Writes licences: a file per package, the texts of /usr/share/common-licenses that they cite, and a list.
 
-    `carried`: by name, the original files of the libraries in the wheel.
+    `carried`: the original files of the libraries in the wheel. Keys are names in the wheel.
     """
     packages = {name: package_of(source) for name, source in carried.items()}
     folder.mkdir(parents=True, exist_ok=True)
