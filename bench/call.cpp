@@ -1,5 +1,5 @@
-// Prints the seconds of Session::compute() on the arrays of a mesh, one run per line of standard input.
-// bench/python_call.py runs it in turns with the Python module. Usage: asdfvk-bench-call MESH [BACKEND]
+// For each line of standard input, runs Session::compute() on the arrays of a mesh and prints the seconds.
+// bench/python_call.py runs this program in turns with the Python module. Usage: asdfvk-bench-call MESH [BACKEND]
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Compares cgal_Segmentation_Module with CGAL: values from 0 to 1, and labels by the rule of 5.5.1.
+"""Compares cgal_Segmentation_Module with CGAL 5.5.1: values from 0 to 1, and labels with expansion="first".
 
     PYTHONPATH=BUILD/python bench/cgal_module.py BUILD/bench/asdfvk-bench-cgal-oracle MESH...
 
-A row per mesh and setting: clusters, smoothness, greatest difference of two values, share of equal labels, numbers of
-segments of asdf-vk and of CGAL, and seconds of asdf-vk.
+Prints a row per mesh and setting (clusters, smoothness). A row has the greatest difference of two values, the share of
+equal labels, the numbers of segments of asdf-vk and of CGAL, and the seconds of asdf-vk.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-// Writes CGAL's result for a mesh, for comparisons: a line per face with its value from 0 to 1 and its segment.
+// Writes CGAL's result for a mesh: a line per face with its value (0 to 1) and its segment. Used for comparisons.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,5 +1,6 @@
-// Elapsed seconds of values, post-processing and segments together, in asdf-vk and in CGAL, and their ratio. All faces
-// cast 25 rays. Five clusters, smoothness 0.26. Reading, writing, and making CGAL's mesh or the session do not count.
+// Prints the elapsed seconds for values, post-processing and segments, in asdf-vk and in CGAL, and their ratio. All
+// faces cast 25 rays; there are five clusters, and the smoothness is 0.26. The times do not include reading, writing,
+// the construction of CGAL's mesh, and the construction of the session.
 #include <fmt/format.h>
 
 #include "asdf_vk/files.h"
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
   uint32_t runCount = 3;
   program.addMeshes(meshes);
   program.add("--backends", backends, "Backends to compare");
-  program.add("--runs", runCount, "Runs, in turns with CGAL; one more warms up", {1, 1000});
+  program.add("--runs", runCount, "Runs, in turns with CGAL, after one run for warm-up", {1, 1000});
   return program.run(argc, argv, [&](const RunControl& control) {
     writeOutput(toText(thisMachine()) +
                 "\n\n| mesh | backend | expansion | CGAL: values, post-process, segments | ours | CGAL / ours |\n"

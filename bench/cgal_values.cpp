@@ -1,4 +1,5 @@
-// Does `--definition cgal` give CGAL's raw values? Prints the shares of faces with close values, per mesh and backend.
+// Compares the values of `--definition cgal` with CGAL's values before post-processing. Prints the share of faces whose
+// values agree within a tolerance, per mesh and backend.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,12 +17,12 @@ namespace {
 using namespace asdfvk;
 using namespace asdfvk::bench;
 
-constexpr std::array kTolerances{1e-9, 1e-5, 1e-4};  ///< Shares of the range of CGAL's values.
+constexpr std::array kTolerances{1e-9, 1e-5, 1e-4};  ///< Tolerances, divided by the range of CGAL's values.
 
 struct Agreement {
   std::array<double, kTolerances.size()> shares{};
-  double largest = 0;          ///< Largest difference, as a share of the range.
-  uint64_t oneSidedCount = 0;  ///< Faces with a value of asdf-vk only, or of CGAL only.
+  double largest = 0;          ///< Greatest difference, divided by the range of CGAL's values.
+  uint64_t oneSidedCount = 0;  ///< Number of faces that have a value in only one of asdf-vk and CGAL.
 };
 
 Agreement agreementOf(const std::vector<double>& values, const std::vector<double>& expected) {
@@ -29,7 +30,7 @@ Agreement agreementOf(const std::vector<double>& values, const std::vector<doubl
   for (const double value : expected)
     if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
   Agreement agreement;
-  const double range = std::max(0.0, high - low);  // 0 if no face has a value.
+  const double range = std::max(0.0, high - low);  // The range is 0 if no face has a value.
   std::array<uint64_t, kTolerances.size()> counts{};
   for (size_t face = 0; face < expected.size(); ++face) {
     const bool isMissing = std::isnan(values[face]), isExpectedMissing = std::isnan(expected[face]);

@@ -1,4 +1,4 @@
-// How fast are the backends compared with Embree and CGAL? All use the same mesh and rays, in turns.
+// Compares the speed of the backends with Embree and CGAL. All compute the same mesh and rays, in turns.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ Dispersion megaRaysPerSecond(uint64_t rayCount, const Seconds& seconds) {
 }
 
 std::string cgalLine(const Comparison& comparison) {
-  if (!hasCgal()) return "CGAL: not built in; scripts/install-packages bench installs it\n";
+  if (!hasCgal()) return "CGAL: this build has no CGAL; scripts/install-packages bench installs CGAL\n";
   if (comparison.cgal.empty()) return "CGAL: no runs requested, or the mesh is not an orientable 2-manifold\n";
   return fmt::format("CGAL sdf_values, every face, one thread, {} runs: {} s\n", comparison.cgal.size(),
                      toText(dispersionOf(comparison.cgal), 2));
@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
   bool isJson = false;
   program.addMeshes(meshes);
   program.add("--runs", request.roundCount, "Rounds, after one for warm-up", {1, 1000});
-  program.add("--cgal-runs", request.cgalRunCount, "Runs of the slow CGAL, at most one per round; 0: none");
+  program.add("--cgal-runs", request.cgalRunCount, "Runs of CGAL, which is slow; at most one per round; 0: none");
   program.add("--seeds", request.seeds, "Shares, counts or all");
   program.add("--device", request.device, "Vulkan device: index or part of its name");
   program.add("--json", isJson, "One JSON line per mesh instead of tables");

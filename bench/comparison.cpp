@@ -20,10 +20,10 @@
 namespace asdfvk::bench {
 namespace {
 
-/// The backends whose whole computations are timed. The reference is left out, because it is too slow.
+/// Backends whose whole computations are timed. The backend `reference` is left out, because it is too slow.
 std::vector<std::string> fastBackends() { return {"vulkan", "cpu"}; }
 
-/// Every backend by its name, and Vulkan with each kernel that is not the device's default.
+/// All backends, and Vulkan with each kernel that is not the default of the device.
 std::map<std::string, std::unique_ptr<Backend>> openBackends(const std::string& device) {
   std::map<std::string, std::unique_ptr<Backend>> backends;
   const auto open = [&](const std::string& name, const SessionOptions& options) {
@@ -66,7 +66,7 @@ class MeshComparison {
       traces.emplace_back(kEmbreeFast, [&] { static_cast<void>(embreeFast_->trace(seeds)); });
       traces.emplace_back(kEmbreeRobust, [&] { static_cast<void>(embreeRobust_->trace(seeds)); });
     }
-    // The first tracer of a round finds cold caches. Each round therefore starts with another tracer.
+    // The first tracer of a round starts with cold caches. Therefore each round starts with another tracer.
     std::rotate(traces.begin(), traces.begin() + round % static_cast<uint32_t>(traces.size()), traces.end());
     for (const auto& [name, trace] : traces) {
       const Stopwatch watch;
@@ -86,7 +86,7 @@ class MeshComparison {
     Options options;
     applyRecipe(recipe, options);
     options.seeds = parseSeedCount(seeds);
-    options.estimatesError = false;  // CGAL has no estimate.
+    options.estimatesError = false;  // No error estimate, because CGAL has none.
     const Stopwatch watch;
     static_cast<void>(session.compute(mesh_.mesh, options, control));
     return watch.seconds();
@@ -103,7 +103,8 @@ class MeshComparison {
     return watch.seconds();
   }
 
-  /// Random faces in the order of the hierarchy. This order is the fastest for every tracer; asdf-vk also uses it.
+  /// Random faces in the order of the hierarchy, which is the fastest order for every tracer. asdf-vk uses the same
+  /// order.
   std::vector<uint32_t> chooseSeeds(const std::string& count) const {
     const std::vector<uint32_t>& candidates = mesh_.prepared.traceableFaces;
     const std::vector<uint32_t> chosen = randomPermutationSeeds(
@@ -125,7 +126,7 @@ class MeshComparison {
   std::map<std::string, std::unique_ptr<Session>> sessions_;
 };
 
-/// The index of the part that contains the round, if the rounds are divided into equal parts.
+/// The rounds are divided into equal parts. Returns the index of the part that contains the round.
 size_t partOf(size_t round, size_t roundCount, size_t partCount) { return round * partCount / roundCount; }
 
 bool isFirstOfPart(size_t round, size_t roundCount, size_t partCount) {

@@ -15,10 +15,11 @@ struct ComparisonRequest {
   std::vector<std::string> seeds{"all", "10%"};  ///< In the syntax of parseSeedCount().
   std::string device;
   uint32_t roundCount = 5;
-  uint32_t cgalRunCount = 3;  ///< At most one per round. CGAL is about a hundred times slower.
+  uint32_t cgalRunCount =
+      3;  ///< Number of runs of CGAL, at most one per round. CGAL is about a hundred times slower than asdf-vk.
 };
 
-/// One entry per round. Entry i of every task is from the same round.
+/// One entry per round: entry i of every task is from round i.
 using Seconds = std::vector<double>;
 
 inline const std::string kEmbreeFast = "Embree, fast", kEmbreeRobust = "Embree, robust";
@@ -26,11 +27,12 @@ inline const std::string kEmbreeFast = "Embree, fast", kEmbreeRobust = "Embree, 
 struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;
-  std::map<std::string, Seconds> trace = {};  ///< By tracer; all trace the same rays.
-  /// By backend and task: a recipe in memory, without an error estimate; or the program from file to file.
+  std::map<std::string, Seconds> trace = {};  ///< One element per tracer. All tracers trace the same rays.
+  /// One element per backend and task. A task is a recipe in memory, without an error estimate, or a run of the program
+  /// from file to file.
   std::map<std::pair<std::string, std::string>, Seconds> total = {};
 
-  /// Time of kEmbreeFast divided by that of the tracer. Unset without Embree.
+  /// Time of kEmbreeFast divided by the time of the tracer. Unset without Embree.
   [[nodiscard]] std::optional<Dispersion> speedOverEmbree(const std::string& tracer) const;
 };
 
@@ -38,13 +40,13 @@ struct Comparison {
   std::string mesh;
   uint64_t faceCount = 0;
   uint32_t roundCount = 0;
-  std::map<std::string, std::string> devices = {};  ///< By backend.
+  std::map<std::string, std::string> devices = {};  ///< One element per backend.
   std::vector<SeedComparison> seeds = {};
-  /// The rounds are divided into as many equal parts as CGAL has runs. Each run takes place in the first round of its
-  /// part. Empty without CGAL, or if CGAL rejects the mesh.
+  /// Times of CGAL. The rounds are divided into equal parts, one part per run of CGAL. A run takes place in the first
+  /// round of its part. Empty without CGAL, or if CGAL rejects the mesh.
   Seconds cgal = {};
 
-  /// CGAL's time divided by the given time in the same part of the rounds. Unset without CGAL.
+  /// Time of CGAL divided by the given time; both are from the same part of the rounds. Unset without CGAL.
   [[nodiscard]] std::optional<Dispersion> cgalOver(const Seconds& seconds) const;
 };
 

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Draws the chart of README.md: seconds and errors of CGAL, of a bare loop of Embree, and of asdf-vk.
+"""Draws the chart of README.md: seconds and errors of CGAL, of a loop of Embree that only traces, and of asdf-vk.
 
     scripts/install-packages bench && cmake --preset develop && cmake --build --preset develop
     bench/comparison_chart.py [MESH] [-o CHART.png]
 
 The mesh is a generated animal of 100,000 faces by default. Seconds are medians of asdfvk-bench-compare, which runs all
-programs in turns. CGAL's sdf_values and Embree's rays begin with the mesh in memory; asdf-vk is a process from file to
-file. An error is the average over the faces, divided by the range of the values, against the same definition with 300
-rays per face.
+programs in turns. The times of CGAL's sdf_values and of Embree do not include reading the mesh. The time of asdf-vk is
+the time of the whole process, including reading and writing. An error is the average difference from values with 300
+rays per face (of the same definition), divided by the range of the values.
 """
 import argparse
 import json
@@ -24,7 +24,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SHARES = {"all": "all faces", "10%": "10 % of the faces", "1%": "1 % of the faces"}
-OTHERS, OURS = "#8c8c8c", "#0072B2"  # Okabe and Ito 2008, Color Universal Design.
+OTHERS, OURS = "#8c8c8c", "#0072B2"  # Colours of Okabe and Ito 2008, Color Universal Design.
 
 
 def values(program: pathlib.Path, mesh: str, *options: str) -> np.ndarray:
@@ -46,7 +46,7 @@ def measure(build: pathlib.Path, mesh: str, run_count: int) -> dict:
 
 
 def rows(times: dict, program: pathlib.Path, mesh: str) -> list[tuple[str, float, float, str]]:
-    """Name, seconds, error and colour of each bar."""
+    """Returns name, seconds, error and colour of each bar."""
     by_share = {entry["seeds"]: entry for entry in times["seeds"]}
     if times["cgalSeconds"] is None or "Embree, fast" not in by_share["all"]["tracers"]:
         raise SystemExit("comparison_chart: the build has no CGAL or no Embree; scripts/install-packages bench")
@@ -108,7 +108,7 @@ def main() -> None:
         bars = rows(times, arguments.build / "src/asdf-vk", mesh)
     print(f"{times['processor']}, {times['threads']} threads, load average {times['loadAverage']}")
     for name, seconds, average, _ in bars:
-        print(f"{name}: {seconds:.3g} s, error {average:.2%}, CGAL takes {bars[0][1] / seconds:.3g} times as long")
+        print(f"{name}: {seconds:.3g} s, error {average:.2%}; time of CGAL / this time: {bars[0][1] / seconds:.3g}")
     name = pathlib.Path(arguments.mesh).stem if arguments.mesh else "generated animal"
     busy = ", on a busy machine" if times["loadAverage"] > 2 * times["threads"] else ""
     draw(bars, f"{name}, {times['faceCount']:,} faces, {times['threads']} CPU threads{busy}", arguments.output)

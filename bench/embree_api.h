@@ -1,15 +1,15 @@
 #pragma once
 
-// Embree 3 or 4, the version that CMake found. No other file depends on the version.
+// Includes Embree 3 or 4, whichever CMake found. No other file depends on the version.
 #if ASDFVK_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
 
-/// Ray queries. intersect1() finds the nearest hit of one ray, intersect8() those of eight rays. isActive has eight
-/// numbers: -1 for a ray to trace, else 0. Embree 3 has the flags of a query in a context, Embree 4 in arguments. With
-/// the flag `incoherent`, Embree traverses the hierarchy for each ray separately.
+/// Ray queries. intersect1() finds the nearest hit of one ray. intersect8() finds the nearest hits of eight rays;
+/// isActive has -1 for each ray to trace, else 0. In Embree 3 the flags of a query are in a context, in Embree 4 in
+/// arguments. With the flag `incoherent`, Embree traverses the hierarchy for each ray separately.
 namespace asdfvk {
 
 #if ASDFVK_EMBREE_VERSION >= 4
@@ -63,10 +63,10 @@ inline void occluded1(RTCScene scene, RTCRay& ray) {
 
 #endif
 
-/// Whether anything is between `ray.tnear` and `ray.tfar`.
+/// Whether the ray hits anything between `ray.tnear` and `ray.tfar`.
 [[nodiscard]] inline bool isOccluded(RTCScene scene, RTCRay ray) {
   occluded1(scene, ray);
-  return ray.tfar < 0;  // Minus infinity after a hit.
+  return ray.tfar < 0;  // After a hit, Embree sets tfar to minus infinity.
 }
 
 }  // namespace asdfvk

@@ -1,5 +1,6 @@
-// How many rays per second can the host feed to a device, and where is the time spent? Measures the tracer alone with a
-// device that takes no time, and the whole computation with a kernel that writes lengths instead of tracing.
+// Measures how many rays per second the host can feed to a device, and the time of each step. The first table is for
+// the tracer alone, with a device that takes no time. The second table is for the whole computation, with a kernel that
+// writes lengths instead of tracing rays.
 #include <fmt/format.h>
 #include <volk.h>
 
@@ -61,7 +62,7 @@ class TrafficCounter {
       ++traffic_.waitCount;
       return result;
     };
-    // llvmpipe waits here for the commands of a signalled fence.
+    // llvmpipe waits here for the commands whose fence is signalled.
     vkGetQueryPoolResults = [](VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count, size_t size,
                                void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
       const Stopwatch watch;
@@ -73,7 +74,7 @@ class TrafficCounter {
                         VkBuffer* buffer) {
       const VkResult result = create_(device, info, callbacks, buffer);
       constexpr VkBufferUsageFlags kCopies = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-      if (result == VK_SUCCESS && (info->usage & ~kCopies) == 0) ofHost_.insert(*buffer);  // No kernel uses it.
+      if (result == VK_SUCCESS && (info->usage & ~kCopies) == 0) ofHost_.insert(*buffer);  // No kernel uses this value.
       return result;
     };
     vkDestroyBuffer = [](VkDevice device, VkBuffer buffer, const VkAllocationCallbacks* callbacks) {
@@ -110,7 +111,8 @@ class TrafficCounter {
   static inline std::set<VkBuffer> ofHost_;
 };
 
-/// For each stage, the time for which the host waits for the device. A wait after a stage counts for this stage.
+/// For each stage, the time for which the host waits for the device. A wait after the end of a stage is added to this
+/// stage.
 class StageWaits {
  public:
   void begin(Stage stage) {
@@ -156,7 +158,7 @@ class IdleDevice {
   static inline PFN_vkQueueSubmit submit_ = nullptr;
   static inline PFN_vkAllocateMemory allocate_ = nullptr;
   static inline PFN_vkMapMemory map_ = nullptr;
-  static inline uint64_t byteCount_ = 0;  // Size of the last allocation.
+  static inline uint64_t byteCount_ = 0;  // Size of the last allocation, in bytes.
 };
 
 /// During its lifetime, kernels are compiled from constant_lengths.comp instead of trace_rays.comp.
@@ -325,7 +327,7 @@ int main(int argc, char** argv) {
   program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
   program.add("--rounds", arguments.roundCount, "Rounds, after one for warm-up", {1, 1000});
   program.add("--seeds", arguments.percents, "Shares of the faces that cast rays, in percent", {1, 100});
-  program.add("--solver", arguments.solver, "Solver; the device also predicts with one of a device");
+  program.add("--solver", arguments.solver, "Solver; with a solver of the device, the device also predicts");
   program.add("--device", arguments.device, "Vulkan device: index or part of its name");
   return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

@@ -3,10 +3,10 @@
 
     PYTHONPATH=build/develop/python bench/meshparty_speed.py [--generate build/develop/src/asdf-vk-generate] [--points 400]
 
-The ten generated meshes have about 4,000 faces and are 200 units large. The values of the definition are those of
-python/tests/meshparty_oracle.py, a loop over vertices with rays against all triangles. MeshParty leaves its rays to
-Embree, so that the time without rays is printed too. MeshParty draws no random numbers. As its noise, the program
-prints the difference of the oracle between the mesh and a copy with vertices in float32, in which Embree computes.
+The ten generated meshes have about 4,000 faces and a size of 200 units. python/tests/meshparty_oracle.py (the oracle)
+computes the definition: a loop over vertices that tests each ray against all triangles. MeshParty itself traces rays
+with Embree. Therefore the program also prints the time of the oracle without tracing. The column "noise" has
+differences of the oracle between the mesh and a copy with vertices in float32, because Embree computes in float32.
 Needs python3-numpy.
 """
 
@@ -40,7 +40,7 @@ def mesh_of(generate: str, shape: str, face_count: int) -> tuple[np.ndarray, np.
 
 
 def differences(values: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Relative differences; infinite if only one of both has a value."""
+    """Returns relative differences. A difference is infinite if only one of the two values exists."""
     both = np.abs(values / others - 1)
     both[np.isnan(values) & np.isnan(others)] = 0
     return np.nan_to_num(both, nan=np.inf)
@@ -50,7 +50,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--generate", default=str(ROOT / "build/develop/src/asdf-vk-generate"))
     parser.add_argument("--faces", type=int, default=4000)
-    parser.add_argument("--points", type=int, default=400, help="vertices of each mesh")
+    parser.add_argument("--points", type=int, default=400, help="number of computed vertices per mesh")
     given = parser.parse_args()
     session = asdf_vk.Session(backend="cpu", threads=1)
     print("mesh       faces  NaN  | median and greatest difference: ours     | of the noise          |"

@@ -3,8 +3,9 @@
 
     bench/page.py PAGE.html... [--seconds 4] [--screenshot FILE.png [--state KEY=VALUE&...]]
 
-First frame: seconds from the address to the first frame. Frames per second: during rotation by an arrow key.
---screenshot writes a picture of the first page instead; --state is the part of its address after #.
+"First frame" is the time in seconds from opening the page to its first frame. "Frames per second" is measured while an
+arrow key turns the mesh. With --screenshot, the program only writes a picture of the first page; --state is the part of
+the address after #.
 """
 
 import argparse

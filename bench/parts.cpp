@@ -1,5 +1,5 @@
-// Prints the Rand index error of --segment parts against the human segmentations of the Princeton Segmentation
-// Benchmark (Chen, Golovinskiy and Funkhouser 2009), and the time.
+// Prints the time of --segment parts, and its Rand index error against the human segmentations of the Princeton
+// Segmentation Benchmark (Chen, Golovinskiy and Funkhouser 2009).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace asdfvk;
 using namespace asdfvk::bench;
 namespace fs = std::filesystem;
 
-/// Category of the models 1 to 20, 21 to 40, and so on. There is no category for 261 to 280.
+/// Category names of the models 1 to 20, 21 to 40, and so on. The models 261 to 280 have no category.
 constexpr std::array kCategories{"Human",     "Cup",   "Glasses", "Airplane", "Ant",  "Chair",  "Octopus",
                                  "Table",     "Teddy", "Hand",    "Plier",    "Fish", "Bird",   "(none)",
                                  "Armadillo", "Bust",  "Mech",    "Bearing",  "Vase", "FourLeg"};
@@ -33,7 +33,7 @@ struct Arguments {
   bool listsModels = false;
 };
 
-/// The file has one number per line and face.
+/// Reads a file with one line per face; each line is a number.
 std::vector<uint32_t> readLabels(const fs::path& path) {
   std::ifstream file(path);
   std::vector<uint32_t> labels;
@@ -88,7 +88,7 @@ Score scoreOf(Session& session, const Model& model, const std::string& seeds, co
   return score;
 }
 
-/// Mean error of a human segmentation against each other one; 0 if there is only one.
+/// Mean error of a human segmentation against each other human segmentation; 0 if there is only one segmentation.
 double errorOfPeople(const Model& model) {
   double sum = 0, count = 0;
   for (size_t i = 0; i < model.humans.size(); ++i)
@@ -118,7 +118,7 @@ void printModel(uint32_t id, const std::string& seeds, const Score& score) {
 void run(const Arguments& arguments, const RunControl& control) {
   Session session(sessionOptionsOf(arguments.backend, arguments.device));
   const size_t columnCount = arguments.seeds.size();
-  std::map<uint32_t, std::vector<Mean>> errors;  // Errors by category.
+  std::map<uint32_t, std::vector<Mean>> errors;  // Errors of each category.
   std::vector<Mean> all(columnCount + 1), counts(columnCount), seconds(columnCount);
   for (const uint32_t id : idsIn(arguments.folder)) {
     control.checkpoint(0);

@@ -17,17 +17,18 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-# Table 1 of the ASDF paper, for its horse. Percent: (average error, maximum error), divided by the range of the values.
+# Table 1 of the ASDF paper, for the paper's horse. Keys: percent of the faces. Values: average error and maximum error,
+# divided by the range of the values.
 PRINTED = {50: (.0099, .4022), 20: (.0198, .5054), 10: (.0272, .5292), 5: (.0374, .5538), 2: (.0575, .5374),
            1: (.0695, .5813)}
-# Section 5 of the paper: the horse takes 60 s with all faces and slightly more than 6 s with 10 % of them.
+# Section 5 of the paper: the horse takes 60 s with all faces, and slightly more than 6 s with 10 % of the faces.
 PRINTED_TIME_RATIO = 0.1
 
-# Okabe and Ito 2008, Color Universal Design.
+# Colours of Okabe and Ito 2008, Color Universal Design.
 COLOURS = {"paper": "#D55E00", "balanced": "#0072B2", "quality": "#009E73"}
 SEQUENCE = ["#0072B2", "#D55E00", "#009E73", "#B4548C", "#E69F00", "#56B4E9", "#222222"]
 MARKERS = "osD^v"
-# Figure 5 of the paper: bars per mesh in these colours.
+# Colours of the bars in Figure 5 of the paper.
 SHARE_COLOURS = {10: "#009E73", 20: "#D55E00", 50: "#0072B2"}
 
 CAPTIONS = {
@@ -59,19 +60,19 @@ TEXT_COLUMNS = {"name", "value", "mesh", "recipe", "sampler", "file", "caption"}
 
 
 def read(folder, name):
-    """The rows as dictionaries; NaN for an empty cell of a column of numbers."""
+    """Returns the rows as dictionaries. An empty cell in a column of numbers becomes NaN."""
     with open(folder / name, newline="", encoding="utf-8") as file:
         return [{key: value if key in TEXT_COLUMNS else float(value or "nan") for key, value in row.items()}
                 for row in csv.DictReader(file)]
 
 
 def percentages(rows, column, below=101):
-    """The points (percent, value) of rows with fewer than `below` percent of the faces."""
+    """Returns the points (percent, value) of rows with a share of seeds below `below` percent."""
     return [(row["percent"], row[column]) for row in rows if row["percent"] < below]
 
 
 def recipe_series(rows, column, below=101):
-    """A series per recipe, as save_plot() expects it."""
+    """Returns one series per recipe, in the form that save_plot() expects."""
     return [(recipe, percentages(select(rows, recipe=recipe), column, below), {"color": colour, "marker": marker})
             for (recipe, colour), marker in zip(COLOURS.items(), MARKERS)]
 
@@ -107,7 +108,7 @@ def save_plot(folder, name, title, labels, series, scale="log", limits=None, cat
 
 
 def table_plots(folder, rows, mesh, has_printed):
-    """Table 1 of a mesh as curves: against the full function and against the truth."""
+    """Plots Table 1 of a mesh as curves: errors against the full function, and errors against the truth."""
     labels = ("faces that cast rays, %", "average error / range")
     series = recipe_series(rows, "average_error", 100)
     if has_printed:
@@ -121,7 +122,7 @@ def table_plots(folder, rows, mesh, has_printed):
 
 
 def error_plots(folder, rows, meshes):
-    """Figure 5: average error by share of the faces, and by mesh as in the paper."""
+    """Plots Figure 5: the average error by share of seeds, and by mesh as in the paper."""
     label = "average error / range"
     errors = [row["average_error"] for row in rows if row["percent"] < 100 and row["average_error"] > 0]
     limits = (min(errors) / 1.2, max(errors) * 1.2)
@@ -145,7 +146,7 @@ def error_plots(folder, rows, meshes):
 
 
 def time_plots(folder, rows, mesh):
-    """Figure 6: seconds by number of seeds, and seconds divided by the time of the full trace."""
+    """Plots Figure 6: seconds by number of seeds, and seconds divided by the seconds of the full trace."""
     stages = ("sample_seconds", "trace_seconds", "predict_seconds", "solve_seconds")
     series = [(recipe, [(row["seeds"], sum(row[stage] for stage in stages)) for row in select(rows, recipe=recipe)],
                {"color": colour, "marker": marker}) for (recipe, colour), marker in zip(COLOURS.items(), MARKERS)]
@@ -153,12 +154,12 @@ def time_plots(folder, rows, mesh):
                         ("faces that cast rays", "seconds"), series, scale="linear")
     series = recipe_series(rows, "time_ratio")
     series.append(("proportional", [(1, .01), (100, 1)], {"color": "#222222", "linestyle": "--"}))
-    return [seconds, save_plot(folder, f"figure6-{mesh}-ratio", f"{mesh}, time over the full trace",
+    return [seconds, save_plot(folder, f"figure6-{mesh}-ratio", f"{mesh}, time / time of the full trace",
                                ("faces that cast rays, %", "time ratio"), series)]
 
 
 def error_table(rows, has_printed):
-    """Table 1 of a mesh: heads and cells."""
+    """Returns the heads and the cells of Table 1 for a mesh."""
     heads, lines = ["faces"], []
     for error in ("average error", "maximum error", "average error against the truth"):
         heads += [f"{error}: {recipe}" for recipe in COLOURS]
@@ -176,7 +177,7 @@ def error_table(rows, has_printed):
 
 
 def summary_table(rows, meshes):
-    """Average errors of every mesh at 10 % of the faces, and their geometric mean."""
+    """Returns a table with the average errors of every mesh with 10 % seeds, and the geometric means."""
     heads, lines, ratios = ["mesh"], [], []
     for against in ("full function", "truth"):
         heads += [f"against the {against}: {recipe}" for recipe in COLOURS]

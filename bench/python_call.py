@@ -1,8 +1,8 @@
-"""Compares asdf_vk.shape_diameter() on arrays with Session::compute(), in turns.
+"""Compares the times of asdf_vk.shape_diameter() on arrays and of Session::compute(), in turns.
 
     PYTHONPATH=build/develop/python /usr/bin/python3 bench/python_call.py build/develop/bench/asdfvk-bench-call MESH
 
-Prints the medians of the seconds, and the median of their ratios.
+Prints the median seconds of both, and the median of the ratios Python / C++.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ MOMENTS = 12
 
 
 def delay(call: Callable[[], Any], after: float) -> float | None:
-    """Seconds from the signal to the exception; None if the call ended before the signal."""
+    """Returns the seconds from the signal to the exception, or None if the call ended before the signal."""
     sent = 0.0
 
     def send() -> None:
@@ -36,7 +36,7 @@ def delay(call: Callable[[], Any], after: float) -> float | None:
         call()
         timer.cancel()
         timer.join()
-        time.sleep(0.01)  # A signal that was sent at the end of the call arrives here.
+        time.sleep(0.01)  # A signal that was sent just before the end of the call is received here.
     except KeyboardInterrupt:
         return time.perf_counter() - sent
     return None

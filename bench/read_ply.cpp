@@ -1,4 +1,4 @@
-// How fast is the reader of binary PLY compared with OpenMesh's? Both read into plain arrays, in turns.
+// Compares the speed of the binary PLY readers of asdf-vk and of OpenMesh. Both read into plain arrays, in turns.
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -133,7 +133,7 @@ void compare(const std::filesystem::path& path, uint32_t roundCount, const RunCo
       throw std::runtime_error(path.string() + ": OpenMesh reads a different mesh");
     vertexCount = mesh.vertices.size(), faceCount = mesh.faces.size();
     control.checkpoint(0);
-    if (round == 0) continue;  // Warm-up.
+    if (round == 0) continue;  // The first round is a warm-up.
     seconds.push_back(ours);
     openMeshSeconds.push_back(theirs);
   }
@@ -147,7 +147,7 @@ void compare(const std::filesystem::path& path, uint32_t roundCount, const RunCo
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("asdfvk-bench-read-ply", "Times our reader of binary PLY and OpenMesh's, in turns.");
+  Program program("asdfvk-bench-read-ply", "Times the binary PLY readers of asdf-vk and of OpenMesh, in turns.");
   std::vector<std::string> meshes;
   uint32_t faceCount = 6'000'000, roundCount = 7;
   program.addOptionalMeshes(meshes, "a generated height field");

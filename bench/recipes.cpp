@@ -1,6 +1,6 @@
-// How accurate are the recipes over many meshes? Prints errors against the full function and against a function of many
-// rays, the estimated error divided by the actual error, and the cost. The recipes were tuned on the meshes at odd
-// places of the list (sorted by name, models/ before psb/off). The summary therefore separates odd and even places.
+// Measures the accuracy of the recipes over many meshes. Prints errors against the full function and against values
+// from many rays, the estimated error divided by the actual error, and the cost. The recipes were tuned on meshes at
+// odd places of the list (sorted by name, models/ before psb/off). Therefore the summary separates odd and even places.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,10 +27,11 @@ struct NamedRatio {
   const char* name;
   double EstimateRatios::*ratio;
 };
-constexpr std::array<NamedRatio, 4> kEstimateRatios{{{"average", &EstimateRatios::average},
-                                                     {"robust average", &EstimateRatios::robustAverage},
-                                                     {"median of the relative error", &EstimateRatios::relativeMedian},
-                                                     {"90th percentile of it", &EstimateRatios::relativePercentile90}}};
+constexpr std::array<NamedRatio, 4> kEstimateRatios{
+    {{"average", &EstimateRatios::average},
+     {"robust average", &EstimateRatios::robustAverage},
+     {"median of the relative error", &EstimateRatios::relativeMedian},
+     {"90th percentile of the relative error", &EstimateRatios::relativePercentile90}}};
 
 EstimateRatios ratiosOf(const ErrorEstimate& estimate, const FieldErrors& actual) {
   const auto over = [](double a, double b) { return a == b ? 1 : a / b; };
@@ -39,21 +40,23 @@ EstimateRatios ratiosOf(const ErrorEstimate& estimate, const FieldErrors& actual
           over(estimate.relativePercentile90, actual.relativePercentile90)};
 }
 
-/// Average errors, divided by the range of the reference. Full function: 30 rays at every face, fixed cones. Truth:
-/// many rays at every face, hashed cones. Floor: error of the full function against the truth.
+/// Average errors, divided by the range of the values that are compared with. The full function is the values from 30
+/// rays at every face with fixed cones. The truth is the values from many rays at every face with hashed cones. The
+/// floor is the error of the full function against the truth.
 struct MeshRow {
   std::string name;
   uint64_t faceCount = 0;
   double paper = 0, balanced = 0, quality = 0;  ///< At 10 %, against the full function.
   double balancedTruth = 0, qualityTruth = 0;   ///< At 10 %, against the truth, divided by the floor.
   double qualityTruthAt40 = 0;                  ///< At 40 %, against the truth, divided by the floor.
-  std::array<EstimateRatios, kEstimatedPercents.size()> estimates;  ///< Recipe balanced.
+  std::array<EstimateRatios, kEstimatedPercents.size()> estimates;  ///< For the recipe balanced.
   double boundedError = 0;                                          ///< Balanced with --max-error 1%: actual error.
   double boundedShare = 0;          ///< Balanced with --max-error 1%: seeds divided by faces.
   double boundedRelativeError = 0;  ///< Balanced with --max-error 5%rel: median relative error.
   double boundedRelativeShare = 0;  ///< Balanced with --max-error 5%rel: seeds divided by faces.
   double iterations = 0;            ///< Solver iterations at 10 %: balanced divided by paper.
-  double overTrace = 0;             ///< Balanced at 10 %: time of sample, predict and solve, divided by that of trace.
+  double overTrace =
+      0;  ///< Balanced at 10 %: time of the stages sample, predict and solve, divided by the time of the stage trace.
 };
 
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,
@@ -68,7 +71,7 @@ MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCoun
   const Result full = compute(recipeOptions(Recipe::Paper, 100));
   row.faceCount = full.report.faceCount;
   const auto errors = [&](const Result& result) { return errorsOverRange(full.sdf(), result.sdf()); };
-  Result balanced;  // Result at 10 %.
+  Result balanced;  // The result with 10 % seeds.
   for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
     Result result = compute(recipeOptions(Recipe::Balanced, kEstimatedPercents[i]));
     if (result.report.estimatedError) row.estimates[i] = ratiosOf(*result.report.estimatedError, errors(result));
@@ -234,7 +237,8 @@ int main(int argc, char** argv) {
   program.add("--backend", backend, "vulkan, cpu or reference");
   program.add("--device", device, "Vulkan device: index or part of its name");
   program.add("--truth-rays", truthRayCount, "Rays per face of the truth", {31, kMaxRayCount});
-  program.add("--only-estimates", onlyEstimates, "Only the error estimates of balanced: a tenth of the time");
+  program.add("--only-estimates", onlyEstimates,
+              "Only the error estimates of the recipe balanced; takes a tenth of the time");
   return program.run(argc, argv, [&](const RunControl& control) {
     Session session(sessionOptionsOf(backend, device));
     std::vector<MeshRow> rows, odd, even;

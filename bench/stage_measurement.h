@@ -16,20 +16,21 @@ namespace asdfvk::bench {
 
 struct StageRequest {
   std::vector<std::string> seeds;     ///< In the syntax of parseSeedCount().
-  std::vector<std::string> backends;  ///< Names for sessionOptionsOf().
+  std::vector<std::string> backends;  ///< Names of backends for sessionOptionsOf().
   std::string device;
   uint32_t runCount = 5;
 };
 
-/// The runs of one backend with one choice of seeds. Run i of every row was made in the same round.
+/// The runs of one backend with one choice of seeds. Run i of every row is from round i.
 struct StageRow {
   std::string seeds, backend;
   bool runsOnCpu = false;
   std::vector<FileRun> runs = {};
-  std::vector<ProcessUsage> processes = {};  ///< asdf-vk from file to file, including opening the device.
+  std::vector<ProcessUsage> processes =
+      {};  ///< Time of the process asdf-vk, including opening the device, reading and writing.
 
   [[nodiscard]] Dispersion seconds(Stage stage) const;
-  [[nodiscard]] Dispersion share(Stage stage) const;  ///< Share of the total.
+  [[nodiscard]] Dispersion share(Stage stage) const;  ///< Time of the stage / total time.
   [[nodiscard]] Dispersion total() const;
   [[nodiscard]] Dispersion raysPerSecond() const;
   [[nodiscard]] Dispersion process(double ProcessUsage::*quantity) const;
@@ -37,21 +38,23 @@ struct StageRow {
 
 enum class TimeSpan {
   Interpolation,  ///< The stages sample, trace, predict and solve.
-  Total,          ///< From file to file.
+  Total,          ///< The whole computation, including reading and writing.
 };
 
 struct StageMeasurement {
   std::string mesh;
   std::vector<StageRow> rows = {};
 
-  /// Time of the reference divided by that of `row`, by round. Unset for other backends and without a reference.
+  /// Time of the backend reference divided by the time of `row`, per round. Unset for other backends, and without runs
+  /// of the backend reference.
   [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
 
-  /// Time of the process of all faces divided by that of `row` by the same backend, by round: CPU seconds on a CPU,
-  /// elapsed seconds on other devices. Unset without a row of all faces.
+  /// Process time with all faces as seeds, divided by the process time of `row` on the same backend, per round. CPU
+  /// seconds on a CPU, elapsed seconds on other devices. Unset without a row for all faces.
   [[nodiscard]] std::optional<Dispersion> speedUp(const StageRow& row) const;
 
-  /// TimeSpan::Interpolation divided by the trace time of all faces by that backend. Unset without a row of all faces.
+  /// TimeSpan::Interpolation divided by the time to trace all faces on the same backend. Unset without a row for all
+  /// faces.
   [[nodiscard]] std::optional<Dispersion> overFullTrace(const StageRow& row) const;
 
  private:
@@ -63,13 +66,13 @@ class StageBench {
   /// Throws Error{Usage} for an invalid request.
   explicit StageBench(StageRequest request);
 
-  /// Each round runs every row once. A first round for warm-up is not counted.
+  /// Each round runs every row once. The first round is a warm-up and is not counted.
   [[nodiscard]] StageMeasurement measure(const std::string& name, const std::filesystem::path& mesh,
                                          const RunControl& control);
 
  private:
   StageRequest request_;
-  std::map<std::string, std::unique_ptr<Session>> sessions_;  ///< By backend.
+  std::map<std::string, std::unique_ptr<Session>> sessions_;  ///< One element per backend.
 };
 
 }  // namespace asdfvk::bench

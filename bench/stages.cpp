@@ -1,4 +1,5 @@
-// How is the time of a computation from file to file distributed over its stages? Runs backends and shares in turns.
+// Prints the time of each stage of a computation, including reading and writing. Runs backends and shares of seeds in
+// turns.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -65,7 +66,7 @@ std::string ratiosText(const StageMeasurement& measurement) {
   return text.empty() ? text : "\n" + text;
 }
 
-/// The first line: time saved by the interpolation.
+/// The first line of the output: how many times faster the computation is with interpolation.
 std::string speedUpsText(const StageMeasurement& measurement) {
   std::string text;
   for (const StageRow& row : measurement.rows)

@@ -1,5 +1,6 @@
-// Is the wall thickness right, and how long does the check of all faces take? Compares the backends with brute force
-// over all pairs of triangles in double, parts with their known least thickness, and times with the shape diameter.
+// Measures accuracy and time of the wall thickness. Compares the values of the backends with brute force over all pairs
+// of triangles in double. Compares the least thickness of generated parts with the known thickness. Compares times with
+// the times of the shape diameter.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -47,7 +48,8 @@ Options checkOptions(double limit, bool allowsSharpEdges = false) {
   return options;
 }
 
-/// Both fields at some faces by brute force, and the GreatestSection of the solid of each face, which limits them.
+/// The fields thickness and least_thickness at some faces, by brute force. The values are limited to the
+/// GreatestSection of the solid of each face.
 struct Truth {
   struct Section {
     double diameter, bound;  // As in GreatestSection.
@@ -81,7 +83,7 @@ struct Truth {
     });
   }
 
-  /// Difference divided by the diagonal; infinite if only one of both has a value.
+  /// Difference divided by the diagonal; infinite if only one of the two values exists.
   [[nodiscard]] double difference(size_t field, size_t i, double found) const {
     const double expected = values[field][i];
     double least = kUnlimited;
@@ -123,7 +125,7 @@ void printAgreement(const NamedMesh& named, Session& session, const Truth& truth
   }
 }
 
-/// CPU seconds from the mesh in memory to the result, alternating, after a warm-up.
+/// CPU seconds of computations in memory, without reading and writing. The computations alternate, after a warm-up.
 void printTimes(const NamedMesh& named, Session& session, uint32_t runs, const RunControl& control) {
   Options diameterOptions;
   diameterOptions.seeds = SeedCount::all();
@@ -145,7 +147,7 @@ void printTimes(const NamedMesh& named, Session& session, uint32_t runs, const R
                           toText(ratioOf(thickness, diameter), 2)));
 }
 
-/// Least thickness and verdict of each part, coarse and refined.
+/// Prints least thickness and verdict of each part, with few faces and with divided edges.
 void printParts(Session& session, double longestEdge, const RunControl& control) {
   writeOutput(
       fmt::format("| part | faces | known | {} | relative difference | verdict at {} | sharp edges allowed |\n"
@@ -185,9 +187,10 @@ int main(int argc, char** argv) {
   program.addOptionalMeshes(arguments.meshes, "none");
   program.add("--backends", arguments.backends, "Backends");
   program.add("--runs", arguments.runs, "Runs per measurement of time; 0: none");
-  program.add("--faces", arguments.faces, "Least number of faces per mesh that brute force judges; 0: none",
+  program.add("--faces", arguments.faces,
+              "Number of faces per mesh that are compared with brute force, at least; 0: none",
               Range<uint32_t>{0, 100000});
-  program.add("--parts", arguments.parts, "Parts of known least thickness, coarse and refined");
+  program.add("--parts", arguments.parts, "Generated parts with known least thickness, coarse and refined");
   program.add("--edge", arguments.longestEdge, "Longest edge of the refined parts", Range<double>{0.05, 100});
   return program.run(argc, argv, [&](const RunControl& control) {
     writeProgress(toText(thisMachine()));
@@ -197,7 +200,7 @@ int main(int argc, char** argv) {
     std::vector<NamedMesh> meshes;
     for (const std::string& path : arguments.meshes) {
       meshes.push_back({std::filesystem::path(path).stem().string(), readMesh(path)});
-      meshes.back().mesh.polygons = {};  // Values are compared by triangle.
+      meshes.back().mesh.polygons = {};  // Values are compared per triangle.
     }
     if (arguments.parts)
       for (const auto& session : sessions) printParts(*session, arguments.longestEdge, control);

@@ -5,7 +5,7 @@ import numpy as np
 
 
 def bumpy_sphere(face_count, rng):
-    """A closed mesh of about `face_count` faces: vertices (n, 3), faces (m, 3)."""
+    """Returns a closed mesh of about `face_count` faces: vertices (n, 3), faces (m, 3)."""
     rings = max(4, round((face_count / 4) ** 0.5))
     columns = 2 * rings
     theta = np.linspace(0, np.pi, rings + 1)[1:-1]
@@ -47,7 +47,7 @@ def off(vertices, faces):
 
 
 def broken(kind, vertices, faces):
-    """Bytes and extension of a mesh that is broken in the kind-th way and cannot be read."""
+    """Returns bytes and file extension of a mesh that cannot be read. `kind` selects one of several defects."""
     good_ply, good_off = ply(vertices, faces), off(vertices, faces)
     share = 0.02 + 0.96 * (kind // 10) / 10
     lines = good_off.split(b"\n")
@@ -68,7 +68,7 @@ def broken(kind, vertices, faces):
 
 
 def write_meshes(folder, count, hangs=False, grows=False):
-    """Writes `count` meshes in folders of 100; returns the paths of the broken ones."""
+    """Writes `count` meshes, 100 per folder. Returns the paths of the broken meshes."""
     rng = np.random.default_rng(1)
     failing = []
     for i in range(count):

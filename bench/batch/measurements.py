@@ -23,7 +23,7 @@ def threads(options, work):
             seconds[name].append(taken)
             check(same_results(work / "default0", out), f"{name}: {taken:.2f} s, {len(results(out))} results, {load()}")
     ratio = statistics.median(seconds["--threads 1"]) / statistics.median(seconds["default"])
-    print(f"--threads 1 over the default: {ratio:.2f} (medians of {options.runs} runs)")
+    print(f"time of --threads 1 / time of the default: {ratio:.2f} (medians of {options.runs} runs)")
 
 
 def cgal(options, work):
@@ -40,7 +40,7 @@ def cgal(options, work):
     of_cgal = sum(float(row[-2].split(",")[0]) for row in rows)
     print(f"CGAL: {of_cgal:.1f} s of CPU time for {len(rows)} meshes, {load()}")
     check(len(rows) == len(meshes), f"{len(meshes)} meshes")
-    print(f"CGAL over asdf-vk, median of {options.runs} runs: {of_cgal / statistics.median(seconds):.1f}")
+    print(f"CPU time of CGAL / asdf-vk, median of {options.runs} runs: {of_cgal / statistics.median(seconds):.1f}")
 
 
 def many(options, work):
@@ -62,19 +62,19 @@ def many(options, work):
     failed = {r["input"] for r in found.values() if r["status"] == "failed"}
     check(process.returncode == 7, f"exit code {process.returncode}")
     check(len(found) == options.count, f"{len(found)} records of {options.count} meshes")
-    check(failed == set(failing), f"{len(failed)} failed, {len(failing)} are broken; "
-          f"not expected: {sorted(failed - set(failing))[:3]}, missing: {sorted(set(failing) - failed)[:3]}")
+    check(failed == set(failing), f"{len(failed)} meshes failed, {len(failing)} should fail; "
+          f"failed unexpectedly: {sorted(failed - set(failing))[:3]}, not failed: {sorted(set(failing) - failed)[:3]}")
     check(all(r["code"] and r["message"] for r in found.values() if r["status"] == "failed"), "each failure has a code and a message")
     check(len(results(out)) == options.count - len(failing), f"{len(results(out))} results")
     print("failures by code:", dict(collections.Counter(f'{r["code"]} {r["error"]}' for r in found.values() if r["code"])))
     print("different messages:", len({r["message"] for r in found.values() if r["code"]}))
     quarters = [[m for t, m in samples if q <= 4 * t / seconds < q + 1] for q in range(4)]
     medians = [statistics.median(q) / 1e6 if q else float("nan") for q in quarters]
-    print("median memory by quarter of the time, MB:", [f"{m:.0f}" for m in medians],
+    print("median memory in each quarter of the time, MB:", [f"{m:.0f}" for m in medians],
           "highest:", round(max(m for _, m in samples) / 1e6))
-    check(medians[3] <= 1.1 * medians[1], f"memory of the last quarter is {medians[3] / medians[1]:.3f} of that of the second")
+    check(medians[3] <= 1.1 * medians[1], f"memory in the last / in the second quarter: {medians[3] / medians[1]:.3f}")
     progress = [l for l in errors.splitlines() if " left" in l]
-    check(bool(progress), f"rate printed: {progress[-1] if progress else ''}")
+    check(bool(progress), f"last progress line: {progress[-1] if progress else ''}")
     print(errors.splitlines()[-1], f"({load()})")
 
 
@@ -103,7 +103,7 @@ def kill(options, work):
             bad += 1
             print(f"moment {moment}: {len(results(out))} results of {len(whole)}, {len(complete)} records", flush=True)
     check(bad == 0, f"{options.moments} kills, with {min(done_before)} to {max(done_before)} of {len(whole)} results "
-          f"before them, {late} of them after the end: {bad} differ from the run without a kill ({load()})")
+          f"at the kill; {late} kills after the end. {bad} outputs differ from a run without a kill ({load()})")
 
 
 def shards(options, work):
@@ -116,7 +116,8 @@ def shards(options, work):
         run(program, *common, "-o", work / "parts", "--log", logs[-1], "--shard", f"{i}/{options.shards}")
     inputs = [r["input"] for log in logs for r in records(log)]
     check(len(inputs) == len(set(inputs)), f"{len(inputs)} records, each mesh once")
-    check(same_results(work / "whole", work / "parts"), f"the union of {options.shards} shards has the bytes of the whole")
+    check(same_results(work / "whole", work / "parts"),
+          f"the results of {options.shards} shards have the same bytes as those of one run")
     for name, cost in (("bytes", lambda r: os.path.getsize(r["input"])), ("faces", lambda r: r["faceCount"]),
                        ("seconds", lambda r: r["totalSeconds"])):
         shares = [sum(map(cost, records(log))) for log in logs]

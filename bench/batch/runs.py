@@ -42,7 +42,7 @@ check.failed = False
 
 
 def memory_of_tree(process):
-    """Resident bytes of a process and of its children."""
+    """Returns the resident memory of a process and its children, in bytes."""
     total = 0
     try:
         children = pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()

@@ -18,7 +18,7 @@
 namespace asdfvk::bench {
 namespace {
 
-/// The stem of the path, with "_" for each character that is not allowed in NamedMesh::name.
+/// The stem of the path. Characters that are not allowed in NamedMesh::name are replaced by "_".
 std::string plainStem(const std::string& path) {
   std::string stem = std::filesystem::path(path).stem().string();
   std::replace_if(
@@ -31,7 +31,7 @@ std::string plainStem(const std::string& path) {
   return stem;
 }
 
-/// Medians over the seed sets, and the range of the average error.
+/// Medians over the seed sets; for the average error also its least and greatest value.
 ShareResult summaryOf(const std::vector<ShareResult>& samples) {
   ShareResult result = samples.front();
   const auto [least, greatest] =
@@ -106,7 +106,7 @@ Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& 
   Evaluation evaluation{.name = mesh.name, .full = compute(fullOptions), .recipes = {}};
   mesh.scene = evaluation.full.scene;
   if (!(evaluation.range() > 0))
-    throw std::runtime_error(mesh.name + ": all values are equal; errors over their range are undefined");
+    throw std::runtime_error(mesh.name + ": all values are equal, so errors divided by their range are undefined");
   writeProgress(fmt::format("{}: {} rays at each of {} faces", mesh.name, options.truthRayCount,
                             evaluation.full.report.faceCount));
   const Result truth = compute(truthOptions(options.truthRayCount));
@@ -115,7 +115,7 @@ Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& 
   std::vector<double> fullTraceSeconds;
   for (uint32_t round = 1; round <= options.seedSetCount; ++round) {
     writeProgress(fmt::format("{}: seed set {} of {}", mesh.name, round, options.seedSetCount));
-    static_assert(kPercents[0] == 100 && kRecipes[0].second == Recipe::Paper);  // The full trace comes first.
+    static_assert(kPercents[0] == 100 && kRecipes[0].second == Recipe::Paper);  // The first entry is the full trace.
     for (size_t i = 0; i < kPercents.size(); ++i)
       for (size_t j = 0; j < kRecipes.size(); ++j) {
         const Result result = compute(recipeOptions(kRecipes[j].second, kPercents[i], round));

@@ -17,45 +17,48 @@ namespace asdfvk::bench {
 inline constexpr std::array<double, 7> kPercents{100, 50, 20, 10, 5, 2, 1};
 
 struct NamedMesh {
-  std::string name;  ///< Unique; letters, digits, "-", "_" and "." only, because file names contain it.
+  std::string name;  ///< Unique. Only letters, digits, "-", "_" and ".", because file names contain the name.
   Mesh mesh;
-  View view = {};                               ///< View of the pictures.
-  std::shared_ptr<const SceneData> scene = {};  ///< For the pictures; set by evaluate().
+  View view = {};                               ///< Direction of the view in pictures.
+  std::shared_ptr<const SceneData> scene = {};  ///< Scene for the pictures; set by evaluate().
 };
 
-/// Reads the meshes and names them by their files. Throws Error{Input}.
+/// Reads the meshes. The name of a mesh is made from the name of its file. Throws Error{Input}.
 [[nodiscard]] std::vector<NamedMesh> readMeshes(const std::vector<std::string>& paths);
 
 [[nodiscard]] std::vector<NamedMesh> generateMeshes(uint64_t faceCount);
 
 struct EvaluationOptions {
-  uint32_t seedSetCount = 3;     ///< Random seed sets. By default, numbers are medians over the sets.
-  uint32_t truthRayCount = 600;  ///< Rays per face of the truth.
+  uint32_t seedSetCount =
+      3;  ///< Number of random seed sets. Unless a comment states otherwise, figures are medians over the sets.
+  uint32_t truthRayCount = 600;  ///< Rays per face for the truth (see evaluate()).
 };
 
-/// A recipe at one share of the faces. Errors are over all faces, divided by the range of the full function.
+/// Results of a recipe with one share of seeds. Errors are errors of all faces, divided by the range of the full
+/// function.
 struct ShareResult {
   double percent = 0;
   uint64_t seedCount = 0;
-  double averageError = 0, maximumError = 0;               ///< Against the full function.
-  double leastAverageError = 0, greatestAverageError = 0;  ///< The range of averageError over the seed sets.
-  double truthAverageError = 0, truthMaximumError = 0;     ///< Against the truth.
-  double estimatedError = kNoValue;  ///< Estimate of averageError in the result; NaN if there is none.
+  double averageError = 0, maximumError = 0;               ///< Differences from the full function.
+  double leastAverageError = 0, greatestAverageError = 0;  ///< Least and greatest averageError over the seed sets.
+  double truthAverageError = 0, truthMaximumError = 0;     ///< Differences from the truth.
+  double estimatedError = kNoValue;  ///< Estimate of averageError in the report; NaN without an estimate.
   double sampleSeconds = 0, traceSeconds = 0, predictSeconds = 0, solveSeconds = 0;
-  double timeRatio = 0;  ///< Sum of these seconds, divided by the time of the full trace in the same round.
+  double timeRatio = 0;  ///< Sum of the four times above, divided by the time of the full trace in the same round.
 };
 
 struct Evaluation {
   std::string name;
-  Result full;  ///< The full function: 30 rays at every face with fixed cones, the reference of the paper.
+  Result full;  ///< The full function: values from 30 rays at every face with fixed cones, as in the paper.
   double fullTraceSeconds = 0;
   std::array<std::array<ShareResult, kPercents.size()>, kRecipes.size()> recipes;  ///< In the order of kRecipes.
 
   [[nodiscard]] double range() const { return full.report.sdf.max - full.report.sdf.min; }
 };
 
-/// Compares all recipes at all shares with the full function and with the truth: the function of truthRayCount rays at
-/// every face, with hashed cones. Throws for a mesh whose values are all equal. Reports progress on standard error.
+/// Compares all recipes at all shares with the full function and with the truth. The truth is the values from
+/// truthRayCount rays at every face, with hashed cones. Throws for a mesh whose values are all equal. Reports progress
+/// on standard error.
 [[nodiscard]] Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& options,
                                   const RunControl& control);
 

@@ -10,10 +10,11 @@
 
 namespace asdfvk::bench {
 
-/// A page (docs/page.md) per figure, figureN.html, with the results of its pictures.
+/// Writes a page (docs/page.md) per figure, figureN.html. The page has the results that the pictures of the figure
+/// show.
 class FigurePages {
  public:
-  /// figure: number in the paper. label: distinguishes results of a figure.
+  /// figure: number of the figure in the paper. label: distinguishes the results of a figure.
   void add(int figure, const NamedMesh& mesh, const Result& result, const std::string& label);
 
   void write(const OutputFolder& folder) const;

@@ -15,7 +15,7 @@ namespace asdfvk::bench {
 namespace {
 
 constexpr const char* kSdfTitle = "SDF";
-// Above these percentiles the colours do not change, because single faces have far greater values.
+// The colours do not change above these percentiles, because single faces have much greater values.
 constexpr double kLaplacianPercentile = 0.99, kErrorPercentile = 0.98;
 
 std::string errorCaption(const std::string& name, const Evaluation& evaluation, const Result& result) {
@@ -60,7 +60,7 @@ void drawErrors(PictureWriter& pictures, const NamedMesh& mesh, const Evaluation
 Options samplerOptions(const std::string& sampler, Recipe recipe, uint64_t randomSeed) {
   Options options = recipeOptions(recipe, kSamplerPercent, randomSeed);
   options.sampler = sampler;
-  options.estimatesError = false;  // The held-out faces of an estimate would be random seeds.
+  options.estimatesError = false;  // No error estimate, because its held-out faces would be random seeds.
   return options;
 }
 

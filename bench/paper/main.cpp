@@ -1,5 +1,5 @@
-// Repeats the evaluation of the ASDF paper: writes the numbers of its tables and plots as CSV files and its pictures as
-// PNG files. bench/plot_paper.py makes the plots and a page from them.
+// Repeats the evaluation of the ASDF paper. Writes the numbers of the paper's tables and plots as CSV files, and the
+// paper's pictures as PNG files. bench/plot_paper.py makes plots and a page from these files.
 #include <fmt/format.h>
 
 #include "generate/generated_shape.h"
@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
                   "makes plots and a page. The first mesh takes the place of the paper's horse.");
   program.addOptionalMeshes(arguments.meshes, "a generated animal, hand and figure");
   program.addRequired("-o,--output", arguments.output, "DIR", "Output folder; made if it does not exist");
-  program.add("--seed-sets", arguments.evaluation.seedSetCount, "Random seed sets; numbers are medians over them",
-              {1, 1000});
+  program.add("--seed-sets", arguments.evaluation.seedSetCount,
+              "Number of random seed sets; results are medians over the sets", {1, 1000});
   program.add("--truth-rays", arguments.evaluation.truthRayCount, "Rays per face of the truth", {1, kMaxRayCount});
   program.add("--faces", arguments.generatedFaceCount, "Faces of each generated mesh", {kMinFaceCount, kMaxFaceCount});
   program.add("--backend", arguments.backend, "auto, vulkan, cpu or reference");

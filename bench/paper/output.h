@@ -15,7 +15,7 @@ struct CsvTable {
   std::vector<std::vector<std::string>> rows;  ///< One cell per column.
 };
 
-/// The shortest decimal number whose value as a double is `value`; empty for NaN.
+/// The shortest decimal number from which `value` is read back; empty for NaN.
 [[nodiscard]] std::string csvNumber(double value);
 
 /// The folder of the results. Files are written atomically. Failures throw Error{Output}.
@@ -23,7 +23,7 @@ class OutputFolder {
  public:
   explicit OutputFolder(std::filesystem::path path);
 
-  /// RFC 4180 with line feeds; the first line holds the names of the columns.
+  /// Writes a CSV file by RFC 4180, but with line feeds. The first line has the names of the columns.
   void write(const std::string& name, const CsvTable& table) const;
   void write(const std::string& name, const Image& image) const;
   void write(const std::string& name, const Page& page) const;

@@ -21,17 +21,17 @@ template <typename T>
 }
 
 struct FieldStyle {
-  std::string title;  ///< Above the colour bar.
+  std::string title;  ///< Text above the colour bar.
   ColourRange range;
 };
 
-/// Renders meshes to PNG files of one style and lists them. Reports progress on standard error.
+/// Renders meshes to PNG files with the same style, and keeps a list of the files. Reports progress on standard error.
 class PictureWriter {
  public:
   PictureWriter(const OutputFolder& folder, RunControl control) : folder_(folder), control_(std::move(control)) {}
 
   // figure: number in the paper. name: the file without ".png".
-  /// values: #I; NaN is grey.
+  /// values: #I; faces with NaN are grey.
   void drawField(int figure, const std::string& name, const NamedMesh& mesh, const std::vector<double>& values,
                  const FieldStyle& style, const std::string& caption);
   /// values: #F.
@@ -41,7 +41,7 @@ class PictureWriter {
   void drawSeeds(int figure, const std::string& name, const NamedMesh& mesh, const std::vector<uint8_t>& isSeed,
                  const std::string& caption);
 
-  /// Columns figure, file and caption, in the order of drawing.
+  /// The list of pictures in the order of drawing, with the columns figure, file and caption.
   [[nodiscard]] const CsvTable& list() const { return list_; }
 
  private:

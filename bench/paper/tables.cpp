@@ -3,7 +3,8 @@
 namespace asdfvk::bench {
 namespace {
 
-/// A row per mesh, recipe and share: the columns mesh, recipe, percent and seeds, then the given numbers.
+/// A table with a row per mesh, recipe and share of seeds. The columns are mesh, recipe, percent, seeds, and the given
+/// numbers.
 CsvTable shareTable(const std::vector<Evaluation>& evaluations,
                     const std::vector<std::pair<const char*, double ShareResult::*>>& numbers) {
   CsvTable table{{"mesh", "recipe", "percent", "seeds"}, {}};

@@ -11,7 +11,7 @@
 
 namespace asdfvk::bench {
 
-/// backend: one of backendNames(). device: used by Vulkan only.
+/// backend: a name of backendNames(). device: only for the backend vulkan.
 [[nodiscard]] SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device);
 
 /// Reads "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{OptionOutOfRange}.
@@ -24,8 +24,8 @@ namespace asdfvk::bench {
 [[nodiscard]] Options truthOptions(uint32_t rayCount);
 
 struct FileRun {
-  Report report;            ///< With the times of reading and writing.
-  double totalSeconds = 0;  ///< Reading, computation and writing.
+  Report report;            ///< Includes the stages read and write.
+  double totalSeconds = 0;  ///< Seconds of reading, computation and writing together.
 };
 
 /// Reads the mesh, computes and writes `output`, as the command line does.
@@ -33,11 +33,12 @@ struct FileRun {
                               const std::filesystem::path& output, const RunControl& control);
 
 /// Absolute differences of two fields, divided by the range (max - min) of the first field, as in Table 1 of the ASDF
-/// paper: over all faces with a value in both fields. Includes seeds, whose error is usually 0.
+/// paper. Faces with a value in both fields are compared. These include seeds, whose error is usually 0.
 struct FieldErrors {
   double average = 0, maximum = 0;
-  double robustAverage = 0;                             ///< Divided by the range from the 1st to the 99th percentile.
-  double relativeMedian = 0, relativePercentile90 = 0;  ///< Percentiles of difference / value of the first field.
+  double robustAverage = 0;  ///< Average error, divided by the 99th minus the 1st percentile of the first field.
+  double relativeMedian = 0,
+         relativePercentile90 = 0;  ///< Percentiles of difference / value, with the values of the first field.
 };
 
 /// full, approximate: #I, NaN for no value. All errors are 0 if the range is empty.

@@ -13,7 +13,7 @@
 namespace asdfvk::bench {
 namespace {
 
-// Precondition: sorted, at least one sample.
+// Precondition: there is at least one sample, and the samples are sorted.
 double medianOfSorted(const std::vector<double>& sorted) {
   const size_t half = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);

@@ -10,30 +10,32 @@
 
 namespace asdfvk::bench {
 
-/// All 0 without samples. Median of an even count: mean of two samples. deviation: median absolute deviation.
+/// All members are 0 without samples. The median of an even number of samples is the mean of the two middle samples.
+/// deviation: median absolute deviation.
 struct Dispersion {
   double median = 0, deviation = 0, min = 0, max = 0;
 };
 
 [[nodiscard]] Dispersion dispersionOf(std::vector<double> samples);
 
-/// The ratios a[i] / b[i], up to the end of the shorter one.
+/// The ratios a[i] / b[i], up to the end of the shorter list.
 [[nodiscard]] Dispersion ratioOf(const std::vector<double>& a, const std::vector<double>& b);
 
-/// "0.123 ±0.004": median and median absolute deviation.
+/// Median and median absolute deviation as text, such as "0.123 ±0.004".
 [[nodiscard]] std::string toText(const Dispersion& dispersion, int decimals);
 /// "-" without a value.
 [[nodiscard]] std::string toText(const std::optional<Dispersion>& dispersion, int decimals);
 
 using Json = nlohmann::ordered_json;
 [[nodiscard]] Json toJson(const Dispersion& dispersion);
-/// null if unset.
+/// JSON null if the value is unset.
 [[nodiscard]] Json toJson(const std::optional<Dispersion>& dispersion);
-/// The document and a line feed. Invalid UTF-8 is replaced.
+/// The document as text with a final line feed. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string oneLine(const Json& json);
 
 enum class Clock {
-  ProcessCpu,  ///< CPU seconds of all threads of this process, which other load affects less.
+  ProcessCpu,  ///< CPU seconds of all threads of this process. Other load on the machine affects them less than elapsed
+               ///< seconds.
   Wall,        ///< Elapsed seconds, for GPUs and for threads that wait for each other.
 };
 

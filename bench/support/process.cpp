@@ -36,7 +36,7 @@ pid_t spawn(std::string program, std::vector<std::string> arguments, int standar
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, standardOutput, STDOUT_FILENO);
-  // The child must not block signals, but this process blocks the signals for which Program::run() waits.
+  // This process blocks the signals for which Program::run() waits. The child must not inherit the blocked signals.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -51,7 +51,8 @@ pid_t spawn(std::string program, std::vector<std::string> arguments, int standar
   return process;
 }
 
-// Interval of readings of the peak memory. wait4() cannot replace them: its peak includes the memory of this process.
+// The peak memory is read in this interval. wait4() cannot replace the readings, because its peak includes the memory
+// of this process.
 constexpr int kPollMilliseconds = 5;
 
 std::string readAll(int descriptor, pid_t process, double& peakBytes) {

@@ -8,7 +8,7 @@ namespace asdfvk::bench {
 
 struct ProcessUsage {
   double seconds = 0;
-  double cpuSeconds = 0;  ///< All threads, including time in the kernel.
+  double cpuSeconds = 0;  ///< CPU seconds of all threads, including time in the kernel.
   double peakBytes = 0;   ///< Peak resident memory, including shared libraries and mapped files.
 };
 

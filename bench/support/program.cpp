@@ -29,15 +29,16 @@ void addNumber(CLI::App& app, const std::string& name, T& value, const std::stri
   restrict(*app.add_option(name, value, text)->capture_default_str(), range);
 }
 
-// A list has one argument, because it would otherwise consume the meshes that follow.
+// A list is a single argument. With several arguments, CLI11 would add the meshes that follow to the list.
 template <typename T>
 CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<T>& list, const std::string& text,
                      char separator = ',') {
   return app.add_option(name, list, text)->delimiter(separator)->allow_extra_args(false)->capture_default_str();
 }
 
-/// Blocks SIGINT and SIGTERM in this thread and all its later threads, and waits for them in a thread. The first signal
-/// requests a stop, the second one ends the process. A signal that the parent process ignores stays ignored.
+/// Blocks SIGINT and SIGTERM in this thread and in all threads that it starts later. A separate thread waits for these
+/// signals. The first signal requests a stop, the second signal ends the process. A signal that the parent process
+/// ignores stays ignored.
 class SignalWaiter {
  public:
   SignalWaiter() {

@@ -27,16 +27,15 @@ struct Range {
 };
 
 /// The command line and the error handling of a benchmark. Keeps CLI11, which compiles slowly, out of the benchmarks.
-///
-/// add() binds an option to a variable, whose initial value is the default. The variable must outlive the object. A
-/// list is written with commas: "1,2". Names have CLI11's syntax: "--runs", "-o,--output".
+/// add() binds an option to a variable. The initial value of the variable is the default of the option. The variable
+/// must outlive the object. A list is written with commas: "1,2". Names have CLI11's syntax: "--runs", "-o,--output".
 class Program {
  public:
   Program(const std::string& name, const std::string& summary);
   ~Program();
 
-  void addMeshes(std::vector<std::string>& paths);  ///< One or more.
-  /// Zero or more; `substitute` describes the default mesh in --help.
+  void addMeshes(std::vector<std::string>& paths);  ///< One or more meshes.
+  /// Zero or more meshes; `substitute` is the text of --help that describes the default mesh.
   void addOptionalMeshes(std::vector<std::string>& paths, const std::string& substitute);
 
   void add(const std::string& name, bool& value, const std::string& text);
