@@ -1,4 +1,4 @@
-"""Paths of the programs and of real meshes, which some tests need."""
+"""Fixtures: paths of the programs and of real meshes, which some tests need."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def program() -> Path:
 
 @pytest.fixture(scope="session")
 def mesh_folder() -> Path:
-    """Real meshes, with the folders models and psb."""
+    """The folder of real meshes, with the subfolders models and psb."""
     return _path_of("ASDF_VK_MESH_DIR")
 
 

@@ -1,4 +1,4 @@
-"""MeshParty's shape_diameter_function() by its definition (asdf_vk.compat.meshparty), a loop over vertices in NumPy."""
+"""MeshParty's shape_diameter_function() as a loop over vertices in NumPy; asdf_vk.compat.meshparty defines it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shapes import Mesh
 
 
 class TrimeshLike:
-    """The members of a mesh that MeshParty reads. Normals of vertices are means over faces, weighted by the angles."""
+    """A mesh with the members that MeshParty reads. Normals of vertices are angle-weighted means over faces."""
 
     def __init__(self, mesh: Mesh) -> None:
         self.vertices, self.faces = np.asarray(mesh[0], np.float64), np.asarray(mesh[1])
@@ -29,7 +29,7 @@ class TrimeshLike:
 
 
 def first_hit(corners: NDArray[Any], origin: NDArray[Any], axis: NDArray[Any]) -> tuple[float, int]:
-    """Distance and face, from all triangles, on either side (Möller and Trumbore 1997)."""
+    """Returns distance and face of the first hit. Tests all triangles, on both sides (Möller and Trumbore 1997)."""
     a, edge1, edge2 = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     p = np.cross(axis, edge2)
     t = origin - a
@@ -51,7 +51,7 @@ def rotation_to(axis: NDArray[Any]) -> NDArray[Any]:
 
 
 class Oracle:
-    """Sums the seconds of the rays, which MeshParty leaves to Embree, and the seconds of all else."""
+    """Sums two times: the seconds for rays, which MeshParty traces with Embree, and the seconds for all other work."""
 
     def __init__(self) -> None:
         self.ray_seconds = self.other_seconds = 0.0

@@ -1,4 +1,4 @@
-"""Reads the fields of a PLY of triangles that asdf_vk wrote in binary, with NumPy."""
+"""Reads the fields of a binary PLY of triangles that asdf_vk wrote. Uses NumPy only."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _OTHERS = {"x", "y", "z", "corner_count", "vertex_indices", "red", "green", "blu
 
 
 def fields_of_ply(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Fields per face and per vertex, by name."""
+    """Returns fields per face and fields per vertex. Keys are names."""
     header, body = re.split(rb"(?<=\nend_header)\n", path.read_bytes(), maxsplit=1)
     text = header.decode()
     assert "format binary_little_endian 1.0" in text

@@ -12,7 +12,7 @@ _CUBE_QUADS = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6,
 
 
 def cube() -> Mesh:
-    """The unit cube, 12 faces."""
+    """The unit cube, with 12 faces."""
     faces = [[a, b, c] for q in _CUBE_QUADS for a, b, c in ((q[0], q[1], q[2]), (q[0], q[2], q[3]))]
     return np.array(_CUBE_CORNERS, np.float64), np.array(faces, np.int32)
 
@@ -55,7 +55,7 @@ def _subdivided(vertices: NDArray[Any], faces: NDArray[Any]) -> Mesh:
 
 
 def dumbbell() -> Mesh:
-    """Two bodies of different thickness joined by a thin neck: one closed surface, two parts."""
+    """One closed surface with two parts: two bodies of different thickness, joined by a thin neck."""
     vertices, faces = sphere(4)
     radius = np.interp(vertices[:, 0], [-1, -0.5, -0.2, 0.2, 0.5, 1], [0.5, 0.5, 0.2, 0.2, 1, 1])
     vertices = vertices.copy()
@@ -65,7 +65,7 @@ def dumbbell() -> Mesh:
 
 
 def joined(*meshes: Mesh) -> Mesh:
-    """The meshes side by side, as one."""
+    """Returns one mesh that consists of the given meshes, side by side."""
     offsets = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
     faces = [faces + offset for (_, faces), offset in zip(meshes, offsets)]
     return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(faces).astype(np.int32)

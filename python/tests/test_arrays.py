@@ -1,4 +1,4 @@
-"""Arrays of the caller: what is accepted, what is copied, what is never changed."""
+"""Arrays of the caller: accepted types, copied types, and arguments that must not change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Wrong arguments of every kind: an exception of asdf_vk with a code of the library, never a crash."""
+"""Wrong arguments of every kind raise an exception of asdf_vk with an error code, and never crash."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     yield {"per": np.array(["face"])}
     yield {"require_gpu": 1}
     for name in ("cone_angle", "seeds", "threads", "backend", "progress", "check", "smooth"):
-        yield {name: np.zeros((3, 3))}  # Its repr() has three lines.
+        yield {name: np.zeros((3, 3))}  # The repr() of this array has three lines.
     yield {"return_info": True}
     yield {"parts": 3}
     yield {"detail": 2, "segment": "cgal"}

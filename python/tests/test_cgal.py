@@ -14,8 +14,8 @@ import pytest
 from asdf_vk.compat import cgal
 from numpy.typing import NDArray
 
-PROGRAM = os.environ.get("ASDF_VK_PROGRAM")  # asdf-vk
-CGAL_ORACLE = os.environ.get("ASDF_VK_CGAL_ORACLE")  # asdfvk-bench-cgal-oracle
+PROGRAM = os.environ.get("ASDF_VK_PROGRAM")  # The program asdf-vk.
+CGAL_ORACLE = os.environ.get("ASDF_VK_CGAL_ORACLE")  # The program asdfvk-bench-cgal-oracle.
 
 Arrays = tuple[NDArray[np.float64], NDArray[np.int32]]
 STEPS: list[Callable[..., Any]] = [
@@ -25,7 +25,7 @@ STEPS: list[Callable[..., Any]] = [
 
 
 def torus(rows: int, columns: int) -> Arrays:
-    """A tube of varying radius around a circle; 2 * rows * columns faces."""
+    """A tube with varying radius around a circle, with 2 * rows * columns faces."""
     u, v = np.meshgrid(
         2 * np.pi * np.arange(rows) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij"
     )
@@ -42,7 +42,7 @@ def torus(rows: int, columns: int) -> Arrays:
 
 
 def dirty_mesh() -> Arrays:
-    """80,000 faces of a torus, and the defects of meshes from volumes."""
+    """A torus of 80,000 faces, with the defects that meshes made from volumes have."""
     vertices, faces = torus(200, 200)
     random = np.random.default_rng(1)
     doubled = faces[random.choice(len(faces), 500, replace=False)]
@@ -54,7 +54,7 @@ def dirty_mesh() -> Arrays:
     flat = faces[:20].copy()
     flat[:, 1] = flat[:, 0]
     all_faces = np.concatenate([faces, doubled[:, ::-1], doubled[:100], fins, inverted, flat])
-    pinched = np.array([17, 20_017])  # Two places of the surface share a vertex.
+    pinched = np.array([17, 20_017])  # Two distant places of the surface share a vertex.
     all_faces[all_faces == pinched[1]] = pinched[0]
     return np.concatenate([vertices, tips, small * 0.1]), all_faces.astype(np.int32)
 
@@ -111,7 +111,7 @@ def test_segments_and_clusters(mesh: Arrays, values: NDArray[np.float64]) -> Non
         *mesh, values, number_of_clusters=3, smoothing_lambda=0.02, output_cluster_ids=True
     )
     assert cluster_count == 3 and clusters.max() <= 2
-    assert count == 12  # Three thick and three thin places, and six between them.
+    assert count == 12  # Three thick places, three thin places, and six places between them.
     for label in range(count):
         assert len(set(clusters[labels == label].tolist())) == 1
 
@@ -286,7 +286,7 @@ def test_return_codes_of_the_module(tmp_path: Path, text: str | None, code: int)
 
 def test_no_file_remains_of_a_failure(tmp_path: Path, mesh: Arrays) -> None:
     write_off(tmp_path / "cell.off", *mesh)
-    (tmp_path / "cell-cgal_3_0.20_sdf.csv").mkdir()  # Cannot be replaced.
+    (tmp_path / "cell-cgal_3_0.20_sdf.csv").mkdir()  # A folder, which the result cannot replace.
     with pytest.raises(OSError):
         cgal_Segmentation_Module.cgal_segmentation(tmp_path / "cell", 3, 0.2, backend="reference")
     assert not [name for name in os.listdir(tmp_path) if name.endswith(".tmp")]
@@ -297,12 +297,12 @@ def test_no_file_remains_of_a_failure(tmp_path: Path, mesh: Arrays) -> None:
 def _in_child(path: str, results: Any) -> None:
     try:
         results.put(cgal_Segmentation_Module.cgal_segmentation(path, 3, 0.2, backend="reference"))
-    except BaseException as error:  # The parent must not wait for ever.
+    except BaseException as error:  # Every failure is reported, so that the parent does not wait for ever.
         results.put(repr(error))
 
 
 def test_the_module_works_in_a_forked_process(tmp_path: Path, mesh: Arrays) -> None:
-    cgal.sdf_values(*mesh, backend="reference")  # Used before the fork.
+    cgal.sdf_values(*mesh, backend="reference")  # Uses asdf_vk before the fork.
     write_off(tmp_path / "cell.off", *mesh)
     context = multiprocessing.get_context("fork")
     results = context.Queue()

@@ -11,7 +11,7 @@ from shapes import Mesh, cube, sphere, tube
 
 
 def brute_distance(mesh: Mesh, point: NDArray[Any]) -> float:
-    """The least distance to edges, and to planes of triangles that contain the foot of the perpendicular."""
+    """Returns the least distance to all edges, and to all triangles that contain the foot of the perpendicular."""
     a, b, c = mesh[0][mesh[1]].transpose(1, 0, 2)
     normal = np.cross(b - a, c - a)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)

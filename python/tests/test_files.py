@@ -27,7 +27,7 @@ def test_a_mesh_survives_a_file(tmp_path: Path) -> None:
 
 
 def _vtu_fields(path: Path, element: str) -> dict[str, Any]:
-    """The arrays of <CellData> or <PointData>, whose binary data begin with their size in bytes."""
+    """Returns the arrays of <CellData> or <PointData>. The binary data of an array begin with the size in bytes."""
     types = {"Float32": np.float32, "UInt8": np.uint8, "UInt32": np.uint32}
     fields = {}
     for array in xml.etree.ElementTree.parse(path).findall(f".//{element}/DataArray"):
@@ -157,7 +157,7 @@ def test_failures_leave_nothing_behind(tmp_path: Path) -> None:
 
 
 def test_polygons_are_those_of_a_file(tmp_path: Path) -> None:
-    """A box of six quads, one of them divided into a triangle and a polygon of five corners."""
+    """A box of six quads. One quad is divided into a triangle and a polygon of five corners."""
     corners = [0, 2, 8, 2, 3, 1, 0, 8, 4, 5, 7, 6, 0, 1, 5, 4, 3, 2, 6, 7, 2, 0, 4, 6, 1, 3, 7, 5]
     first = [0, 3, 8, 12, 16, 20, 24, 28]
     vertices = [(x, y, z) for z in (0, 1) for y in (0, 2) for x in (0, 3)] + [(1.0, 1.0, 0)]

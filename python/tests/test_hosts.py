@@ -1,4 +1,4 @@
-"""Parts of the add-ons that need no host program. scripts/test-hosts runs the add-ons in their programs."""
+"""Tests parts of the add-ons without Blender, FreeCAD or ParaView. scripts/test-hosts tests them in these programs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def test_the_package_has_the_add_ons() -> None:
         documentation = ast.get_docstring(ast.parse(path.read_text()))
         assert documentation and path.parent == Path(next(iter(asdf_vk.hosts.__path__)))
     version = tuple(map(int, asdf_vk.__version__.split(".")))
-    assert f'"version": {version},' in paths[0].read_text()  # Blender reads this version without running the add-on.
+    assert f'"version": {version},' in paths[0].read_text()  # Blender reads the source.
 
 
 def _surface(with_line: bool) -> Any:
@@ -64,7 +64,7 @@ def test_cell_arrays_of_vtk(with_line: bool) -> None:
 
 
 def test_datasets_without_faces_are_refused() -> None:
-    surface = _surface(True)  # Skips without VTK.
+    surface = _surface(True)  # The test is skipped if VTK is not installed.
     with pytest.raises(asdf_vk.ArrayTypeError, match="extract its surface"):
         vtk.compute(np.zeros((3, 3)))
     surface.SetPolys(type(surface.GetPolys())())

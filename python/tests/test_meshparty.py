@@ -1,4 +1,4 @@
-"""asdf_vk.compat.meshparty, against the definition in NumPy."""
+"""Compares asdf_vk.compat.meshparty with the definition in NumPy."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ MESHES: dict[str, Mesh] = {
     "open sphere": (scaled(sphere(3), 50)[0], sphere(3)[1][200:]),
     "two spheres": joined(scaled(sphere(2), 30), (scaled(sphere(2), 30)[0] + [70, 0, 0], sphere(2)[1])),
     "inverted sphere": (scaled(sphere(2), 50)[0], sphere(2)[1][:, ::-1]),
-    "small sphere": scaled(sphere(3), 0.8),  # Starts are outside.
+    "small sphere": scaled(sphere(3), 0.8),  # The rays start outside of the shape.
 }
 
 
@@ -52,7 +52,7 @@ def test_values_are_those_of_the_definition(name: str, reference: asdf_vk.Sessio
     found = meshparty.shape_diameter_function(inds, mesh, session=reference)
     assert found.dtype == np.float64
     np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))
-    # If a ray meets a vertex, the ray of the oracle may pass between triangles.
+    # If a ray hits a vertex, the ray of the oracle may pass between triangles.
     different = ~np.isclose(found, expected, rtol=1e-9, equal_nan=True)
     assert different.sum() <= 1, (found[different], expected[different])
 
@@ -76,7 +76,7 @@ def test_normals_are_computed_where_the_mesh_has_none(reference: asdf_vk.Session
     np.testing.assert_allclose(
         meshparty.shape_diameter_function(inds, Plain, session=reference),
         meshparty.shape_diameter_function(inds, mesh, session=reference), rtol=1e-6)
-    many = np.tile(inds, 4000)  # More rays than are traced at once.
+    many = np.tile(inds, 4000)  # More rays than one batch of rays has.
     found = meshparty.shape_diameter_function(many, Plain, 30, session=reference)
     np.testing.assert_array_equal(found, np.tile(found[:12], 4000))
 

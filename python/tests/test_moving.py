@@ -1,4 +1,4 @@
-"""For each row of docs/moving.md whose library is installed: its call and that of asdf_vk on one shape."""
+"""Compares calls of other libraries with the calls of asdf_vk in docs/moving.md, for libraries that are installed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def barycentres_and_normals(vertices: NDArray[Any], faces: NDArray[Any]) -> tupl
 
 
 def first_hits(vertices: NDArray[Any], faces: NDArray[Any], origins: NDArray[Any], axes: NDArray[Any]) -> NDArray[Any]:
-    """Distances to the first triangle along each ray beyond 1e-6, or inf (Möller and Trumbore 1997)."""
+    """Returns the distance to the first triangle on each ray, or inf. Ignores hits below 1e-6 (Möller, Trumbore)."""
     a = vertices[faces[:, 0]]
     edge1, edge2 = vertices[faces[:, 1]] - a, vertices[faces[:, 2]] - a
     found = np.full(len(origins), np.inf)
@@ -42,7 +42,7 @@ def first_hits(vertices: NDArray[Any], faces: NDArray[Any], origins: NDArray[Any
 
 
 def largest_balls(vertices: NDArray[Any], faces: NDArray[Any], points: NDArray[Any], normals: NDArray[Any]) -> Any:
-    """Diameters of the largest balls that touch the points from inside and contain no vertex."""
+    """Returns diameters of the largest balls that touch the points from inside and contain no vertex."""
     diameters = np.full(len(points), np.inf)
     for i, (point, normal) in enumerate(zip(points, normals)):
         to_vertices = vertices - point
@@ -53,7 +53,7 @@ def largest_balls(vertices: NDArray[Any], faces: NDArray[Any], points: NDArray[A
 
 
 def test_one_ray_by_numpy() -> None:
-    """trimesh `ray`, and Open3D."""
+    """The definition of trimesh `ray` and of Open3D."""
     vertices, faces = dumbbell()
     chosen = np.arange(0, len(faces), 37)
     points, normals = (array[chosen] for array in barycentres_and_normals(vertices, faces))
@@ -62,11 +62,11 @@ def test_one_ray_by_numpy() -> None:
     ours = asdf_vk.Scene(vertices, faces).at(points, normals, false_hit_angle=0, **AXIS_ONLY)
     np.testing.assert_array_equal(np.isfinite(ours), np.isfinite(theirs))
     close = np.isclose(ours, theirs, atol=1e-3)
-    assert close.mean() > 0.97  # Rays 0.005 degrees apart may hit other faces.
+    assert close.mean() > 0.97  # The rays differ by up to 0.005 degrees, so that they may hit different faces.
 
 
 def test_the_largest_ball_by_numpy() -> None:
-    """trimesh `max_sphere`, on a convex shape, where all walls oppose."""
+    """The definition of trimesh `max_sphere`, on a convex shape, because there asdf_vk has the same definition."""
     vertices, faces = sphere(4)
     points, normals = barycentres_and_normals(vertices, faces)
     chosen = np.arange(0, len(faces), 41)
@@ -75,7 +75,7 @@ def test_the_largest_ball_by_numpy() -> None:
 
 
 def test_the_mean_over_a_half_space_by_numpy() -> None:
-    """libigl: uniform directions in 180 degrees, plain mean."""
+    """The definition of libigl: the unweighted mean over uniform directions within 180 degrees."""
     vertices, faces = sphere(4)
     points, normals = (array[:1] for array in barycentres_and_normals(vertices, faces))
     random = np.random.default_rng(1).normal(size=(400, 3))
@@ -122,6 +122,6 @@ def test_libigl_shape_diameter() -> None:
     points, normals = barycentres_and_normals(vertices, faces)
     theirs = embree.shape_diameter_function(vertices, faces, points, normals, 1000)
     ours = asdf_vk.Scene(vertices, faces).at(points, normals, rays=1000)
-    # The mean chord over a half-space is 1 on a unit sphere; asdf_vk has 1.717, because of its cone and weights.
+    # On a sphere of radius 1, the mean chord over a half-space is 1. asdf_vk has 1.717 because of its cone and weights.
     np.testing.assert_allclose(np.median(theirs), 1, rtol=0.05)
     np.testing.assert_allclose(np.median(ours), 1.717, rtol=0.01)

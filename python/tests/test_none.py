@@ -1,4 +1,4 @@
-"""None is the default of every keyword of every public function."""
+"""For every keyword of every public function, the value None means the default."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TOP = np.array([[0.0, 0.0, 1.0]])
 
 
 def keywords(function: Callable[..., Any]) -> list[str]:
-    """The keywords of a function, with those of its **options."""
+    """Returns the keywords of a function, including the keywords of **options."""
     names: list[str] = []
     for name, parameter in inspect.signature(function).parameters.items():
         if parameter.kind == parameter.VAR_KEYWORD:

@@ -1,4 +1,4 @@
-"""The cases of tests/describe/option_cases.json: the sentences are those of the command line."""
+"""The cases of tests/describe/option_cases.json. Python must give the same messages as the command line."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def keyword(name: str) -> str:
 
 
 def without_spelling(text: str) -> str:
-    """One word per name: "--wall-angle 90" and "wall_angle='90'" are "wallangle 90"."""
+    """Removes the differences of spelling: "--wall-angle 90" and "wall_angle='90'" become "wallangle 90"."""
     text = text.replace("--no-estimate", "estimate off").replace("estimate=False", "estimate off")
     for name, other in _KEYWORDS.items():
         text = re.sub(rf"--{name}\b(?!-)", other, text)

@@ -1,4 +1,4 @@
-"""The module in a process: import, threads, memory, signals, forks, exit."""
+"""Tests the module in new processes: import, threads, memory, signals, forks, exit."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)  # Background jobs of a
 
 
 def run(code: str, timeout: float = 60, preamble: str = _PREAMBLE) -> subprocess.CompletedProcess[str]:
-    """Runs code in a fresh interpreter."""
+    """Runs code in a new process of the interpreter."""
     return subprocess.run(
         [sys.executable, "-W", "error", "-c", preamble + textwrap.dedent(code)],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
@@ -52,7 +52,7 @@ def test_import_opens_nothing() -> None:
     threads = len(os.listdir("/proc/self/task")) - threads_of_numpy
     print("vulkan" in maps, threads, len(os.listdir("/proc/self/fd")))
     """
-    # No driver, and no thread except those of NumPy. The descriptors are standard streams and that of the listing.
+    # The import opens no driver and starts no thread. The descriptors are the standard streams and that of listdir().
     assert output(code).split() == ["False", "0", "4"]
 
 
@@ -103,8 +103,9 @@ def test_the_interpreter_goes_on_while_rays_are_traced() -> None:
 
 
 def test_calls_keep_the_memory() -> None:
-    # In a fresh process, because the heap of a test run with threads grows and shrinks by itself. A leak grows in every
-    # block of calls; a single allocation of a library does not. TBB leaks only if processors are busy.
+    # Measured in a new process, because the heap of the process that runs the tests also changes for other reasons. A
+    # leak grows in every block of calls; a single allocation of a library does not. TBB leaks only if the processors
+    # are busy.
     code = """
     def resident_bytes():
         return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
@@ -200,7 +201,8 @@ def test_daemon_threads_end_with_the_script(backend: str) -> None:
         asdf_vk.Session(backend=backend)
     except asdf_vk.DeviceError as error:
         pytest.skip(str(error))
-    # A thread that computes, one that is in its callback, one that raises, and one that opens sessions.
+    # Four threads: the first one computes, the second one is in its callback, the third one raises, the fourth one
+    # opens sessions.
     code = f"""
     def fail():
         try:
@@ -259,7 +261,7 @@ def test_a_fork_before_the_first_use() -> None:
 def test_a_fork_after_the_first_use_is_a_clear_error(tmp_path: Path, first: str) -> None:
     path = tmp_path / "cube.ply"
     asdf_vk.write(path, cube())
-    # The child ends like a program, not by os._exit(): sessions are released, or left alone, without a hang.
+    # The child ends like a normal program, not by os._exit(). It must not hang when its sessions are destroyed.
     code = f"""
     path = {str(path)!r}
     result = asdf_vk.{first}

@@ -1,4 +1,4 @@
-"""Scene: many queries on one mesh, values at points, regions."""
+"""Tests Scene: many queries on one mesh, values at points, regions."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ def test_scenes_are_released_while_another_thread_computes() -> None:
     begin = time.monotonic()
     scenes.clear()
     gc.collect()
-    assert time.monotonic() - begin < 0.5  # It does not wait for the other thread.
+    assert time.monotonic() - begin < 0.5  # The destruction did not wait for the other thread.
     worker.join()
     asdf_vk.shape_diameter(*cube(), session=session)
 

@@ -25,7 +25,7 @@ def meshes_of(page: Path) -> list[dict[str, Any]]:
 
 
 def numbers(page: Path, array: int, count: int) -> Any:
-    """An array of a page (docs/page-format.md)."""
+    """Returns an array of a page (docs/page-format.md)."""
     found = re.search(f'<script type="[^"]*" id="array-{array}">(.*?)</script>', page.read_text(), re.DOTALL)
     assert found is not None
     planes = np.frombuffer(zlib.decompress(base64.b64decode(found[1])), "u1").reshape(-1, count)
@@ -51,10 +51,10 @@ def test_a_page_shows_several_results(tmp_path: Path, reference: asdf_vk.Session
     faces = numbers(page, second["arrays"]["faces"], second["faceCount"])
     shown = (numbers(page, second["fields"][0]["array"], second["faceCount"]) << 9).view("f4")
     np.testing.assert_allclose(shown, height[faces], rtol=1e-4, atol=1e-30)
-    assert page.read_text().count("data:image/png;base64,") == 2  # For browsers without WebGL.
+    assert page.read_text().count("data:image/png;base64,") == 2  # The page has a picture for browsers without WebGL.
     asdf_vk.write(page, mesh, info)
     assert meshes_of(page)[0]["label"] == "bell"
-    odd = tmp_path / "b\udc80.html"  # A name that is no UTF-8.
+    odd = tmp_path / "b\udc80.html"  # A file name that is not valid UTF-8.
     asdf_vk.write(odd, mesh, info)
     assert meshes_of(odd)[0]["label"] == "b\ufffd"
 

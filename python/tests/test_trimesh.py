@@ -1,4 +1,4 @@
-"""asdf_vk.compat.trimesh, on a stand-in for trimesh.Trimesh."""
+"""Tests asdf_vk.compat.trimesh with an object that replaces trimesh.Trimesh."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from shapes import Mesh, cube, joined, sphere
 
 
 class Trimesh:
-    """The members of a trimesh.Trimesh that the function reads."""
+    """An object with the members of trimesh.Trimesh that the function reads."""
 
     def __init__(self, mesh: Mesh) -> None:
         self.vertices, self.faces = mesh
@@ -26,7 +26,7 @@ class Trimesh:
 
 
 def two_cubes() -> Trimesh:
-    """Unit cubes, 0.5 apart along x."""
+    """Unit cubes with gaps of 0.5 along x."""
     vertices, faces = cube()
     return Trimesh(joined((vertices, faces), (vertices + [1.5, 0, 0], faces)))
 
@@ -52,7 +52,7 @@ def test_the_thickness_of_a_cube(method: Any, reference: asdf_vk.Session) -> Non
 
 @pytest.mark.parametrize("method", ["max_sphere", "ray"])
 def test_the_exterior_is_the_gap(method: Any, reference: asdf_vk.Session) -> None:
-    sides = np.array([[1, 0.5, 0.5], [0, 0.5, 0.5]])  # Towards the other cube, and away from it.
+    sides = np.array([[1, 0.5, 0.5], [0, 0.5, 0.5]])  # On the gap, and opposite to it.
     values = trimesh.thickness(two_cubes(), sides, True, [[1, 0, 0], [-1, 0, 0]], method, session=reference)
     np.testing.assert_allclose(values, [0.5, np.inf], rtol=1e-4)
 

@@ -1,4 +1,4 @@
-"""Type annotations of the package and of these tests, and their effect in the code of a caller."""
+"""Checks the type annotations of the package and of these tests, and their effect in the code of a caller."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ import asdf_vk
 from asdf_vk import _core
 
 _ROOT = Path(__file__).resolve().parents[2]
-_PACKAGE = Path(asdf_vk.__file__).parent  # With the classes that the build writes.
+_PACKAGE = Path(asdf_vk.__file__).parent  # The package of the build, which has the classes that the build writes.
 
 
 def mypy(*arguments: str, folder: Path = _ROOT) -> str:
     pytest.importorskip("mypy")
     command = [sys.executable, "-m", "mypy", "--config-file", str(_ROOT / "pyproject.toml"), *arguments]
-    # The stubs of NumPy 2.1 need Python 3.10; with 3.9 every array would be Any.
+    # The stubs of NumPy 2.1 need Python 3.10. With Python 3.9, the type of every array would be Any.
     if np.lib.NumpyVersion(np.__version__) >= "2.1.0":
         command += ["--python-version", "3.10"]
-    # mypy finds installed packages itself, and refuses their folder in MYPYPATH.
+    # mypy finds installed packages without MYPYPATH, and refuses their folder in MYPYPATH.
     installed = str(_PACKAGE.parent) in site.getsitepackages()
     environment = dict(os.environ) if installed else {**os.environ, "MYPYPATH": str(_PACKAGE.parent)}
     finished = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
@@ -37,7 +37,7 @@ def test_the_package_and_its_tests_are_typed() -> None:
     found = mypy(
         "--cache-dir=/dev/null", str(_PACKAGE), "python/tests", "python/cgal_Segmentation_Module.py"
     )
-    # mypy 1.15 first warns that Unpack is no longer incomplete; mypy 1.0 needs it enabled.
+    # mypy 1.15 prints a warning before this line: the option for Unpack, which mypy 1.0 needs, is no longer needed.
     assert re.search(r"^Success", found, re.MULTILINE), found
 
 

@@ -1,4 +1,4 @@
-"""Values, segments and thickness: of shapes with known values, and equal to those of the program."""
+"""Values, segments and thickness are right on shapes with known values, and equal to the values of the program."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_the_verdict_of_the_thickness() -> None:
     assert report.greatest_section.diameter == pytest.approx(1, rel=2e-3)
     assert report.unjudged.open_count == report.unjudged.inverted_count == 0
     np.testing.assert_allclose(info.fields["least_thickness"].min(), report.min, rtol=1e-6)
-    # All faces are measured for any seeds. A limit changes no value.
+    # `seeds` does not change which faces are measured. A limit does not change the values.
     given: tuple[int | str, ...] = (1, "all")
     for seeds in given:
         np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)
@@ -141,7 +141,7 @@ def test_options_reach_the_library() -> None:
     assert asdf_vk.compute(*mesh, definition="cgal").seed_count == 5120
     assert asdf_vk.compute(*mesh, rays=7, seeds=100).ray_count == 700
     first = asdf_vk.compute(*mesh, max_error=0.5)
-    assert first.seed_count == 102  # 2 %, as the program
+    assert first.seed_count == 102  # a share of 2 %, as in the program
     assert asdf_vk.compute(*mesh, random_seed=None).random_seed == 1
 
 
