@@ -48,7 +48,7 @@ Agreement agreementOf(const std::vector<double>& values, const std::vector<doubl
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("asdfvk-bench-cgal-values", "Compares the values of --definition cgal with those of CGAL.");
+  Program program("asdfvk-bench-cgal-values", "Compares the values of --definition cgal with CGAL's values.");
   std::vector<std::string> meshes, backends{"reference", "cpu", "vulkan"};
   program.addMeshes(meshes);
   program.add("--backends", backends, "Backends to compare");

@@ -36,7 +36,7 @@ CAPTIONS = {
     2: "|w SDF(p) - sum of w SDF(v)| over the neighbours v of each face p, w = 1 / distance of the barycentres.",
     3: "The function from 5 % of the faces and from all faces, on one colour scale. "
        f"The paper prints an average error of {PRINTED[5][0]} for its horse.",
-    4: "The function from all faces and from 10 % of them; the error that the balanced recipe expects without the full "
+    4: "The function from all faces and with 10 % seeds; the error that the balanced recipe expects without the full "
        "function; and the errors over the range of the full function. The colours end at the 98th percentile of the "
        f"errors of recipe paper. The paper prints an average error of {PRINTED[10][0]} and a maximum of "
        f"{PRINTED[10][1]} for its horse.",

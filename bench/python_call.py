@@ -2,7 +2,7 @@
 
     PYTHONPATH=build/develop/python /usr/bin/python3 bench/python_call.py build/develop/bench/asdfvk-bench-call MESH
 
-Prints the median seconds of both, and the median of the ratios Python / C++.
+Prints the median seconds of the two functions, and the median of the ratios Python / C++.
 """
 
 from __future__ import annotations

@@ -54,9 +54,9 @@ struct MeshRow {
   double boundedShare = 0;          ///< Balanced with --max-error 1%: seeds divided by faces.
   double boundedRelativeError = 0;  ///< Balanced with --max-error 5%rel: median relative error.
   double boundedRelativeShare = 0;  ///< Balanced with --max-error 5%rel: seeds divided by faces.
-  double iterations = 0;            ///< Solver iterations at 10 %: balanced divided by paper.
+  double iterations = 0;            ///< Solver iterations with 10 % seeds: recipe balanced / recipe paper.
   double overTrace =
-      0;  ///< Balanced at 10 %: time of the stages sample, predict and solve, divided by the time of the stage trace.
+      0;  ///< Balanced with 10 % seeds: time of the stages sample, predict and solve / time of the stage trace.
 };
 
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,

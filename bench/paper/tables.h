@@ -17,7 +17,7 @@ namespace asdfvk::bench {
 //               random seeds), maximum_error (against the full function),
 //               truth_average_error, truth_maximum_error (against the truth), estimated_error: Table 1 and Figure 5.
 // figure6.csv   mesh, recipe, percent, seeds, sample_seconds, trace_seconds, predict_seconds, solve_seconds, time_ratio
-//               (their sum over the time of the full trace).
+//               (sum of the seconds / seconds of the full trace).
 // figure7.csv   sampler, seeds, paper_average_error, balanced_average_error: by the recipe of the interpolation.
 // pictures.csv  figure, file, caption: the PNG files in the order of the page.
 

@@ -33,7 +33,7 @@ struct FileRun {
                               const std::filesystem::path& output, const RunControl& control);
 
 /// Absolute differences of two fields, divided by the range (max - min) of the first field, as in Table 1 of the ASDF
-/// paper. Faces with a value in both fields are compared. These include seeds, whose error is usually 0.
+/// paper. Faces with a value in both fields are compared. Seeds, whose error is usually 0, are compared too.
 struct FieldErrors {
   double average = 0, maximum = 0;
   double robustAverage = 0;  ///< Average error, divided by the 99th minus the 1st percentile of the first field.

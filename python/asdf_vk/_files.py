@@ -70,7 +70,7 @@ def write(
     kind = (format or os.path.splitext(target)[1]).lower().removeprefix(".")
     results = [{} if fields is None else fields, *further]
     if flag_of(ascii, "ascii") and kind != "ply":
-        raise error_of("optionConflict", "ascii is for PLY only; drop it")
+        raise error_of("optionConflict", "ascii is for PLY only; remove ascii=True")
     if picture_of and kind != "png":
         raise error_of("optionConflict", "picture_of names the field of a picture (.png); drop it")
     if vertex_fields and kind in ("html", "png"):

@@ -52,7 +52,8 @@ def test_import_opens_nothing() -> None:
     threads = len(os.listdir("/proc/self/task")) - threads_of_numpy
     print("vulkan" in maps, threads, len(os.listdir("/proc/self/fd")))
     """
-    # The import opens no driver and starts no thread. The descriptors are the standard streams and that of listdir().
+    # The import opens no driver and starts no thread. The descriptors are the standard streams and the one of
+    # listdir().
     assert output(code).split() == ["False", "0", "4"]
 
 
@@ -261,7 +262,7 @@ def test_a_fork_before_the_first_use() -> None:
 def test_a_fork_after_the_first_use_is_a_clear_error(tmp_path: Path, first: str) -> None:
     path = tmp_path / "cube.ply"
     asdf_vk.write(path, cube())
-    # The child ends like a normal program, not by os._exit(). It must not hang when its sessions are destroyed.
+    # The child ends like a normal program, not by os._exit(). The child must not hang when its sessions are destroyed.
     code = f"""
     path = {str(path)!r}
     result = asdf_vk.{first}

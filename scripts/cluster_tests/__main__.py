@@ -56,7 +56,7 @@ def _interrupt(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
         wait_until(lambda: output_count(results) >= event.share * mesh_count
                    or process.poll() is not None, event.what, RUN_LIMIT_SECONDS)
         if process.poll() is not None:
-            raise Failed(f"the run ended with {process.returncode} before: {event.what}")
+            raise Failed(f"the run ended with exit code {process.returncode} before this event: {event.what}")
         _say(f"{engine.name}: {output_count(results)} results; now {event.what}")
         event.happen()
     code = process.wait(RUN_LIMIT_SECONDS)
@@ -82,7 +82,7 @@ def _resume(engine: Engine, results: pathlib.Path, mesh_count: int) -> str:
     # A result is computed again if its process was killed before the record was written.
     least = output_count_before - len(engine.events(results))
     if counts["skipped"] < least:
-        raise Failed(f"at least {least} meshes were done before: {ended}")
+        raise Failed(f"fewer meshes were skipped than the {least} that were done before: {ended}")
     return ended
 
 

@@ -64,7 +64,7 @@ def kill(process_id: int) -> None:
 
 
 class Daemons:
-    """Started programs. Their output is written to files in `folder`."""
+    """Started programs. The output of the programs is written to files in `folder`."""
 
     def __init__(self, folder: pathlib.Path) -> None:
         self._folder = folder

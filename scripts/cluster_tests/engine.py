@@ -34,7 +34,7 @@ class Event:
 
 
 class Engine(abc.ABC):
-    """Cluster software. Its files are in `folder`, which is new."""
+    """Cluster software. Files of the software are in `folder`, which is new."""
 
     name: str
 

@@ -88,7 +88,7 @@ class Checks:
         return [self._computation(mesh, rays, variant, {}) for mesh, rays, variant in cells]
 
     def validated(self, mesh: Mesh) -> list[Outcome]:
-        """Runs each variant and each further option with the validation layer. A message of it is an error."""
+        """Runs each variant and each further option with validation. A message of the validation layer is an error."""
         environment = {**self._layer.environment, "ASDF_VK_VALIDATION": "1"}
         cells = (*_variants(), *FURTHER_OPTIONS)
         return [self._computation(mesh, 30, options, environment) for options in cells]

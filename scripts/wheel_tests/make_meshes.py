@@ -24,7 +24,7 @@ class Surface:
         self.faces = faces
 
     def without(self, share: float) -> Surface:
-        """Returns an open surface: leaves out a share of the faces, at the greatest x."""
+        """Returns an open surface: leaves out a share of the faces, namely the faces with the greatest x."""
         x = self.vertices[self.faces].mean(axis=1)[:, 0]
         return Surface(self.vertices, self.faces[x <= np.quantile(x, 1 - share)])
 

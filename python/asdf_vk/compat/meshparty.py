@@ -3,8 +3,8 @@
     from asdf_vk.compat import meshparty
     values = meshparty.shape_diameter_function(mesh_inds, mesh)
 
-The function has MeshParty's parameters and defaults (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). It does not
-import MeshParty. It computes MeshParty's definition:
+The function has MeshParty's parameters and defaults (CAVEconnectome/MeshParty, meshparty/ray_tracing.py). MeshParty is
+not imported. The function computes MeshParty's definition:
 
 - A ray starts one unit of length below its vertex, at vertex - vertex normal. MeshParty's meshes are in nanometres.
   Scale a mesh first if its size is about one unit.
@@ -13,9 +13,9 @@ import MeshParty. It computes MeshParty's definition:
   radians.
 - The length of a ray is the distance from its start to its first hit. The angle of a ray is the angle between the ray
   and the normal of the hit face; the weight of the ray is 1 / angle. A ray is dropped if its angle is below median -
-  deviation. It is also dropped if its angle is above median + deviation and above 90 degrees. Median and standard
+  deviation. A ray is also dropped if its angle is above median + deviation and above 90 degrees. Median and standard
   deviation are computed over the angles of all rays of the cone.
-- The value is the weighted mean of the lengths. It is NaN if no ray hits anything.
+- The value is the weighted mean of the lengths. The value is NaN if no ray hits anything.
 
 Differences: hits are computed in double precision; MeshParty uses Embree, which computes in float32. If no ray of any
 cone hits anything, all values are NaN; MeshParty fails in this case.

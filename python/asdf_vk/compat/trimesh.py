@@ -3,15 +3,15 @@
     from asdf_vk.compat import trimesh
     values = trimesh.thickness(mesh, points)
 
-The function has the parameters and defaults of trimesh 4. It does not import trimesh. As in trimesh, a value is
+The function has the parameters and defaults of trimesh 4. trimesh is not imported. As in trimesh, a value is
 infinite without a hit or an opposing wall. Differences:
 
 - "max_sphere": only opposing walls stop the ball (docs/thickness.md). In trimesh any wall stops the ball, so that
   values fall to 0 at every convex edge. In a closed component, a value is at most the diameter of the largest ball
   inside. The values are exact for the facets; trimesh iterates until the radius changes by less than 1e-6 of the
   diagonal.
-- "ray": the ray starts below the point, at a depth of 1e-5 of the diagonal of the bounding box. Its length is
-  measured from this start.
+- "ray": the ray starts below the point, at a depth of 1e-5 of the diagonal of the bounding box. The length of the ray
+  is measured from its start.
 """
 
 from __future__ import annotations
