@@ -67,7 +67,7 @@ def read(folder, name):
 
 
 def percentages(rows, column, below=101):
-    """Returns the points (percent, value) of rows with a share of seeds below `below` percent."""
+    """Returns points (percent, value). Leaves out rows whose share of seeds is `below` percent or more."""
     return [(row["percent"], row[column]) for row in rows if row["percent"] < below]
 
 

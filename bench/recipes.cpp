@@ -164,7 +164,7 @@ std::string recipeSummary(const std::vector<MeshRow>& rows) {
   const auto ratios = valuesOf(rows, [](const MeshRow& row) { return row.balanced / row.paper; });
   const std::vector<double> bounded = valuesOf(rows, &MeshRow::boundedError),
                             boundedRelative = valuesOf(rows, &MeshRow::boundedRelativeError);
-  std::string text = fmt::format("  error at 10 %, balanced / paper: geometric mean {:.3f}, maximum {:.3f}\n",
+  std::string text = fmt::format("  error with 10 % seeds, balanced / paper: geometric mean {:.3f}, maximum {:.3f}\n",
                                  geometricMeanOf(ratios), maximumOf(ratios));
   text +=
       fmt::format("  error against the truth / floor: quality at 10 % {}; quality at 40 % {}; balanced at 10 % {}\n",
@@ -182,7 +182,7 @@ std::string recipeSummary(const std::vector<MeshRow>& rows) {
       100 * meanOf(valuesOf(rows, &MeshRow::boundedRelativeShare)));
   text += fmt::format("  solver iterations, balanced / paper: {}\n",
                       meanAndMaximum(valuesOf(rows, &MeshRow::iterations), 2));
-  return text + fmt::format("  (sample + predict + solve) / trace at 10 %: {}\n",
+  return text + fmt::format("  (sample + predict + solve) / trace, with 10 % seeds: {}\n",
                             meanAndMaximum(valuesOf(rows, &MeshRow::overTrace), 2));
 }
 

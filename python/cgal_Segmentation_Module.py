@@ -50,7 +50,7 @@ def cgal_segmentation(
 
     Both output files have a line per face, in the order of the mesh. PATH-cgal_{clusters}_{smoothness:.2f}.csv has the
     segment of each face, from 0 on. PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the value of each face from 0 to
-    1, with 6 significant digits. The files get these names when both are complete.
+    1, with 6 significant digits. When both files are complete, they are renamed from temporary names to these names.
 
     Returns a code. 1: done; 2: PATH.off cannot be opened; 3: PATH.off is not a valid OFF file; 4: the mesh has no
     faces; 6: a face is not a triangle. Raises OSError if a file cannot be written. Raises asdf_vk.Error for all other

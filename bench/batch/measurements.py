@@ -23,7 +23,7 @@ def threads(options, work):
             seconds[name].append(taken)
             check(same_results(work / "default0", out), f"{name}: {taken:.2f} s, {len(results(out))} results, {load()}")
     ratio = statistics.median(seconds["--threads 1"]) / statistics.median(seconds["default"])
-    print(f"time of --threads 1 / time of the default: {ratio:.2f} (medians of {options.runs} runs)")
+    print(f"time with --threads 1 / time with the default: {ratio:.2f} (medians of {options.runs} runs)")
 
 
 def cgal(options, work):

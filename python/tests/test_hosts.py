@@ -25,7 +25,7 @@ def test_the_package_has_the_add_ons() -> None:
         documentation = ast.get_docstring(ast.parse(path.read_text()))
         assert documentation and path.parent == Path(next(iter(asdf_vk.hosts.__path__)))
     version = tuple(map(int, asdf_vk.__version__.split(".")))
-    assert f'"version": {version},' in paths[0].read_text()  # Blender reads the source.
+    assert f'"version": {version},' in paths[0].read_text()  # Blender parses this line.
 
 
 def _surface(with_line: bool) -> Any:

@@ -61,7 +61,7 @@ def sdf_values(
     postprocess: apply sdf_values_postprocessing().
     seeds: faces from which rays start: "all" as in CGAL, a share such as 0.1, or a count. The values of the other faces
         are interpolated; then segments differ from CGAL's segments.
-    progress: called with a fraction from 0 to 1 and the name of the stage. If it returns False, the call is cancelled.
+    progress: called with a fraction from 0 to 1 and the name of the stage. The return value False cancels.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
     Returns the values, float64 (m,), and a pair of numbers in the unit of the mesh. Post-processed values are in [0,
