@@ -52,7 +52,8 @@ def write(
 
     mesh: a Mesh, an object with `vertices` and `faces`, or a tuple of these two arrays.
     fields: a result of compute(), or a mapping from names to arrays per face, (items,) or (items, 3). The first field
-        of real numbers is the property `quality` of a .ply. If there are no segments, this field also determines the colours.
+        of real numbers is the property `quality` of a .ply. If there are no segments, this field also determines the
+        colours.
     further: further results of the same mesh; for pages only, because all other formats hold one result.
     vertex_fields: a mapping from names to arrays per vertex. None: if `fields` is an Info, its vertex fields are used.
     format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png". Empty: the extension decides the format.
