@@ -40,9 +40,9 @@ EstimateRatios ratiosOf(const ErrorEstimate& estimate, const FieldErrors& actual
           over(estimate.relativePercentile90, actual.relativePercentile90)};
 }
 
-/// Average errors, divided by the range of the values that are compared with. The full function is the values from 30
-/// rays at every face with fixed cones. The truth is the values from many rays at every face with hashed cones. The
-/// floor is the error of the full function against the truth.
+/// Average differences from reference values, divided by the range of the reference values. The full function is the
+/// values from 30 rays at every face with fixed cones. The truth is the values from many rays at every face with hashed
+/// cones. The floor is the error of the full function against the truth.
 struct MeshRow {
   std::string name;
   uint64_t faceCount = 0;

@@ -73,9 +73,9 @@ def write(
     if flag_of(ascii, "ascii") and kind != "ply":
         raise error_of("optionConflict", "ascii is for PLY only; remove ascii=True")
     if picture_of and kind != "png":
-        raise error_of("optionConflict", "picture_of names the field of a picture (.png); drop it")
+        raise error_of("optionConflict", "picture_of names the field of a picture (.png); remove picture_of")
     if vertex_fields and kind in ("html", "png"):
-        raise error_of("optionConflict", "pages and pictures show fields per face; drop vertex_fields")
+        raise error_of("optionConflict", "pages and pictures show fields per face; remove vertex_fields")
     if kind == "html":
         name = "mesh" if target == "-" else os.path.splitext(os.path.basename(target))[0]
         name = os.fsencode(name).decode(errors="replace")  # The name of a file need not be valid UTF-8.
@@ -84,7 +84,7 @@ def write(
         _core.write_page(target, argument, name, list(layers))
         return
     if labels is not None:
-        raise error_of("optionConflict", "labels name the results of a page (.html); drop them")
+        raise error_of("optionConflict", "labels name the results of a page (.html); remove labels")
     if len(results) > 1:
         raise error_of("optionConflict", f"{target!r} holds one result and {len(results)} are given; a page (.html) "
                        "shows several")
