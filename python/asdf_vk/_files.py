@@ -73,7 +73,7 @@ def write(
     if flag_of(ascii, "ascii") and kind != "ply":
         raise error_of("optionConflict", "ascii is for PLY only; remove ascii=True")
     if picture_of and kind != "png":
-        raise error_of("optionConflict", "picture_of names the field of a picture (.png); remove picture_of")
+        raise error_of("optionConflict", "picture_of names the field of a picture (.png); drop it")
     if vertex_fields and kind in ("html", "png"):
         raise error_of("optionConflict", "pages and pictures show fields per face; remove vertex_fields")
     if kind == "html":
@@ -84,7 +84,7 @@ def write(
         _core.write_page(target, argument, name, list(layers))
         return
     if labels is not None:
-        raise error_of("optionConflict", "labels name the results of a page (.html); remove labels")
+        raise error_of("optionConflict", "labels name the results of a page (.html); drop them")
     if len(results) > 1:
         raise error_of("optionConflict", f"{target!r} holds one result and {len(results)} are given; a page (.html) "
                        "shows several")
