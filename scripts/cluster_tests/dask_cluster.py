@@ -24,7 +24,7 @@ class DaskCluster(Engine):
         super().__init__(surroundings, "dask")
         self._file = self.folder / "scheduler.json"
         self._port = free_ports(1)[0]
-        self._environment["DASK_CONFIG"] = str(self.folder / "settings")  # Not the settings of the user.
+        self._environment["DASK_CONFIG"] = str(self.folder / "settings")  # Ignores the user's settings.
         self._observer: distributed.Client | None = None
         self._client: subprocess.Popen[str] | None = None
 

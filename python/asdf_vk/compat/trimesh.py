@@ -59,7 +59,7 @@ def thickness(
         raise error_of("unknownName", f"method={method!r} is unknown; the names are max_sphere, ray")
     exterior = flag_of(exterior, "exterior")
     places = points_array(points, "points").astype(np.float64)
-    # Normals belong to triangles. If a Mesh has polygons, this scene is made from its triangles.
+    # The scene is made from triangles, because normals belong to triangles. A Mesh can have polygons.
     triangles = getattr(mesh, "vertices", mesh), getattr(mesh, "faces", None)
     with Scene(*triangles, orient="flip" if exterior else "keep", **options) as scene:
         if normals is None:
