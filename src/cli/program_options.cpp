@@ -1,4 +1,4 @@
-// The options of outputs, batches and devices. describe/computation_options.cpp has the other options.
+// The options of outputs, batches and devices. src/describe has the other options.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,10 +13,8 @@
 namespace asdfvk {
 namespace {
 
-constexpr const char* kOutputGroup = "Output";
 constexpr const char* kPictureGroup = "Picture";
 constexpr const char* kBatchGroup = "Many meshes";
-constexpr const char* kDeviceGroup = "Device";
 constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024;
 
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }

@@ -1,15 +1,9 @@
-// One row per option of a computation or session. Help, man page, docs/options.md, keywords of Python and the JSON
-// report are derived from the rows.
+// One row per option of a computation.
 #include "describe/computation_options.h"
 
-#include <fmt/core.h>
-
 #include <array>
-#include <cmath>
 
-#include "asdf_vk/error.h"
-#include "core/length_unit.h"
-#include "core/text.h"
+#include "describe/option_values.h"
 
 namespace asdfvk {
 namespace {
@@ -17,129 +11,7 @@ namespace {
 constexpr const char* kSeedGroup = "Seeds and rays";
 constexpr const char* kSegmentGroup = "Segments";
 constexpr const char* kThicknessGroup = "Thickness";
-constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
-constexpr const char* kDeviceGroup = "Device";
-constexpr const char* kOutputGroup = "Output";
-
 constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clocks.
-constexpr uint64_t kAllFaces = std::numeric_limits<uint64_t>::max();
-
-/// Returns 0.1 for "10%" and for "0.1".
-std::optional<double> shareIn(std::string_view text) {
-  const bool isPercent = text.ends_with('%');
-  const auto number = numberIn<double>(text.substr(0, text.size() - (isPercent ? 1 : 0)));
-  return number && isPercent ? *number / 100 : number;
-}
-
-std::string_view textIn(const OptionValue& value) {
-  const auto* text = std::get_if<std::string>(&value);
-  return text == nullptr ? std::string_view() : *text;
-}
-
-Options& optionsOf(void* target) { return static_cast<ComputationSettings*>(target)->options; }
-const Options& optionsOf(const void* target) { return static_cast<const ComputationSettings*>(target)->options; }
-
-constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
-
-bool readLength(const OptionValue& value, std::optional<double>& length, LengthUnit& unit) {
-  std::string_view text = textIn(value);
-  const LengthUnitRow* found = nullptr;
-  for (const LengthUnitRow& known : kLengthUnits)
-    if (text.ends_with(known.name) && (found == nullptr || known.name.size() > found->name.size())) found = &known;
-  if (found != nullptr) text.remove_suffix(found->name.size());
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  std::optional<double> number = numberIn<double>(text);
-  if (const auto* real = std::get_if<double>(&value)) number = *real;
-  if (const auto* whole = std::get_if<uint64_t>(&value)) number = static_cast<double>(*whole);
-  if (!number || !(*number > 0) || !std::isfinite(*number)) return false;
-  length = number;
-  unit = found != nullptr ? found->unit : LengthUnit::OfMesh;
-  return true;
-}
-
-OptionValue lengthValue(const std::optional<double>& length, LengthUnit unit) {
-  if (!length) return {};
-  const LengthUnitRow* const row = findLengthUnit(unit);
-  return row == nullptr ? OptionValue(*length) : OptionValue(fmt::format("{}{}", *length, row->name));
-}
-
-bool readSeeds(void* target, const OptionValue& value) {
-  SeedCount& seeds = optionsOf(target).seeds;
-  const std::string_view text = textIn(value);
-  const auto* share = std::get_if<double>(&value);
-  const auto* whole = std::get_if<uint64_t>(&value);
-  const auto percent = text.ends_with('%') ? shareIn(text) : share != nullptr ? std::optional(*share) : std::nullopt;
-  if (percent) {
-    if (!(*percent > 0 && *percent <= 1)) return false;
-    seeds = SeedCount::ofShare(*percent);
-    return true;
-  }
-  const auto count = whole != nullptr ? std::optional(*whole) : numberIn<uint64_t>(text);
-  if (text == "auto") seeds = SeedCount::automatic();
-  if (text == "all") seeds = SeedCount::all();
-  if (count && *count > 0) seeds = SeedCount::ofCount(*count);
-  return text == "auto" || text == "all" || (count && *count > 0);
-}
-
-bool readMaxError(void* target, const OptionValue& value) {
-  constexpr std::string_view kRelative = "rel";
-  std::string_view text = textIn(value);
-  const bool isRelative = text.ends_with(kRelative);
-  if (isRelative) text.remove_suffix(kRelative.size());
-  const auto* number = std::get_if<double>(&value);
-  const std::optional<double> share = number != nullptr ? std::optional(*number) : shareIn(text);
-  if (!share || !(*share > 0 && *share < 1)) return false;
-  constexpr double kLeastPercentage = 0.1;  // "0.5" without % more likely means 0.5 % than 50 %.
-  if (number == nullptr && !text.ends_with('%') && *share >= kLeastPercentage) {
-    const char* const suffix = isRelative ? kRelative.data() : "";
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("'{0}{2}' has no %; write {0}%{2} or {1:g}%{2}", text, 100 * *share, suffix));
-  }
-  RoundOptions& rounds = optionsOf(target).rounds;
-  (isRelative ? rounds.maxRelativeError : rounds.maxError) = *share;
-  return true;
-}
-
-OptionValue writeMaxError(const void* target) {
-  const std::optional<double>& maxError = optionsOf(target).rounds.maxError;
-  return maxError ? OptionValue(*maxError) : OptionValue();
-}
-
-/// Reads "off", "auto" or rings x passes, such as "2x1".
-bool readSmoothing(void* target, const OptionValue& value) {
-  const std::string_view text = textIn(value);
-  SmoothingOptions& smoothing = optionsOf(target).smoothing;
-  smoothing = {.isOn = text != "off", .window = {}};
-  if (text == "off" || text == "auto") return true;
-  const size_t cross = std::min(text.find('x'), text.size());
-  const auto rings = numberIn<uint32_t>(text.substr(0, cross));
-  const auto passes = numberIn<uint32_t>(text.substr(std::min(cross + 1, text.size())));
-  if (!rings || !passes || *rings < 1 || *rings > 4 || *passes < 1 || *passes > 100) return false;
-  smoothing.window = SmoothingOptions::Window{*rings, *passes};
-  return true;
-}
-
-OptionValue writeSmoothing(const void* target) {
-  const SmoothingOptions& smoothing = optionsOf(target).smoothing;
-  if (!smoothing.isOn) return "off";
-  if (!smoothing.window) return "auto";
-  return fmt::format("{}x{}", smoothing.window->rings, smoothing.window->passes);
-}
-
-bool readCheck(void* target, const OptionValue& value) {
-  const auto* whole = std::get_if<uint64_t>(&value);
-  const auto count = textIn(value) == "all" ? kAllFaces
-                     : whole != nullptr     ? *whole
-                                            : numberIn<uint64_t>(textIn(value)).value_or(0);
-  if (count > 0) optionsOf(target).checkCount = count;
-  return count > 0;
-}
-
-OptionValue writeCheck(const void* target) {
-  const std::optional<uint64_t>& count = optionsOf(target).checkCount;
-  if (!count) return {};
-  return *count == kAllFaces ? OptionValue("all") : OptionValue(*count);
-}
 
 #define COMPUTATION_MEMBER(path) ASDFVK_MEMBER(ComputationSettings, path)
 #define COMPUTATION_CHOICE(path, names) ASDFVK_CHOICE(ComputationSettings, path, names)
@@ -421,79 +293,11 @@ const std::array kComputationRows{
             "are area-weighted means over the faces of a vertex. .csv and .npy then have vertex fields only"},
 };
 
-const std::array kSessionRows{
-    OptionRow{.name = "backend",
-              .group = kDeviceGroup,
-              .access = ASDFVK_MEMBER(SessionSettings, backend),
-              .text = "Backend that traces the rays. vulkan: a Vulkan device. cpu: the cores of the CPU. reference: "
-                      "the CPU in double precision. auto: the first of these that is available",
-              .valueNames = "auto|vulkan|cpu|reference"},
-    OptionRow{.name = "device",
-              .access = ASDFVK_MEMBER(SessionSettings, device),
-              .text = "Vulkan device: its number in --list-devices or a part of its name",
-              .placeholder = "N|NAME",
-              .defaultText = "the best",
-              .keywordType = "str | int"},
-    OptionRow{.name = "require-gpu",
-              .access = ASDFVK_MEMBER(SessionSettings, requireGpu),
-              .text = "Fail if no GPU is usable",
-              .more = "The exit code is then 3. CPU devices, `cpu` and `reference` are not used."},
-    OptionRow{.name = "threads",
-              .access = ASDFVK_MEMBER(SessionSettings, threadCount),
-              .range = fromTo(0, 1024),
-              .text = "Number of CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on the "
-                      "number",
-              .placeholder = "N"},
-    OptionRow{.name = "kernel",
-              .group = kExperimentGroup,
-              .access = ASDFVK_MEMBER(SessionSettings, variant.kernel),
-              .text = "Vulkan: rays that neighbouring lanes trace. seed: the same ray of neighbouring seeds. ray: the "
-                      "rays of one seed. packet: as ray, but the lanes traverse the hierarchy together",
-              .more = "For `--kernel` and `--fetch`, `auto` depends on the class of the device and the size of the "
-                      "mesh ([devices.md](devices.md)).",
-              .keyword = "",
-              .valueNames = "auto|seed|ray|packet",
-              .emptyIsAuto = true},
-    OptionRow{.name = "fetch",
-              .access = ASDFVK_MEMBER(SessionSettings, variant.fetch),
-              .text = "Vulkan: kind of buffers from which the kernels read the hierarchy",
-              .keyword = "",
-              .valueNames = "auto|texel|storage",
-              .emptyIsAuto = true},
-};
-
 }  // namespace
 
 OptionRows computationRows() {
   static const auto rows = withGroups(kComputationRows);
   return rows;
-}
-
-OptionRows sessionRows() {
-  static const auto rows = withGroups(kSessionRows);
-  return rows;
-}
-
-std::string toText(const SeedCount& seeds) {
-  if (seeds.kind == SeedCount::Kind::Automatic) return "auto";
-  if (seeds.kind == SeedCount::Kind::All) return "all";
-  if (seeds.kind == SeedCount::Kind::Count) return fmt::format("{}", seeds.count);
-  const std::string rounded = fmt::format("{:.6g}%", seeds.share * 100);
-  return shareIn(rounded) == seeds.share ? rounded : fmt::format("{:.17g}%", seeds.share * 100);
-}
-
-std::vector<std::pair<std::string, OptionValue>> reportedOptions(const ComputationSettings& computation,
-                                                                 const SessionSettings& session) {
-  std::vector<std::pair<std::string, OptionValue>> values;
-  const auto add = [&](OptionRows rows, const void* target) {
-    for (const OptionRow& row : rows)
-      if (target != &session || row.name != std::string_view("threads"))
-        values.emplace_back(spelled(row, OptionSpelling::CamelCase),
-                            isNeedMet(row, rows, target) ? valueOf(row, target) : OptionValue());
-  };
-  add(computationRows(), &computation);
-  add(sessionRows(), &session);
-  return values;
 }
 
 }  // namespace asdfvk

@@ -17,6 +17,11 @@ struct SessionSettings : SessionOptions {
   uint32_t threadCount = 0;  ///< 0: the number of cores.
 };
 
+/// Groups of options of several tables.
+inline constexpr const char* kOutputGroup = "Output";
+inline constexpr const char* kDeviceGroup = "Device";
+inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
+
 /// Rows are in the order in which options are set. Recipe and definition are first, because they set further options.
 [[nodiscard]] ASDFVK_API OptionRows computationRows();
 [[nodiscard]] ASDFVK_API OptionRows sessionRows();

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "describe/computation_options.h"
+
+/// OptionRow::read and OptionRow::write of the options of a computation whose values are not plain numbers or names.
+namespace asdfvk {
+
+[[nodiscard]] inline Options& optionsOf(void* target) { return static_cast<ComputationSettings*>(target)->options; }
+[[nodiscard]] inline const Options& optionsOf(const void* target) {
+  return static_cast<const ComputationSettings*>(target)->options;
+}
+
+/// OptionRow::wanted of a length.
+inline constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
+[[nodiscard]] bool readLength(const OptionValue& value, std::optional<double>& length, LengthUnit& unit);
+[[nodiscard]] OptionValue lengthValue(const std::optional<double>& length, LengthUnit unit);
+
+[[nodiscard]] bool readSeeds(void* target, const OptionValue& value);
+[[nodiscard]] bool readMaxError(void* target, const OptionValue& value);
+[[nodiscard]] OptionValue writeMaxError(const void* target);
+[[nodiscard]] bool readSmoothing(void* target, const OptionValue& value);
+[[nodiscard]] OptionValue writeSmoothing(const void* target);
+[[nodiscard]] bool readCheck(void* target, const OptionValue& value);
+[[nodiscard]] OptionValue writeCheck(const void* target);
+
+}  // namespace asdfvk
