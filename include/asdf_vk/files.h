@@ -9,6 +9,7 @@
 #include "asdf_vk/api.h"
 #include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
+#include "asdf_vk/run_control.h"
 
 namespace asdfvk {
 
@@ -72,7 +73,9 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
 /// extension, the file is a point cloud in binary PLY. A point has `double x y z` and `float radius`, and also `uint
 /// part` if there is a face field "segment". Replaces the file atomically; "-" is standard output. Throws
 /// Error{UnknownField} if "centre" or "sdf" is missing; Error{OptionConflict} if the sizes of the fields do not fit
-/// each other or "component" holds real numbers; Error{ValueOutOfRange} as requireSingles(); Error{OutputNotWritable}.
-ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
+/// each other or "component" holds real numbers; Error{ValueOutOfRange} as requireSingles(); Error{OutputNotWritable};
+/// Error{Cancelled} while a .swc file is made. control: only the cancellation is used.
+ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields,
+                            const RunControl& control = {});
 
 }  // namespace asdfvk

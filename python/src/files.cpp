@@ -73,8 +73,7 @@ void write(const std::filesystem::path& path, const py::object& mesh, const py::
 void writePointsOf(const std::filesystem::path& path, const py::dict& perFace) {
   requireSameProcess();
   const std::vector<Field> fields = fieldsOf(perFace, {});
-  const GilRelease released;
-  writePoints(path, fields);
+  runInterruptibly([&](const RunControl& control) { writePoints(path, fields, control); }, py::none());
 }
 
 py::tuple stateOf(const Mesh& mesh) {

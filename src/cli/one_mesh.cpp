@@ -151,7 +151,7 @@ class MeshFiles {
   void writePoints(const Result& result) const {
     if (settings_.outputs.points.empty()) return;
     const AwaitedReader reader(settings_.outputs.points, stop_);
-    asdfvk::writePoints(settings_.outputs.points, result.fields);
+    asdfvk::writePoints(settings_.outputs.points, result.fields, {stop_, {}, {}});
   }
 
   /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.

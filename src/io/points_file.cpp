@@ -51,7 +51,7 @@ void writePly(AtomicFile& file, std::span<const SkeletonPoint> points, const Fie
 /// Each tree has one root: the point with the greatest radius, where a neuron has its body.
 class SwcWriter {
  public:
-  explicit SwcWriter(AtomicFile& file) : file_(file) {
+  SwcWriter(AtomicFile& file, const RunControl& stopOnly) : file_(file), stopOnly_(stopOnly) {
     file_.write(
         fmt::format("# asdf-vk {}: skeleton points, joined by their minimum spanning trees, one per component\n"
                     "# radius: half of the shape diameter; unit: that of the mesh\n"
@@ -62,7 +62,7 @@ class SwcWriter {
   void write(std::span<const SkeletonPoint> points) {
     std::vector<Vec3d> places;
     for (const SkeletonPoint& point : points) places.push_back(point.place);
-    const std::vector<std::array<uint32_t, 2>> edges = minimumSpanningTree(places);
+    const std::vector<std::array<uint32_t, 2>> edges = minimumSpanningTree(places, stopOnly_);
     const auto neighbours = sortIntoBuckets<uint32_t>(points.size(), edges.size(), [&](uint32_t edge, auto put) {
       put(edges[edge][0], edges[edge][1]);
       put(edges[edge][1], edges[edge][0]);
@@ -86,8 +86,10 @@ class SwcWriter {
 
  private:
   static constexpr uint32_t kNoPoint = 0xffffffff;
+  static constexpr int64_t kLinesPerCheckpoint = 4096;
 
   void writeLine(const SkeletonPoint& point, int64_t parent) {
+    if (id_ % kLinesPerCheckpoint == 0) stopOnly_.checkpoint(0);
     file_.putNumber(++id_);
     const auto append = [&](auto number) {
       file_.put(' ');
@@ -103,19 +105,20 @@ class SwcWriter {
   }
 
   AtomicFile& file_;
+  const RunControl& stopOnly_;
   int64_t id_ = 0;
 };
 
 /// A tree per component, in the order of the first points of the components. Omits points of radius 0, which occur
 /// where walls touch.
-void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* component) {
+void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* component, const RunControl& stopOnly) {
   std::erase_if(points, [](const SkeletonPoint& point) { return !(point.radius > 0); });
   const auto componentOf = [&](const SkeletonPoint& point) {
     return component != nullptr ? static_cast<uint32_t>(component->at(point.face)) : 0;
   };
   std::stable_sort(points.begin(), points.end(),
                    [&](const auto& a, const auto& b) { return componentOf(a) < componentOf(b); });
-  SwcWriter writer(file);
+  SwcWriter writer(file, stopOnly);
   for (auto begin = points.begin(); begin != points.end();) {
     const auto end = std::find_if(begin, points.end(), [&, first = componentOf(*begin)](const SkeletonPoint& point) {
       return componentOf(point) != first;
@@ -127,7 +130,7 @@ void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* 
 
 }  // namespace
 
-void writePoints(const std::filesystem::path& path, std::span<const Field> fields) {
+void writePoints(const std::filesystem::path& path, std::span<const Field> fields, const RunControl& control) {
   const Field &centre = requireField(fields, "centre"), &sdf = requireField(fields, "sdf");
   const auto optional = [&](const char* name) { return findField(fields, name, FieldLocation::PerFace); };
   const Field *const segment = optional("segment"), *const component = optional("component");
@@ -144,7 +147,7 @@ void writePoints(const std::filesystem::path& path, std::span<const Field> field
   const std::vector<SkeletonPoint> points = skeletonPointsOf(centre, sdf);
   AtomicFile file(path);
   if (lowerCase(path.extension().string()) == ".swc") {
-    writeSwc(file, points, component);
+    writeSwc(file, points, component, control.withoutProgress());
   } else {
     writePly(file, points, segment);
   }

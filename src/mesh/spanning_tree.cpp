@@ -12,6 +12,7 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kLeafPointCount = 8, kNone = 0xffffffff;
+constexpr uint32_t kStepsPerCheckpoint = 1024;
 constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
 struct PointNode {
@@ -29,11 +30,18 @@ struct Edge {
 
 class SpanningTree {
  public:
-  explicit SpanningTree(std::span<const Vec3d> points)
-      : order_(points.size()), sets_(points.size()), groups_(points.size()), nearest_(points.size()) {
+  SpanningTree(std::span<const Vec3d> points, const RunControl& control)
+      : control_(control),
+        order_(points.size()),
+        sets_(points.size()),
+        groups_(points.size()),
+        nearest_(points.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.push_back({.end = static_cast<uint32_t>(points.size())});
-    for (uint32_t node = 0; node < nodes_.size(); ++node) split(points, node);
+    for (uint32_t node = 0; node < nodes_.size(); ++node) {
+      checkpointAt(node);
+      split(points, node);
+    }
     // The points are scaled so that squares neither overflow nor underflow.
     double greatest = 0;
     for (const Vec3d& p : points) greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -48,6 +56,11 @@ class SpanningTree {
   }
 
  private:
+  void checkpointAt(uint32_t step) const {
+    if (step % kStepsPerCheckpoint == 0)
+      control_.checkpoint(static_cast<double>(edges_.size()) / static_cast<double>(order_.size()));
+  }
+
   void split(std::span<const Vec3d> points, uint32_t index) {
     PointNode node = nodes_[index];
     for (uint32_t i = node.begin; i < node.end; ++i) node.box.add(points[order_[i]]);
@@ -84,6 +97,7 @@ class SpanningTree {
     for (const Edge& edge : nearest_)
       if (isValid(edge)) offer(edge);
     for (uint32_t i = 0; i < groups_.size(); ++i) {
+      checkpointAt(i);
       // The distance to the nearest point of another group never decreases from round to round.
       Edge& edge = nearest_[i];
       const double limit = best[groups_[i]].square, least = edge.from == kNone ? -1 : edge.square;
@@ -126,6 +140,7 @@ class SpanningTree {
     return found;
   }
 
+  const RunControl& control_;
   std::vector<uint32_t> order_;  ///< The caller's point at each position in the tree. All other indices are positions.
   std::vector<Vec3d> points_;
   std::vector<PointNode> nodes_;
@@ -137,9 +152,9 @@ class SpanningTree {
 
 }  // namespace
 
-std::vector<std::array<uint32_t, 2>> minimumSpanningTree(std::span<const Vec3d> points) {
+std::vector<std::array<uint32_t, 2>> minimumSpanningTree(std::span<const Vec3d> points, const RunControl& control) {
   if (points.size() < 2) return {};
-  return SpanningTree(points).run();
+  return SpanningTree(points, control).run();
 }
 
 }  // namespace asdfvk

@@ -8,6 +8,8 @@
 #include "asdf_vk/error.h"
 #include "core/random.h"
 #include "core/vec3.h"
+#include "support/require_failure.h"
+#include "support/stopped_control.h"
 #include "written_file.h"
 
 using namespace asdfvk;
@@ -206,4 +208,11 @@ TEST_CASE("a .swc without a point has its header only") {
   CHECK(swcOf({makeField("sdf", std::vector<double>{kNoValue, 0}),
                makeField("centre", std::vector<double>(6, 0), FieldLocation::PerFace, 3)})
             .empty());
+}
+
+TEST_CASE("a stop request ends the writing of trees, and leaves no file") {
+  const Folder folder;
+  test::requireFailure([&] { writePoints(folder / "points.swc", pointFields(), test::stoppedControl()); },
+                       ErrorCode::Cancelled);
+  CHECK(folder.names().empty());
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stop_token>
 #include <vector>
 
+#include "asdf_vk/error.h"
 #include "core/random.h"
 
 using namespace asdfvk;
@@ -64,6 +66,37 @@ TEST_CASE("the minimum spanning tree has the length of Prim's") {
       }
       CHECK(lengthOfTree(points, minimumSpanningTree(points)) == doctest::Approx(leastLength(points)).epsilon(1e-12));
     }
+}
+
+TEST_CASE("the minimum spanning tree has checkpoints at all stages, and ends at each of them on request") {
+  constexpr uint32_t kPointCount = 20'000;
+  Random random(7);
+  std::vector<Vec3d> points;
+  for (uint32_t i = 0; i < kPointCount; ++i) points.push_back({random.real(), random.real(), random.real()});
+  const auto run = [&](int stopAt) {
+    std::stop_source stop;
+    int callCount = 0;
+    double last = 0;
+    const RunControl control{stop.get_token(),
+                             [&](double fraction) {
+                               CHECK(fraction >= last);
+                               last = fraction;
+                               if (++callCount == stopAt) stop.request_stop();
+                             },
+                             {}};
+    try {
+      (void)minimumSpanningTree(points, control);
+      CHECK(stopAt == 0);
+      CHECK(last > 0.9);
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::Cancelled);
+      CHECK(callCount == stopAt);
+    }
+    return callCount;
+  };
+  const int all = run(0);
+  CHECK(all > 60);  // About 5 for the tree of nodes, and 20 per round.
+  for (const int stopAt : {1, 6, all / 2, all - 1}) (void)run(stopAt);
 }
 
 TEST_CASE("the minimum spanning tree does not depend on the unit") {
