@@ -57,7 +57,7 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
   SurfaceDistances distances(domain.graph, lengths);
   for (int growthCount = 0;; ++growthCount) {
     distances.add(existing, startRadius);
-    ThrownDarts darts = throwDarts(waiting, count, startRadius, distances);
+    ThrownDarts darts = throwDarts(waiting, count, startRadius, distances, domain.stopOnly);
     if (!darts.leaveGaps || startRadius == SurfaceDistances::kUnreached) {
       sortInParallel(darts.faces.begin(), darts.faces.end());
       return std::move(darts.faces);

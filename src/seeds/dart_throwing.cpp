@@ -17,11 +17,13 @@ constexpr uint32_t levelOf(float distance) { return std::bit_cast<uint32_t>(dist
 constexpr float lowestOf(uint32_t level) { return std::bit_cast<float>(level << kLevelShift); }
 static_assert(std::has_single_bit(kRadiiPerOctave) && std::numeric_limits<float>::is_iec559);
 
+constexpr size_t kTriesPerCheckpoint = 1024;
 constexpr uint32_t kBottom = levelOf(kMinArcLength);
 
 }  // namespace
 
-ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float startRadius, SurfaceDistances& distances) {
+ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float startRadius, SurfaceDistances& distances,
+                       const RunControl& stopOnly) {
   ASDFVK_CHECK_OP(count, <=, waiting.size());
   ASDFVK_CHECK_OP(startRadius, >=, kMinArcLength);
   const uint32_t top = levelOf(startRadius);
@@ -34,6 +36,7 @@ ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float star
     const float radius = lowestOf(level);
     bool hasMore = false;  // True if more darts than `count` fit at this radius.
     for (size_t i = 0; i < tried.size() && !hasMore; ++i) {
+      if (i % kTriesPerCheckpoint == 0) stopOnly.checkpoint(0);
       constexpr size_t kAhead = SurfaceDistances::kPrefetchDistance;
       if (i + kAhead < tried.size()) distances.prefetch(tried[i + kAhead]);
       if (i + kAhead / 2 < tried.size() && distances.at(tried[i + kAhead / 2]) >= radius)

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "seeds/surface_distances.h"
 
 namespace asdfvk {
@@ -26,7 +27,8 @@ struct ThrownDarts {
 /// waiting: the candidate faces, in order. count: at most their number.
 /// startRadius: kMinArcLength or more; infinity gives farthest-point sampling.
 /// distances: the distances to the existing seeds, exact up to the start radius; unspecified after the call.
+/// Throws Error{Cancelled}.
 [[nodiscard]] ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float startRadius,
-                                     SurfaceDistances& distances);
+                                     SurfaceDistances& distances, const RunControl& stopOnly = {});
 
 }  // namespace asdfvk

@@ -17,7 +17,8 @@ std::vector<uint32_t> farthestPointSeeds(const SeedDomain& domain, uint64_t coun
   const std::vector<float> lengths = arcLengths(domain.arcAngles.get());
   SurfaceDistances distances(domain.graph, lengths);
   distances.add(existing, SurfaceDistances::kUnreached);
-  std::vector<uint32_t> seeds = throwDarts(std::move(waiting), count, SurfaceDistances::kUnreached, distances).faces;
+  std::vector<uint32_t> seeds =
+      throwDarts(std::move(waiting), count, SurfaceDistances::kUnreached, distances, domain.stopOnly).faces;
   std::sort(seeds.begin(), seeds.end());
   return seeds;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "core/vec3.h"
 #include "mesh/arc_angles.h"
 #include "mesh/dual_graph.h"
@@ -21,6 +22,7 @@ struct SeedDomain {
   const FaceGeometry& geometry;
   ArcAngles& arcAngles;
   std::span<const uint32_t> candidates;  ///< Faces that can cast rays, ascending, each once.
+  RunControl stopOnly = {};              ///< A stop request ends the selection with Error{Cancelled}.
 };
 
 /// The candidates that are not in `existing` (any order), ascending. Throws CheckFailure for an existing face that is

@@ -36,7 +36,7 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
       if (unchangedCount == labelCount) return energy;
       ++unchangedCount;
       stopOnly.checkpoint(0);
-      if (!expand(problem, labels, label)) continue;
+      if (!expand(problem, labels, label, stopOnly)) continue;
       const double lower = labelEnergy(problem, expanded_);
       if (!(energy - lower > kMinRelativeDecrease * std::abs(energy))) continue;
       std::copy(expanded_.begin(), expanded_.end(), labels.begin());
@@ -50,7 +50,8 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
 // edge of f and g. If the labels of f and g are equal, the edge costs w if x_f and x_g differ: capacity w in both
 // directions. If the labels differ, the edge costs 0 for x_f = x_g = 1, and w otherwise. This cost equals w - w/2 (x_f
 // + x_g), plus w/2 if x_f and x_g differ.
-bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label) {
+bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label,
+                            const RunControl& stopOnly) {
   nodeOf_.resize(labels.size());
   gains_.clear();
   for (uint32_t face = 0; face < labels.size(); ++face) {
@@ -82,7 +83,7 @@ bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_
   }
   if (std::none_of(gains_.begin(), gains_.end(), [](double gain) { return gain > 0; })) return false;
   for (uint32_t node = 0; node < gains_.size(); ++node) flow_.addTerminal(node, gains_[node]);
-  static_cast<void>(flow_.solve());
+  static_cast<void>(flow_.solve(stopOnly));
   bool isChanged = false;
   expanded_.assign(labels.begin(), labels.end());
   for (uint32_t face = 0; face < labels.size(); ++face)

@@ -59,14 +59,15 @@ class AlphaExpansion {
   /// Expands the labels in order, in rounds, until a round changes nothing. An expansion that lowers the energy by at
   /// most 1e-10 of the energy is discarded, so that rounding cannot cause an endless loop. labels: #F, below
   /// problem.labelCount and allowed; improved in place. Returns the energy of the improved labels. Throws
-  /// Error{Cancelled} between expansions.
+  /// Error{Cancelled}.
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits,
                   const RunControl& control = {});
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:
   /// Writes the labels after the best expansion to expanded_. Returns whether a face changes.
-  bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label);
+  bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label,
+              const RunControl& stopOnly);
 
   MaxFlow flow_;
   std::vector<uint32_t> nodeOf_;  ///< #F

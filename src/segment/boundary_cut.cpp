@@ -29,7 +29,8 @@ struct Choice {
 };
 
 /// The labels that each face may take, other than its current label, ascending by label.
-std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount) {
+std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount,
+                              const RunControl& stopOnly) {
   std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // For each label, the faces next to it.
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
     for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc)
@@ -37,12 +38,13 @@ std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32
           labels[other] != labels[face] && labels[face] != kNoLabel && labels[other] != kNoLabel)
         sources[labels[face]].emplace_back(other, length);
   const auto reach = static_cast<float>(kCutReach);
-  SurfaceFront front(surface.offsets, surface.arcs);
+  SurfaceFront front(surface.offsets, surface.arcs, stopOnly.stop);
   std::vector<Choice> choices;
   for (uint32_t label = 0; label < labelCount; ++label) {
     for (const auto& [face, distance] : sources[label])
       if (distance <= reach) front.add(face, distance, label);
     front.advance(reach, [&](uint32_t face) { return labels[face] != label && labels[face] != kNoLabel; });
+    stopOnly.checkpoint(0);
     for (const uint32_t face : front.reached()) choices.push_back({face, label, front.distances()[face]});
     front.clear();
   }
@@ -187,7 +189,7 @@ void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, 
 
 std::vector<uint32_t> cutBoundaries(const PartSurface& surface, std::vector<uint32_t> labels, uint32_t labelCount,
                                     const RunControl& control) {
-  std::vector<Choice> choices = choicesOf(surface, labels, labelCount);
+  std::vector<Choice> choices = choicesOf(surface, labels, labelCount, control.withoutProgress());
   const Anchors anchors = anchorsOf(surface, labels, labelCount, choices);
   keepCores(choices, labels, anchors);
   expandLabels(surface, labels, labelCount, choices, control);

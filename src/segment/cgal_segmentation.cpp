@@ -69,16 +69,19 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   ASDFVK_CHECK_OP(values.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(neighbours.size(), ==, mesh.faces.size());
   if (values.empty()) throw Error(ErrorCode::NoValues, "there are no values to cluster");
+  const RunControl stopOnly = control.withoutProgress();
   std::vector<double> logarithms(values.size());
   for (size_t face = 0; face < values.size(); ++face) logarithms[face] = std::log(5 * values[face] + 1) / std::log(6.0);
   ASDFVK_CHECK(std::all_of(logarithms.begin(), logarithms.end(), [](double value) { return std::isfinite(value); }));
   const uint32_t clusterCount = options.clusterCount;
-  SoftClustering clustering = clusterSoftly(logarithms, clusterCount);
+  SoftClustering clustering = clusterSoftly(logarithms, clusterCount, stopOnly);
+  stopOnly.checkpoint(0);
   std::vector<double>& costs = clustering.probabilities;
   CgalSegmentation result;
   result.clusters.resize(values.size());
   // Neighbouring faces have near numbers in this order, which reduces the time of the cut to two thirds or less.
   const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerCutBlock);
+  stopOnly.checkpoint(0);
   std::vector<double> orderedCosts(costs.size());
   std::vector<uint32_t> labels(values.size());
   forEachInParallel(values.size(), [&](uint32_t i) {
@@ -87,6 +90,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
     for (uint32_t c = 0; c < clusterCount; ++c) orderedCosts[size_t{i} * clusterCount + c] = costOf(row[c]);
   });
   costs = {};
+  stopOnly.checkpoint(0);
   const std::vector<LabelEdge> edges = reordered(cgalEdgeCosts(geometry, mesh, neighbours, options.smoothness), order);
   const bool isFirstOnly = options.expansion == CgalExpansion::First;
   result.energy = AlphaExpansion().minimize({clusterCount, orderedCosts, edges}, labels,

@@ -26,7 +26,7 @@ struct CgalSegmentation {
 /// gives the same labels. The result does not depend on the number of threads. One cluster is also accepted; a negative
 /// smoothness counts as 0. The clustering is not stable: noise of 1e-3 of the range may change many labels. Throws
 /// Error{NoValues} without faces, Error{TooFewValues} if there are fewer different values than clusters, and
-/// Error{Cancelled} between expansions.
+/// Error{Cancelled}.
 [[nodiscard]] CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                const FaceNeighbours& neighbours, std::span<const double> values,
                                                const CgalSegmentationOptions& options, const RunControl& control = {});

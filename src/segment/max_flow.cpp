@@ -11,6 +11,7 @@ namespace {
 
 /// Number of nodes of each smallest range, and number of ranges that are joined to a larger range.
 constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
+constexpr uint32_t kStepsPerPoll = 1024;
 
 }  // namespace
 
@@ -47,8 +48,8 @@ class MaxFlow::Search {
   void plant();
   /// Joins ranges of this size, which are already solved.
   void join(size_t partSize);
-  /// Searches until the trees cannot grow.
-  void run();
+  /// Searches until the trees cannot grow, or until a stop is requested.
+  void run(const std::stop_token& stop);
 
   [[nodiscard]] double flow() const { return flow_; }
 
@@ -79,7 +80,7 @@ class MaxFlow::Search {
   double flow_ = 0;
 };
 
-double MaxFlow::solve() {
+double MaxFlow::solve(const RunControl& stopOnly) {
   ASDFVK_CHECK_OP(arcs_.size(), <, size_t{kOrphan});
   size_t partSize = 0;
   for (size_t size = kNodesPerRange;; partSize = size, size *= kRangesPerRange) {
@@ -94,9 +95,10 @@ double MaxFlow::solve() {
       } else {
         search.join(partSize);
       }
-      search.run();
+      search.run(stopOnly.stop);
       flows[range] = search.flow();
     });
+    stopOnly.checkpoint(0);
     for (const double flow : flows) flow_ += flow;
     if (rangeCount <= 1) return flow_;
   }
@@ -127,8 +129,9 @@ void MaxFlow::Search::join(size_t partSize) {
   }
 }
 
-void MaxFlow::Search::run() {
-  while (queueSize_ > 0) {
+void MaxFlow::Search::run(const std::stop_token& stop) {
+  for (uint32_t step = 0; queueSize_ > 0; ++step) {
+    if (step % kStepsPerPoll == 0 && stop.stop_requested()) return;
     const uint32_t node = queue_[queueBegin_];
     const uint32_t bridge = nodes_[node].tree == Tree::Free ? kNone : grow(node);
     if (bridge == kNone) {

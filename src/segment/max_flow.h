@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
+
 namespace asdfvk {
 
 /// Maximum flow and minimum cut between two terminals, source and sink: Y. Boykov, V. Kolmogorov: An Experimental
@@ -33,8 +35,9 @@ class MaxFlow {
   /// Adds an edge with a finite capacity of at least 0 in each direction. Precondition: a != b.
   void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity);
 
-  /// Returns the value of the maximum flow; 0 for an empty graph. Precondition: called once after each reset().
-  double solve();
+  /// Returns the value of the maximum flow; 0 for an empty graph. Throws Error{Cancelled}. Precondition: called once
+  /// after each reset().
+  double solve(const RunControl& stopOnly = {});
 
   /// Whether the node is on the side of the source: whether it is reachable from the source in the residual graph. No
   /// other minimum cut has fewer nodes on the side of the source.

@@ -279,8 +279,10 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
 
   control.checkpoint(0);
   std::vector<Division> divisions(kPatchCounts.size());
-  std::vector<Patches> patches = makePatches(surface, roles.firstSeeds, patchCountsFor(surface.faceCount(), options));
+  std::vector<Patches> patches =
+      makePatches(surface, roles.firstSeeds, patchCountsFor(surface.faceCount(), options), control.withoutProgress());
   forEachTask(divisions.size(), [&](size_t i) {
+    if (control.stop.stop_requested()) return;
     divisions[i].patches = std::move(patches[i]);
     divisions[i].data = describePatches(surface, input.geometry.normals, divisions[i].patches);
   });

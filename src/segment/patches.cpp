@@ -55,12 +55,13 @@ struct SeededPatches {
 };
 
 std::vector<SeededPatches> sampleFarthest(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
-                                          std::span<const uint32_t> counts) {
-  SurfaceFront front(surface.offsets, surface.creasedArcs);
+                                          std::span<const uint32_t> counts, const RunControl& stopOnly) {
+  SurfaceFront front(surface.offsets, surface.creasedArcs, stopOnly.stop);
   std::vector<uint32_t> seeds;
   const auto addSeed = [&](uint32_t face) {
     front.add(face, 0, static_cast<uint32_t>(seeds.size()));
     front.advance();
+    stopOnly.checkpoint(0);
     seeds.push_back(face);
   };
   for (const uint32_t face : firstSeeds) addSeed(face);
@@ -81,8 +82,9 @@ std::vector<SeededPatches> sampleFarthest(const PartSurface& surface, std::span<
   return results;
 }
 
-/// Moves each seed to the face of its patch that is farthest from other patches, and divides the surface again.
-void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& seeded) {
+/// Moves each seed to the face of its patch that is farthest from other patches, and divides the surface again. After a
+/// stop request the result is meaningless.
+void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& seeded, const std::stop_token& stop) {
   std::vector<uint32_t>& patchOf = seeded.patches.patchOf;
   front.clear();
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
@@ -90,6 +92,7 @@ void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& see
       if (const auto& [neighbour, length] = surface.creasedArcs[arc]; patchOf[neighbour] != patchOf[face])
         front.add(face, length / 2, 0);
   front.advance();
+  if (stop.stop_requested()) return;
   std::vector<float> farthest(seeded.patches.count, -1);
   for (uint32_t face = 0; face < surface.faceCount(); ++face) {
     const float distance = front.distances()[face];
@@ -109,13 +112,15 @@ void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& see
 }  // namespace
 
 std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
-                                 std::span<const uint32_t> counts) {
+                                 std::span<const uint32_t> counts, const RunControl& stopOnly) {
   ASDFVK_CHECK(!firstSeeds.empty());
-  std::vector<SeededPatches> seeded = sampleFarthest(surface, firstSeeds, counts);
+  std::vector<SeededPatches> seeded = sampleFarthest(surface, firstSeeds, counts, stopOnly);
   forEachTask(seeded.size(), [&](size_t i) {
-    SurfaceFront front(surface.offsets, surface.creasedArcs);
-    for (uint32_t round = 0; round < kLloydRoundCount; ++round) improve(surface, front, seeded[i]);
+    SurfaceFront front(surface.offsets, surface.creasedArcs, stopOnly.stop);
+    for (uint32_t round = 0; round < kLloydRoundCount && !stopOnly.stop.stop_requested(); ++round)
+      improve(surface, front, seeded[i], stopOnly.stop);
   });
+  stopOnly.checkpoint(0);
   std::vector<Patches> results;
   for (SeededPatches& entry : seeded) results.push_back(std::move(entry.patches));
   return results;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "core/vec3.h"
 #include "segment/part_surface.h"
 
@@ -22,9 +23,9 @@ struct Patches {
 /// PartSurface::creasedArcs. firstSeeds: one face of each component that is divided, at least one in all. counts:
 /// ascending; the result has the patches for each count. Meshes with fewer faces than a count have fewer patches. There
 /// is at least one patch per first seed. Deterministic; the counts are processed in parallel. For a larger count, the
-/// list of farthest points begins with the list for the next smaller count.
+/// list of farthest points begins with the list for the next smaller count. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
-                                               std::span<const uint32_t> counts);
+                                               std::span<const uint32_t> counts, const RunControl& stopOnly = {});
 
 /// Data of patches for the merging. Lengths and areas as in PartSurface.
 struct PatchData {

@@ -231,24 +231,26 @@ class Mixture {
 
 }  // namespace
 
-HardClustering clusterByMeans(std::span<const double> values, uint32_t clusterCount) {
+HardClustering clusterByMeans(std::span<const double> values, uint32_t clusterCount, const RunControl& stopOnly) {
   ASDFVK_CHECK(1 <= clusterCount && clusterCount <= kMaxClusterCount);
   requireDifferentValues(values, clusterCount);
   HardClustering result{chooseSeeds(values, clusterCount), std::vector<uint32_t>(values.size())};
   assignToNearest(values, result.centres, result.clusterOf);
   bool isChanged = true;
   for (uint32_t move = 0; move < kMaxMoveCount && isChanged; ++move) {
+    stopOnly.checkpoint(0);
     moveToMeans(values, result.clusterOf, result.centres);
     isChanged = assignToNearest(values, result.centres, result.clusterOf);
   }
   return result;
 }
 
-SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount) {
-  Mixture mixture(values, clusterByMeans(values, clusterCount));
+SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount, const RunControl& stopOnly) {
+  Mixture mixture(values, clusterByMeans(values, clusterCount, stopOnly));
   static_cast<void>(mixture.expect());
   double before = 0;
   for (uint32_t step = 0; step < kMaxMaximizationCount; ++step) {
+    stopOnly.checkpoint(0);
     mixture.maximize();
     const double likelihood = mixture.expect();
     // The first comparison is after the second step.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "segment/part_surface.h"
@@ -19,10 +21,12 @@ class SurfaceFront {
   using Arc = PartSurface::Arc;
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
-  /// Keeps views of the arguments. arcs: compressed rows; no length is negative.
-  SurfaceFront(std::span<const uint32_t> offsets, std::span<const Arc> arcs)
+  /// Keeps views of the arguments. arcs: compressed rows; no length is negative. stop: after a stop request, advance()
+  /// ends early.
+  SurfaceFront(std::span<const uint32_t> offsets, std::span<const Arc> arcs, std::stop_token stop = {})
       : offsets_(offsets),
         arcs_(arcs),
+        stop_(std::move(stop)),
         distances_(offsets.size() - 1, kUnreached),
         labels_(offsets.size() - 1, 0),
         buckets_(kBucketCount) {
@@ -42,10 +46,11 @@ class SurfaceFront {
     put({distance, face});
   }
 
-  /// Computes all distances up to `limit`, over faces for which mayEnter(face) is true.
+  /// Computes all distances up to `limit`, over faces for which mayEnter(face) is true. After a stop request, distances
+  /// and labels are incomplete, and only the destructor may be called.
   template <typename MayEnter>
   void advance(float limit, const MayEnter& mayEnter) {
-    for (current_ = 0; entryCount_ > 0; ++current_) {
+    for (current_ = 0; entryCount_ > 0 && !stop_.stop_requested(); ++current_) {
       std::vector<Entry>& bucket = buckets_[current_ % kBucketCount];
       for (size_t i = 0; i < bucket.size(); ++i) {
         const Entry entry = bucket[i];
@@ -100,6 +105,7 @@ class SurfaceFront {
 
   std::span<const uint32_t> offsets_;
   std::span<const Arc> arcs_;
+  std::stop_token stop_;
   std::vector<float> distances_;
   std::vector<uint32_t> labels_, touched_;
   std::vector<std::vector<Entry>> buckets_;  ///< A ring buffer of the buckets from current_ on.

@@ -62,7 +62,7 @@ SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount) {
 }
 
 std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
-                                      const SmoothingOptions::Window& window) {
+                                      const SmoothingOptions::Window& window, const RunControl& stopOnly) {
   if (window.rings < 1 || window.rings > kMaxBilateralWindow)
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothing window of {} rings is out of range (1 to {})",
                                                          window.rings, kMaxBilateralWindow));
@@ -71,12 +71,14 @@ std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const do
   for (uint32_t pass = 0; pass < window.passes; ++pass) {
     constexpr size_t kGrain = 1024;
     forEachRange(graph.faceCount(), kGrain, [&](size_t begin, size_t end) {
+      if (stopOnly.stop.stop_requested()) return;
       RingWindow faces;
       for (auto face = static_cast<uint32_t>(begin); face < end; ++face) {
         faces.gather(graph, face, window.rings);
         to[face] = smoothedValue(faces, from);
       }
     });
+    stopOnly.checkpoint(0);
     std::swap(from, to);
   }
   return from;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/options.h"
+#include "asdf_vk/run_control.h"
 #include "mesh/dual_graph.h"
 
 /// Bilateral filter (Tomasi and Manduchi 1998) of a field on faces: the last step of the shape diameter function of
@@ -30,9 +31,10 @@ inline constexpr uint32_t kMaxBilateralWindow = 4;  ///< Greatest number of ring
 
 /// values: #F, finite, or NaN for no value. A face without a value keeps no value and does not influence other faces.
 /// The result has the same bits on any number of threads. Throws Error{OptionOutOfRange} for a number of rings out of
-/// range.
+/// range, and Error{Cancelled}.
 [[nodiscard]] std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
-                                                    const SmoothingOptions::Window& window);
+                                                    const SmoothingOptions::Window& window,
+                                                    const RunControl& stopOnly = {});
 
 /// If every edge joins at most two faces, four rings around a face have at most 1 + 3 + 6 + 12 + 24 = 46 faces and 66
 /// arcs. If more faces share an edge, these limits bound the time of a window.

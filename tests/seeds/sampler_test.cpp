@@ -11,7 +11,9 @@
 #include "core/check.h"
 #include "seeds/samplers.h"
 #include "seeds/surface.h"
+#include "support/require_failure.h"
 #include "support/shapes.h"
+#include "support/stopped_control.h"
 
 using namespace asdfvk;
 
@@ -87,6 +89,13 @@ TEST_CASE("an empty mesh, one face, and no candidate") {
     CHECK(sample(one.domain(), 1, Seeds{0}, 1).empty());
     CHECK(sample(noCandidate, 1, {}, 1).empty());
   });
+}
+
+TEST_CASE("a stop request ends the samplers that measure distances") {
+  SeedDomain domain = generatedSurface("sphere", 1000).domain();
+  domain.stopOnly = test::stoppedControl();
+  for (SampleSeeds* const sample : {&blueNoiseSeeds, &farthestPointSeeds})
+    test::requireFailure([&] { (void)sample(domain, 100, {}, 5); }, ErrorCode::Cancelled);
 }
 
 TEST_CASE("existing seeds are not selected again, and all remaining faces can be selected") {

@@ -9,6 +9,8 @@
 #include "asdf_vk/error.h"
 #include "sample_fields.h"
 #include "support/bits.h"
+#include "support/require_failure.h"
+#include "support/stopped_control.h"
 
 using namespace asdfvk;
 using test::kNaN;
@@ -170,4 +172,12 @@ TEST_CASE("a number of rings out of range is refused") {
       CHECK(error.code() == ErrorCode::OptionOutOfRange);
     }
   }
+}
+
+TEST_CASE("a stop request ends the filter") {
+  test::requireFailure(
+      [] {
+        (void)smoothBilaterally(test::stripGraph(3), std::vector<double>{1, 2, 3}, {2, 1}, test::stoppedControl());
+      },
+      ErrorCode::Cancelled);
 }
