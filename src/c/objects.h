@@ -72,5 +72,7 @@ namespace asdfvk::c {
 /// computation in the options of a session, and vice versa. Throws the errors of complete() and requireValid().
 [[nodiscard]] SessionSettings sessionSettings(const asdf_vk_options* options);
 [[nodiscard]] ComputationSettings computationSettings(const asdf_vk_options* options);
+/// computationSettings() for values at points. Throws Error{OptionConflict} for options without an effect there.
+[[nodiscard]] Options pointOptions(const asdf_vk_options* options);
 
 }  // namespace asdfvk::c

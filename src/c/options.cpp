@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "c/objects.h"
 #include "core/text.h"
 
@@ -65,6 +67,27 @@ ComputationSettings computationSettings(const asdf_vk_options* options) {
   ComputationSettings computation;
   complete(computation, setAll(computationRows(), &computation, options, sessionRows(), "session"));
   return computation;
+}
+
+Options pointOptions(const asdf_vk_options* handle) {
+  Options options = computationSettings(handle).options;
+  if (options.measure == Measure::Both)
+    throw Error(ErrorCode::OptionConflict, "measure=both is for faces; points have one measure at a time");
+  if (handle == nullptr) return options;
+  const bool isThickness = options.measure == Measure::Thickness;
+  std::vector<std::string> names{"measure", "orient"};
+  if (isThickness)
+    names.emplace_back("wall-angle");
+  else
+    names.insert(names.end(),
+                 {"definition", "rays", "angle", "false-hit-angle", "outlier-deviations", "cone-rotation"});
+  for (const auto& [name, text] : handles<asdf_vk_options>().get(handle)->texts)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error(ErrorCode::OptionConflict,
+                  fmt::format("{} has no effect on the {} at points; remove it (the options are {})", name,
+                              isThickness ? "thickness" : "shape diameter", joined(names, ", ")),
+                  {{"option", name}});
+  return options;
 }
 
 }  // namespace asdfvk::c

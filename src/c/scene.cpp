@@ -203,10 +203,7 @@ asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* op
     const auto places = spanOf<double>(points, 3 * uint64_t{pointCount}, "the points");
     const auto axes = spanOf<double>(normals, 3 * uint64_t{pointCount}, "the normals");
     if (pointCount > 0) requireArgument(values, "the output");
-    const Options given = computationSettings(options).options;
-    if (given.measure == Measure::Both)
-      throw Error(ErrorCode::OptionConflict,
-                  "measure=both is for faces only; at points, measure either the diameter or the thickness");
+    const Options given = pointOptions(options);
     const RunControl control = call.control();
     const SessionUse use(*used->session);
     Scene& prepared = preparedScene(*used, given.orientation, control);
