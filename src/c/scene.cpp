@@ -12,12 +12,12 @@ namespace {
 class SessionUse {
  public:
   explicit SessionUse(asdf_vk_session& session)
-      : session_(session), lock_(session.mutex), limit_(session.settings.threadCount) {
-    if (session.isBusy)
-      throw Error(ErrorCode::InvalidArgument, "a progress function must not use the session of its computation");
+      : session_(session), lock_(lockFor(session)), limit_(session.settings.threadCount) {
     session.isBusy = true;
+    ++useCount_;
   }
   ~SessionUse() {
+    --useCount_;
     session_.isBusy = false;
     std::list<Scene> released;
     const std::scoped_lock lock(session_.releasedMutex);
@@ -27,10 +27,23 @@ class SessionUse {
   SessionUse& operator=(const SessionUse&) = delete;
 
  private:
+  /// A thread that uses a session does not wait for another one, because two such threads could wait for each other.
+  static std::unique_lock<std::recursive_mutex> lockFor(asdf_vk_session& session) {
+    if (useCount_ == 0) return std::unique_lock(session.mutex);
+    std::unique_lock lock(session.mutex, std::try_to_lock);
+    if (!lock || session.isBusy)
+      throw Error(ErrorCode::InvalidArgument,
+                  "a progress function must not compute on a session in use; give it a session of its own");
+    return lock;
+  }
+
+  static thread_local uint32_t useCount_;  ///< Sessions that this thread uses, in progress functions within each other.
   asdf_vk_session& session_;
   std::unique_lock<std::recursive_mutex> lock_;
   ThreadLimit limit_;
 };
+
+thread_local uint32_t SessionUse::useCount_ = 0;
 
 /// Prepares the scene if necessary and returns it. isNew: set to true if the scene was prepared. Precondition: this
 /// thread has a SessionUse of the scene's session.

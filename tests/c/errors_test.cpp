@@ -46,6 +46,7 @@ int recordProgress(double fraction, const char* stage, void* user) {
   if (record.stages.find(stage) == std::string::npos) record.stages += std::string(stage) + " ";
   asdf_vk_result* result = nullptr;
   if (record.used != nullptr) record.status = asdf_vk_compute(record.used, nullptr, nullptr, nullptr, &result);
+  asdf_vk_result_destroy(result);
   asdf_vk_scene_destroy(record.destroyed);
   return ++record.callCount >= record.stopAt ? 1 : 0;
 }
@@ -253,4 +254,48 @@ TEST_CASE("the progress function stops a computation, and may neither compute on
               "of the caller");
   requireDone(asdf_vk_compute(scene.get(), nullptr, nullptr, nullptr, &none));
   asdf_vk_result_destroy(none);
+}
+
+TEST_CASE("progress functions that compute on each other's session fail, and do not wait for each other") {
+  struct Side {
+    asdf_vk_scene* other;
+    std::atomic<int>& arrivedCount;
+    int callCount = 0;
+    std::string error;
+  };
+  const asdf_vk_progress computeOnOther = [](double, const char*, void* user) {
+    auto& side = *static_cast<Side*>(user);
+    if (++side.callCount > 1) return 0;
+    const auto waitForBoth = [&](int count) {
+      ++side.arrivedCount;
+      for (int i = 0; i < 3000 && side.arrivedCount < count; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    };
+    waitForBoth(2);
+    asdf_vk_result* none = nullptr;
+    if (asdf_vk_compute(side.other, nullptr, nullptr, nullptr, &none) != ASDF_VK_OK) side.error = asdf_vk_last_error();
+    asdf_vk_result_destroy(none);
+    waitForBoth(4);
+    return 0;
+  };
+  const Owned<asdf_vk_session> a = sessionOfC("cpu"), b = sessionOfC("cpu");
+  const Owned<asdf_vk_scene> ofA = sceneOfC(a.get(), shapes::icosphere(2)), ofB = sceneOfC(b.get(), shapes::cube());
+  std::atomic<int> arrivedCount{0};
+  Side sideA{ofB.get(), arrivedCount}, sideB{ofA.get(), arrivedCount};
+  const auto compute = [&](asdf_vk_scene* scene, Side& side) {
+    asdf_vk_result* result = nullptr;
+    CHECK(asdf_vk_compute(scene, nullptr, computeOnOther, &side, &result) == ASDF_VK_OK);
+    asdf_vk_result_destroy(result);
+  };
+  std::thread thread([&] { compute(ofB.get(), sideB); });
+  compute(ofA.get(), sideA);
+  thread.join();
+  for (const Side* side : {&sideA, &sideB})
+    CHECK(side->error == "a progress function must not compute on a session in use; give it a session of its own");
+  // A session that is not in use serves a progress function.
+  ProgressRecord record{.used = ofB.get()};
+  asdf_vk_result* result = nullptr;
+  requireDone(asdf_vk_compute(ofA.get(), nullptr, recordProgress, &record, &result));
+  asdf_vk_result_destroy(result);
+  CHECK(record.status == ASDF_VK_OK);
 }
