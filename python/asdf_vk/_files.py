@@ -59,7 +59,8 @@ def write(
     format: "ply", "obj", "glb", "vtu", "npy", "npz", "csv", "html" or "png". Empty: the extension decides the format.
     ascii: write a .ply as text.
     labels: names of the results on a page. Default: the name of the file; several results are also numbered.
-    picture_of: the field that a picture shows. Empty: the segments, or the first field if there are no segments.
+    picture_of: the field that a picture shows. Empty: the places of an Info that are thinner than the limit. Without a
+        limit: the thickness, or else the segments, or else the first field.
 
     The file is replaced atomically. Raises OutputError, InputError, UsageError.
     """
@@ -79,8 +80,7 @@ def write(
     if kind == "html":
         name = "mesh" if target == "-" else os.path.splitext(os.path.basename(target))[0]
         name = os.fsencode(name).decode(errors="replace")  # The name of a file need not be valid UTF-8.
-        reports = (result._shown if isinstance(result, Info) else None for result in results)
-        layers = zip(map(_arrays_of, results), _labels_of(results, labels, name), reports)
+        layers = zip(map(_arrays_of, results), _labels_of(results, labels, name), map(_report_of, results))
         _core.write_page(target, argument, name, list(layers))
         return
     if labels is not None:
@@ -92,11 +92,15 @@ def write(
     if kind == "png":
         if not isinstance(picture_of or "", str):
             raise error_of("optionOutOfRange", f"picture_of={picture_of!r} is not the name of a field")
-        _core.write_picture(target, argument, per_face, picture_of or "")
+        _core.write_picture(target, argument, per_face, picture_of or "", _report_of(results[0]))
         return
     if vertex_fields is None and isinstance(fields, Info):
         per_vertex = _arrays_of(fields.vertex_fields)
     _core.write(target, argument, per_face, per_vertex, format, bool(ascii))
+
+
+def _report_of(result: Any) -> _core.ShownReport | None:
+    return result._shown if isinstance(result, Info) else None
 
 
 def _labels_of(results: list[Any], labels: Sequence[str] | None, name: str) -> Sequence[str]:

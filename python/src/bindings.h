@@ -6,9 +6,9 @@ namespace asdfvk::python {
 
 void bindFiles(pybind11::module_& module);
 
-/// Adds ShownReport(computed_fields), write_picture(path, mesh, fields, name) and write_page(path, mesh, name, layers).
-/// In write_picture(), `name` is the name of a field; empty: the first field. In write_page(), `name` is the name of
-/// the mesh. layers: tuples of fields, label, and a ShownReport or None.
+/// Adds ShownReport(computed_fields), write_picture(path, mesh, fields, name, report) and write_page(path, mesh, name,
+/// layers). In write_picture(), `name` is the name of a field; empty: see shownField(). In write_page(), `name` is the
+/// name of the mesh. layers: tuples of fields, label and report. report: a ShownReport or None.
 void bindShown(pybind11::module_& module);
 
 void bindScenes(pybind11::module_& module);

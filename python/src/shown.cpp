@@ -69,27 +69,36 @@ Result shownResult(const MeshView& mesh, const RunControl& control) {
   return result;
 }
 
-/// field: name of the field; empty: the first field.
-void writePicture(const std::filesystem::path& path, const py::object& mesh, const py::dict& perFace,
-                  const std::string& field) {
-  requireSameProcess();
-  const MeshView view = viewOf(mesh);
-  const std::vector<Field> fields = shownFields(perFace, view.inputFaceCount());
-  const Field& shown = field.empty() ? fields.front() : requireField(fields, field);
-  runInterruptibly(
-      [&](const RunControl& control) {
-        const Result result = shownResult(view, control);
-        writePng(path, pictureOf(result, shown, viewOf({}, "", result, false), {}, control));
-      },
-      py::none());
-}
-
-/// The parts of a report that pages show.
+/// What pages and pictures show of the report of a computation.
 struct ShownReport {
   ReportTexts texts;
   ThicknessReport thickness;  ///< Has no limit if the thickness was not measured.
   ThinSurface thinSurface;
 };
+
+/// Sets the fields and, from the report, the thin places.
+void setShown(Result& result, std::vector<Field>&& fields, const std::optional<ShownReport>& report) {
+  result.fields = std::move(fields);
+  result.report.thickness = report ? report->thickness : ThicknessReport();
+  result.thinSurface = report ? report->thinSurface : ThinSurface();
+}
+
+/// field: name of the field; empty: see shownField(). report: of the result, or None.
+void writePicture(const std::filesystem::path& path, const py::object& mesh, const py::dict& perFace,
+                  const std::string& field, const std::optional<ShownReport>& report) {
+  requireSameProcess();
+  const MeshView view = viewOf(mesh);
+  std::vector<Field> fields = shownFields(perFace, view.inputFaceCount());
+  if (!field.empty()) (void)requireField(fields, field);
+  runInterruptibly(
+      [&](const RunControl& control) {
+        Result result = shownResult(view, control);
+        setShown(result, std::move(fields), report);
+        const Field* const shown = field.empty() ? shownField(result) : result.field(field);
+        writePng(path, pictureOf(result, shown, viewOf({}, "", result, shown == nullptr), {}, control));
+      },
+      py::none());
+}
 
 ShownReport shownReport(const Result& result) {
   return {reportTexts(result.report, true, OptionSpelling::SnakeCase),
@@ -138,9 +147,7 @@ void writePage(const std::filesystem::path& path, const py::object& mesh, const 
         Page page = emptyPage();
         for (size_t i = 0; i < layers.size(); ++i) {
           const auto& [none, label, shown] = layers[i];
-          result.fields = std::move(fieldsOfLayers[i]);
-          result.report.thickness = shown ? shown->thickness : ThicknessReport();
-          result.thinSurface = shown ? shown->thinSurface : ThinSurface();
+          setShown(result, std::move(fieldsOfLayers[i]), shown);
           const std::vector<std::reference_wrapper<const Field>> fields(result.fields.begin(), result.fields.end());
           addResult(page, {.name = name, .label = label, .report = shown ? shown->texts : noReport}, result, fields,
                     viewOf({}, "", result, true), control);

@@ -71,12 +71,15 @@ def test_a_picture_shows_a_field(tmp_path: Path, reference: asdf_vk.Session) -> 
     assert pictures[0] == pictures[2] != pictures[1]
 
 
-def test_the_picture_is_that_of_the_program(tmp_path: Path, program: Path) -> None:
+@pytest.mark.parametrize("options", [{}, {"thinner_than": 0.5}, {"segment": "parts"}])
+def test_the_picture_is_that_of_the_program(tmp_path: Path, program: Path, options: dict[str, Any]) -> None:
     mesh = dumbbell()
     asdf_vk.write(tmp_path / "x.ply", mesh)
+    flags = [text for name, value in options.items() for text in ("--" + name.replace("_", "-"), str(value))]
     subprocess.run([program, tmp_path / "x.ply", "-o", tmp_path / "y.ply", "--backend", "cpu", "--quiet", "--picture",
-                    tmp_path / "theirs.png"], check=True)  # fmt: skip
-    asdf_vk.write(tmp_path / "ours.png", asdf_vk.read_mesh(tmp_path / "x.ply"), asdf_vk.compute(*mesh, backend="cpu"))
+                    tmp_path / "theirs.png", *flags], check=True)  # fmt: skip
+    info = asdf_vk.compute(*mesh, backend="cpu", **options)
+    asdf_vk.write(tmp_path / "ours.png", asdf_vk.read_mesh(tmp_path / "x.ply"), info)
     assert (tmp_path / "ours.png").read_bytes() == (tmp_path / "theirs.png").read_bytes()
 
 

@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 
 /// The field that the picture shows; null for the thin places. Throws Error{UnknownField} and Error{OptionConflict}.
 const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
-  if (outputs.pictureOf.empty()) return nullptr;
+  if (outputs.pictureOf.empty()) return shownField(result);
   const Field* const field = result.field(outputs.pictureOf);
   if (field == nullptr)
     throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + outputs.pictureOf);
@@ -159,10 +159,8 @@ class MeshFiles {
     const Outputs& outputs = settings_.outputs;
     const AwaitedReader reader(outputs.picture, stop_);
     const View view = viewOf(outputs.pictureView, input_, result, field == nullptr && !outputs.choosesView);
-    withProgress([&](const RunControl& control) {
-      writePng(outputs.picture, field == nullptr ? thinPictureOf(result, view, {}, control)
-                                                 : pictureOf(result, *field, view, {}, control));
-    });
+    withProgress(
+        [&](const RunControl& control) { writePng(outputs.picture, pictureOf(result, field, view, {}, control)); });
   }
 
  private:

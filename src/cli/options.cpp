@@ -138,23 +138,19 @@ bool estimates(const Options& options) {
   return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
 }
 
-/// Sets the options that --fields, --picture-of and --points imply, such as --measure both, and the default of
-/// --picture-of. Throws Error{OptionConflict} for a field that the other options do not compute.
-void completeFields(CommandLine& line, bool choosesPicture) {
+/// Sets the options that --fields, --picture-of and --points imply, such as --measure both. Throws
+/// Error{OptionConflict} for a field that the other options do not compute.
+void completeFields(CommandLine& line) {
   Options& options = line.computation.options;
-  Outputs& outputs = line.outputs;
+  const Outputs& outputs = line.outputs;
   std::vector<std::pair<const char*, std::string>> shown;
   for (const std::string& name : outputs.fields) shown.emplace_back("--fields", name);
-  if (choosesPicture) shown.emplace_back("--picture-of", outputs.pictureOf);
+  if (!outputs.pictureOf.empty()) shown.emplace_back("--picture-of", outputs.pictureOf);
   const auto shows = [&](std::string_view name) {
     return std::any_of(shown.begin(), shown.end(), [&](const auto& field) { return field.second == name; });
   };
   if (shows("centre") || shows("component") || !outputs.points.empty()) options.computesCentres = true;
-  if (options.segmentation != Segmentation::None && !choosesPicture) outputs.pictureOf = "segment";
-  if (options.measuresThickness()) {
-    if (shows("sdf") || shows("seed") || shows("error")) options.measure = Measure::Both;
-    if (!choosesPicture) outputs.pictureOf = options.thickness.thinnerThan ? "" : "thickness";
-  }
+  if (options.measuresThickness() && (shows("sdf") || shows("seed") || shows("error"))) options.measure = Measure::Both;
   for (const auto& field : shown) {
     const char* option = field.first;
     const std::string& name = field.second;
@@ -271,7 +267,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   complete(line.computation, given);
   requireValid(line.session, given.spelling);
   for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
-  completeFields(line, given.has("picture-of"));
+  completeFields(line);
   completePage(line);
   completeBatch(line, given);
   validateOptions(line);

@@ -21,8 +21,8 @@ struct Outputs {
   bool ascii = false;
   std::string colourOf = {};  ///< See WriteOptions.
   bool coloursVertices = false;
-  std::string picture;            ///< Path of the .png file, "-" for standard output; empty: no picture.
-  std::string pictureOf = "sdf";  ///< Name of the field that the picture shows; empty: the thin places.
+  std::string picture;    ///< Path of the .png file, "-" for standard output; empty: no picture.
+  std::string pictureOf;  ///< Name of the field that the picture shows; empty: see shownField().
   View pictureView;
   bool choosesView = false;  ///< Whether --picture-view is given.
   std::string points;      ///< Path of the .ply or .swc file of skeleton points, "-" for standard output; empty: none.

@@ -38,14 +38,16 @@ void writePage(const std::filesystem::path& path, const Page& page) {
 
 void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
                const RunControl& control) {
-  if (const std::optional<ThicknessReport>& thickness = result.report.thickness; thickness && thickness->thinnerThan)
-    texts.thin = {*thickness->thinnerThan, nameOf(*thickness->verdict), thickness->regions, result.thinSurface};
+  if (comparesThickness(result)) {
+    const ThicknessReport& thickness = *result.report.thickness;
+    texts.thin = {*thickness.thinnerThan, nameOf(*thickness.verdict), thickness.regions, result.thinSurface};
+  }
   texts.up = nameOf(kUps, view.up);
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;
   texts.segments = segmentsOf(result, fields);
-  texts.picture = encodePng(texts.thin ? thinPictureOf(result, view, kPagePicture, control)
-                                       : pictureOf(result, fields.front(), view, kPagePicture, control));
+  const Field* const pictured = texts.thin ? nullptr : &fields.front().get();
+  texts.picture = encodePng(pictureOf(result, pictured, view, kPagePicture, control));
   page.add(result.scene->scene.mesh, fields, std::move(texts));
 }
 

@@ -62,7 +62,27 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   return callouts;
 }
 
+Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style, const RunControl& control) {
+  const ThicknessReport& thickness = *result.report.thickness;
+  ThinPlaces places{.surface = result.thinSurface.triangles,
+                    .callouts = calloutsOf(thickness),
+                    .verdict = verdictText(*thickness.verdict),
+                    .isFailure = thickness.verdict != ThicknessVerdict::Passed};
+  Picture picture = pictureWith(result, legendOf(thickness), view, style);
+  picture.thinPlaces = std::move(places);
+  return render(picture, control);
+}
+
 }  // namespace
+
+bool comparesThickness(const Result& result) { return result.report.thickness && result.report.thickness->thinnerThan; }
+
+const Field* shownField(const Result& result) {
+  if (comparesThickness(result)) return nullptr;
+  for (const char* const name : {"thickness", "segment"})
+    if (const Field* const field = result.field(name)) return field;
+  return &result.fields.front();
+}
 
 View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin) {
   View view = requested;
@@ -74,13 +94,13 @@ View viewOf(const View& requested, const std::string& input, const Result& resul
                   : guessUp(verticesOfHitFaces(scene));
   }
   const ThinSurface& surface = result.thinSurface;
-  const std::optional<ThicknessReport>& thickness = result.report.thickness;
-  return findsThin && thickness && thickness->thinnerThan ? bestViewOf(scene, surface.triangles, surface.regions, view)
-                                                          : view;
+  return findsThin && comparesThickness(result) ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;
 }
 
-Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
+Image pictureOf(const Result& result, const Field* shown, const View& view, const PictureStyle& style,
                 const RunControl& control) {
+  if (shown == nullptr) return thinPictureOf(result, view, style, control);
+  const Field& field = *shown;
   const TriangleMesh& mesh = result.scene->scene.mesh;
   Picture picture = pictureWith(result, field.label, view, style);
   std::vector<double> values;
@@ -96,17 +116,6 @@ Image pictureOf(const Result& result, const Field& field, const View& view, cons
     labels = onTriangles(mesh, *indices);
     picture.labels = labels;
   }
-  return render(picture, control);
-}
-
-Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style, const RunControl& control) {
-  const ThicknessReport& thickness = *result.report.thickness;
-  ThinPlaces places{.surface = result.thinSurface.triangles,
-                    .callouts = calloutsOf(thickness),
-                    .verdict = verdictText(*thickness.verdict),
-                    .isFailure = thickness.verdict != ThicknessVerdict::Passed};
-  Picture picture = pictureWith(result, legendOf(thickness), view, style);
-  picture.thinPlaces = std::move(places);
   return render(picture, control);
 }
 

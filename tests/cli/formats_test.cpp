@@ -28,10 +28,3 @@ TEST_CASE("a limit has the unit of the mesh or its own") {
   CHECK_THROWS_WITH_AS((void)parseCommandLine({"a.3mf", "--thinner-than", "1mm", "--fail-if-thinner", "1cm"}),
                        doctest::Contains("have different limits"), Error);
 }
-
-TEST_CASE("with segments a picture shows them") {
-  CHECK(parseCommandLine({"a.ply", "--segment", "--picture", "a.png"}).outputs.pictureOf == "segment");
-  CHECK(parseCommandLine({"a.ply", "--segment", "--picture", "a.png", "--picture-of", "sdf"}).outputs.pictureOf ==
-        "sdf");
-  CHECK(parseCommandLine({"a.ply", "--picture", "a.png"}).outputs.pictureOf == "sdf");
-}
