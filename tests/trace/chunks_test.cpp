@@ -65,3 +65,15 @@ TEST_CASE("the progress of ranges in flight counts finished ones, and a stop sta
   CHECK(log.ends.size() == 3);  // The next checkpoint after the request ends the run.
   CHECK(log.begins.size() == 4);
 }
+
+TEST_CASE("chunks grow and shrink towards their time, within bounds") {
+  ChunkSize chunk(1000, 1'000'000);
+  chunk.adapt(1000, ChunkSize::kTargetSeconds / 1000);
+  CHECK(chunk.current() == 4000);
+  chunk.adapt(4000, ChunkSize::kTargetSeconds * 2);
+  CHECK(chunk.current() == doctest::Approx(2000).epsilon(0.01));
+  for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 1e-9);
+  CHECK(chunk.current() == 1'000'000);
+  for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 100);
+  CHECK(chunk.current() == ChunkSize::kMin);
+}

@@ -1,0 +1,210 @@
+// The choice of kernel, fetch and shapes for a device, and devices that cannot run a kernel.
+#include "trace/vulkan/vulkan_trace_choice.h"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+
+#include "asdf_vk/error.h"
+#include "generate/shapes.h"
+#include "spirv/trace_packet.comp.h"
+#include "spirv/trace_rays.comp.h"
+#include "spirv/trace_reduce.comp.h"
+#include "support/require_failure.h"
+#include "support/specialization_ids.h"
+#include "support/test_device.h"
+#include "trace/vulkan/vulkan_tracer.h"
+#include "traced_mesh.h"
+
+using namespace asdfvk;
+
+TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices postpone triangles") {
+  const auto shapeOf = [](DeviceKind kind, DeviceVendor vendor) {
+    DeviceFacts facts;
+    facts.kind = kind;
+    facts.vendor = vendor;
+    return walkShapeFor(facts);
+  };
+  const VulkanWalkShape amd = shapeOf(DeviceKind::Integrated, DeviceVendor::Amd);
+  CHECK(amd.stackSize > 64);
+  CHECK_FALSE(amd.postponesTriangles);
+  for (const VulkanWalkShape& shape :
+       {shapeOf(DeviceKind::Cpu, DeviceVendor::Other), shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia)}) {
+    CHECK(shape.stackSize == kMaxBvhDepth);
+  }
+  CHECK(shapeOf(DeviceKind::Cpu, DeviceVendor::Other).postponesTriangles);
+  CHECK_FALSE(shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia).postponesTriangles);
+}
+
+TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
+  // llvmpipe would end loops without a word at 65,535 iterations: the shape must stop before.
+  DeviceFacts cpu;
+  cpu.kind = DeviceKind::Cpu;
+  cpu.endsLongLoops = true;
+  cpu.subgroupSize = 8;
+  cpu.maxWorkgroupInvocations = 1024;
+  cpu.maxWorkgroupSize = 1024;
+  for (uint32_t rayCount = 1; rayCount <= kMaxRayCount; ++rayCount) {
+    const VulkanWorkgroupShape rays = workgroupShapeFor(cpu, rayCount, TraceKernel::Ray);
+    REQUIRE(8ull * rays.iterationLimit <= 65'535);
+    REQUIRE(rays.lanesPerCone % 8 == 0);
+    const VulkanWorkgroupShape seeds = workgroupShapeFor(cpu, rayCount, TraceKernel::Seed);
+    REQUIRE(8ull * seeds.iterationLimit <= 65'535);
+    REQUIRE(seeds.lanesPerCone * seeds.conesPerWorkgroup % 8 == 0);
+    // An iteration of a packet counts 2 and a triangle of each of eight leaves.
+    REQUIRE(workgroupShapeFor(cpu, rayCount, TraceKernel::Packet).iterationLimit + 2 + 24 <= 65'535);
+    // The iterations of the loops of trace_reduce.comp, by either definition.
+    REQUIRE(31ull * rayCount + 5 * rayCount + 31 + 17 * rayCount + 16 <= 65'535);
+    DeviceFacts gpu = cpu;
+    gpu.kind = DeviceKind::Discrete;
+    REQUIRE(8ull * workgroupShapeFor(gpu, rayCount, TraceKernel::Ray).iterationLimit <= 65'535);
+  }
+}
+
+TEST_CASE("a GPU's workgroups hold several cones") {
+  DeviceFacts gpu;
+  gpu.kind = DeviceKind::Discrete;
+  gpu.subgroupSize = 32;
+  gpu.maxWorkgroupInvocations = 1024;
+  gpu.maxWorkgroupSize = 1024;
+  CHECK(workgroupShapeFor(gpu, 30, TraceKernel::Ray).lanesPerCone == 32);
+  CHECK(workgroupShapeFor(gpu, 30, TraceKernel::Ray).conesPerWorkgroup == 4);
+  CHECK(workgroupShapeFor(gpu, 1024, TraceKernel::Ray).lanesPerCone == 256);
+  CHECK(workgroupShapeFor(gpu, 1024, TraceKernel::Ray).conesPerWorkgroup == 1);
+  gpu.maxWorkgroupInvocations = gpu.maxWorkgroupSize = 128;  // the least that Vulkan allows
+  CHECK(workgroupShapeFor(gpu, 1024, TraceKernel::Ray).lanesPerCone == 128);
+}
+
+TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
+  DeviceFacts facts;
+  facts.subgroupSize = 8;
+  facts.kind = DeviceKind::Cpu;
+  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
+  facts.maxTexelBufferElements = 1u << 27;
+  facts.maxStorageBufferRange = 1u << 27;
+  CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
+  facts.maxTexelBufferElements = 65'536;
+  CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
+  facts.kind = DeviceKind::Discrete;
+  facts.maxTexelBufferElements = 1u << 27;
+  for (const uint32_t size : {8u, 32u, 64u}) {
+    facts.subgroupSize = size;
+    CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
+    const VulkanTraceChoice best = defaultTraceChoice(facts);
+    CHECK(traceChoiceFor(facts, {}) == best);
+    CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) == VulkanTraceChoice{best.kernel, BvhFetch::Storage});
+    CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Texel}).fetch == BvhFetch::Texel);
+  }
+  const test::ValidatedDevice device;
+  CHECK(VulkanConeKernel(*device, {30}).choice() == defaultTraceChoice(device->facts()));
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhFetch::Storage};
+  CHECK(VulkanConeKernel(*device, {30, false, packet}).choice() == packet);
+}
+
+TEST_CASE("each specialization constant of the tracing shaders has an id of its own") {
+  CHECK(test::hasDistinctSpecializationIds(k_trace_packet_comp));
+  CHECK(test::hasDistinctSpecializationIds(k_trace_rays_comp));
+  CHECK(test::hasDistinctSpecializationIds(k_trace_reduce_comp));
+}
+
+TEST_CASE("the vendor decides where the reported subgroup size is not that of the kernels") {
+  DeviceFacts facts;
+  facts.kind = DeviceKind::Integrated;
+  facts.subgroupSize = 32;
+  facts.vendor = DeviceVendor::Intel;
+  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
+  facts.subgroupSize = 8;
+  for (const DeviceVendor vendor : {DeviceVendor::Nvidia, DeviceVendor::Amd}) {
+    facts.vendor = vendor;
+    CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Ray);
+  }
+  facts.vendor = DeviceVendor::Other;
+  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
+}
+
+TEST_CASE("a device that does not end long loops has no iteration guard of its own") {
+  DeviceFacts cpu;
+  cpu.kind = DeviceKind::Cpu;
+  cpu.subgroupSize = 8;
+  cpu.maxWorkgroupInvocations = cpu.maxWorkgroupSize = 1024;
+  for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+    CHECK(workgroupShapeFor(cpu, 1024, kernel).iterationLimit == VulkanWorkgroupShape{}.iterationLimit);
+}
+
+TEST_CASE("a hierarchy that exceeds the limit of one fetch is read by the other, unless a fetch is requested") {
+  const TracedMesh traced(generateShape("torus", 2000).mesh);
+  const uint64_t blockCount = maxBlockCount(traced.scene().bvh);
+  const DeviceBvh encoded = encodeDeviceBvh(traced.scene().bvh, traced.mesh, traced.geometry);
+  CHECK(encoded.nodes.size() * sizeof(DeviceWideNode) <= 16 * blockCount);
+  CHECK(encoded.triangles.size() * sizeof(DeviceTriangle) <= 16 * blockCount);
+  CHECK(blockCount <= 6 * encoded.triangles.size());
+
+  DeviceFacts facts;
+  const auto fetchWith = [&](uint64_t texelCount, uint64_t storageByteCount, std::optional<BvhFetch> requested) {
+    facts.maxTexelBufferElements = texelCount;
+    facts.maxStorageBufferRange = storageByteCount;
+    return traceChoiceFor(facts, {.fetch = requested}, traced.scene().bvh).fetch;
+  };
+  facts.kind = DeviceKind::Discrete;
+  CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Storage);
+  CHECK(fetchWith(blockCount, 16 * blockCount - 1, {}) == BvhFetch::Texel);
+  CHECK(fetchWith(blockCount - 1, 16 * blockCount - 1, {}) == BvhFetch::Storage);
+  CHECK(fetchWith(blockCount, 100, BvhFetch::Storage) == BvhFetch::Storage);
+  facts.kind = DeviceKind::Cpu;
+  CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Texel);
+  CHECK(fetchWith(blockCount - 1, 16 * blockCount, {}) == BvhFetch::Storage);
+  CHECK(fetchWith(100, 16 * blockCount, BvhFetch::Texel) == BvhFetch::Texel);
+}
+
+TEST_CASE("a device without the subgroup operations of a kernel is refused with a remedy") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.hasSubgroupArithmetic = false;
+  const Device noArithmetic(physical, facts);
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhFetch::Texel};
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noArithmetic, {30, false, packet}), doctest::Contains("subgroup arithmetic"),
+                       Error);
+  CHECK_NOTHROW(VulkanConeKernel(noArithmetic, {30}));
+  facts.hasSubgroupVote = false;
+  const Device noVote(physical, facts);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noVote, {30}), doctest::Contains("no subgroup vote"), Error);
+}
+
+TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxTexelBufferElements = 100;
+  const Device small(physical, facts);
+  const VulkanConeKernel kernel(small, {30, false, VulkanTraceChoice{}});
+  const TracedMesh traced(generateShape("sphere", 500).mesh);
+  const Cone cone = makeCone({});
+  CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("texels in one buffer"),
+                       Error);
+}
+
+TEST_CASE("a mesh beyond the range of a storage buffer is refused") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  const TracedMesh traced(generateShape("sphere", 2000).mesh);
+  const Cone cone = makeCone({});
+  DeviceFacts facts = describeDevice(physical);
+  const auto make = [&](uint64_t range) {
+    facts.maxStorageBufferRange = range;
+    const Device device(physical, facts);
+    const VulkanConeKernel kernel(device, {30, false, VulkanTraceChoice{TraceKernel::Seed, BvhFetch::Storage}});
+    (void)makeVulkanTracer(kernel, traced.scene(), cone);
+  };
+  CHECK_NOTHROW(make(48 * traced.mesh.faces.size()));
+  test::requireFailure([&] { make(48 * traced.mesh.faces.size() - 1); }, ErrorCode::DeviceLimit, "one storage buffer");
+}
+
+TEST_CASE("a device with too few storage buffers for a kernel is refused before the kernel is made") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxStorageBuffersPerStage = 2;
+  const Device small(physical, facts);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(small, {30}), doctest::Contains("storage buffers"), Error);
+}
