@@ -124,18 +124,24 @@ void requireResolved(const Box3d& bounds) {
 
 }  // namespace
 
-PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClock& clock) {
+PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClock& clock, const RunControl& control) {
   const auto scope = clock.time(Stage::Geometry);
   PreparedMesh prepared;
+  control.checkpoint(0);
   prepared.mesh = trianglesOf(view, prepared.storage);
   const TriangleMesh& mesh = prepared.mesh;
+  control.checkpoint(0);
   prepared.geometry = computeFaceGeometry(mesh);
+  control.checkpoint(0);
   EdgeSurvey edges = [&] {
     const auto graphScope = clock.time(Stage::Graph);
     return surveyEdges(mesh);
   }();
+  control.checkpoint(0);
   prepared.representatives = coincidentRepresentatives(mesh, edges);
+  control.checkpoint(0);
   prepared.components = findComponents(mesh, edges);
+  control.checkpoint(0);
   prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
   prepared.graph = std::move(edges.graph);
   prepared.warnings = warningsOf(prepared.defects, !mesh.polygons.isEmpty());
@@ -144,6 +150,7 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
     prepared.statedPartCount = source->statedPartCount;
     if (!source->skipped.empty()) prepared.warnings.push_back(skippedContent(source->skipped));
   }
+  control.checkpoint(0);
   orient(prepared, orientation);
   prepared.traceableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)
@@ -155,7 +162,7 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
 PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation) {
   StageSeconds seconds;
   StageClock clock(seconds);
-  return prepareMesh(mesh, orientation, clock);
+  return prepareMesh(mesh, orientation, clock, {});
 }
 
 }  // namespace asdfvk

@@ -6,6 +6,7 @@
 
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
+#include "asdf_vk/run_control.h"
 #include "mesh/components.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
@@ -37,10 +38,11 @@ struct PreparedMesh {
 [[nodiscard]] TriangleMesh trianglesOf(const MeshView& view, Mesh& storage);
 
 /// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
-/// result. Throws the errors of trianglesOf(), and Error{FarFromOrigin}.
-[[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
+/// result. Throws the errors of trianglesOf(), Error{FarFromOrigin} and, between its steps, Error{Cancelled}.
+[[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock,
+                                       const RunControl& control);
 
-/// As above, without measuring times.
+/// As above, without times and cancellation.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation);
 
 }  // namespace asdfvk

@@ -13,11 +13,11 @@ struct PreparedScene {
   PreparedMesh prepared;
   Bvh bvh;
 
-  /// Throws the errors of prepareMesh(), and Error{Cancelled} between the stages.
+  /// Throws the errors of prepareMesh().
   /// bvhOptions: see bvhOptionsFor().
   PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control,
                 const BvhOptions& bvhOptions = {})
-      : prepared((control.checkpoint(0), prepareMesh(mesh, orientation, clock))) {
+      : prepared(prepareMesh(mesh, orientation, clock, control)) {
     control.checkpoint(0);
     {
       const auto scope = clock.time(Stage::Bvh);

@@ -79,9 +79,10 @@ class Rounds {
 
  private:
   void runRound(uint64_t count, bool isLast, const RunControl& control);
-  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density);
-  [[nodiscard]] SeedChoice timedChoice(const SeedShares& shares, std::span<const double> density);
-  [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares);
+  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density, const RunControl& control);
+  [[nodiscard]] SeedChoice timedChoice(const SeedShares& shares, std::span<const double> density,
+                                       const RunControl& control);
+  [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares, const RunControl& control);
   void traceChosen(SeedChoice choice, const RunControl& control);
   void sortSampled();
   std::vector<uint32_t> predictWithoutHeldOut(Stage stage, const RunControl& control);
@@ -131,7 +132,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   const bool refines = samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount();
   const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
   const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
-  SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : timedChoice(first, {});
+  SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first, control) : timedChoice(first, {}, control);
   const double begin = clock_.elapsed(), earlierRays = raySeconds();
   traced_.faces.reserve(traced_.faces.size() + count);
   traced_.hits.reserve(traced_.hits.size() + count * traced_.hitsPerSeed);
@@ -139,7 +140,8 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   if (refines) {
     const std::vector<double> density =
         indicateErrors(Stage::Sample, predictWithoutHeldOut(Stage::Sample, control.withoutProgress()));
-    traceChosen(timedChoice({.sampled = refiningCount}, density), control.part(kTracedProgress / 2, kTracedProgress));
+    traceChosen(timedChoice({.sampled = refiningCount}, density, control),
+                control.part(kTracedProgress / 2, kTracedProgress));
   }
   const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
   std::vector<double> indicator;
@@ -195,24 +197,24 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double>
 }
 
 /// density: see chooseSeeds().
-SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density) {
+SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density, const RunControl& control) {
   return chooseSeeds(computation_.domain, computation_.prepared.geometry, arcAngles_, options_, shares, sampled_,
-                     density);
+                     density, control.withoutProgress());
 }
 
-SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double> density) {
+SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double> density, const RunControl& control) {
   const auto scope = clock_.time(Stage::Sample);
-  return choose(shares, density);
+  return choose(shares, density, control);
 }
 
 /// The first seeds are chosen in the background while this thread makes the tracer. Stage::Sample is charged with the
 /// time from then until the choice ends.
-SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
+SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares, const RunControl& control) {
   SeedChoice choice;
   double seconds = 0;
   BackgroundTask choosing([&] {
     const Stopwatch watch;
-    choice = choose(shares, {});
+    choice = choose(shares, {}, control);
     seconds = watch.seconds();
   });
   callIsolated([&] {

@@ -61,12 +61,13 @@ SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predict
 
 SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, ArcAngles& arcAngles,
                        const Options& options, const SeedShares& shares, const SeedChoice& earlier,
-                       std::span<const double> density) {
+                       std::span<const double> density, const RunControl& stopOnly) {
   // Samplers keep a distance to earlier seeds but ignore held-out faces, which must be a random sample.
   std::vector<uint32_t> notHeldOut;
   if (!earlier.heldOut.empty()) notHeldOut = without(faces.traceableFaces, earlier.heldOut);
   const SeedDomain domain{faces.graph, geometry, arcAngles,
-                          earlier.heldOut.empty() ? faces.traceableFaces : std::span(std::as_const(notHeldOut))};
+                          earlier.heldOut.empty() ? faces.traceableFaces : std::span(std::as_const(notHeldOut)),
+                          stopOnly};
   const Sampler& sampler = samplerOf(options);
   SeedChoice choice;
   if (sampler.isUniform) {

@@ -35,10 +35,10 @@ struct SeedShares {
 
 /// Selects further seeds: by the sampler, and held-out faces with equal probability among the other faces. The number
 /// of held-out faces is 0 if a prediction is available (see sampleHeldOut()). earlier: all earlier seeds. density: #F,
-/// for the second half of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
+/// for the second half of the seeds of an adaptive sampler (Sampler::refine); otherwise empty. Throws Error{Cancelled}.
 [[nodiscard]] SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, ArcAngles& arcAngles,
                                      const Options& options, const SeedShares& shares, const SeedChoice& earlier,
-                                     std::span<const double> density = {});
+                                     std::span<const double> density = {}, const RunControl& stopOnly = {});
 
 /// The `count` candidates with the greatest predictions that are not seeds yet, ascending. Samplers often miss the few
 /// faces with the maximum of the function, and errors are relative to its range. prediction, isSeed: #F.

@@ -44,11 +44,12 @@ class Measurement {
                   {},
                   {},
                   {}};
+    control.checkpoint(0);
     findSharp();
     const std::vector<GreatestSection> sections =
         findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
     keepGreatest(sections);
-    const WallTree tree(scene_, opposing_, &solids_);
+    const WallTree tree(scene_, opposing_, &solids_, control.withoutProgress());
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
     countUnjudged(control.withoutProgress());
     if (limit_)

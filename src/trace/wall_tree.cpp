@@ -19,7 +19,8 @@ constexpr uint32_t kMaxLeafWallCount = 4;
 
 }  // namespace
 
-WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const Solids* solids)
+WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const Solids* solids,
+                   const RunControl& stopOnly)
     : scene_(scene), opposing_(opposing), nodes_(scene.bvh.nodes.size()), wallOf_(scene.mesh.faceCount()) {
   const Buckets<uint32_t> copies = groupCopies(scene.representatives);
   const std::vector<uint32_t>& primitives = scene.bvh.primitiveFaces;
@@ -27,6 +28,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const
   for (size_t i = 0; i < primitives.size(); ++i)
     wallOfPrimitive[i + 1] = wallOfPrimitive[i] + static_cast<uint32_t>(copies[primitives[i]].size());
   walls_.resize(wallOfPrimitive.back());
+  stopOnly.checkpoint(0);
   forEachInParallel(primitives.size(), [&](size_t i) {
     const std::span<const uint32_t> faces = copies[primitives[i]];
     for (size_t k = 0; k < faces.size(); ++k) {
@@ -35,6 +37,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const
       if (solids != nullptr) walls_[wallOf_[faces[k]]].body = solids->bodyOf(faces[k]);
     }
   });
+  stopOnly.checkpoint(0);
   std::vector<uint32_t> firstWalls(nodes_.size()), wallCounts(nodes_.size());
   for (size_t i = nodes_.size(); i-- > 0;) {  // Children follow their parents.
     const BvhNode& node = scene.bvh.nodes[i];
@@ -60,6 +63,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const
                  .first = isLeaf ? firstWalls[i] : node.first,
                  .wallCount = isLeaf ? wallCounts[i] : 0};
   }
+  stopOnly.checkpoint(0);
   forEachInParallel(nodes_.size(), [&](size_t i) {
     if (wallCounts[i] > kMaxDiscWallCount) return;
     WallNode& node = nodes_[i];

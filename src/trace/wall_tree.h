@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "cone/opposing_walls.h"
 #include "cone/touching_ball.h"
 #include "core/simd.h"
@@ -60,8 +61,9 @@ struct WallNode {
 /// of a face fill a convex set, which contains the sets of smaller diameters.
 class WallTree {
  public:
-  /// solids: null if all faces may bound one body.
-  WallTree(const TraceScene& scene, const OpposingWalls& walls, const Solids* solids = nullptr);
+  /// solids: null if all faces may bound one body. Throws Error{Cancelled}.
+  WallTree(const TraceScene& scene, const OpposingWalls& walls, const Solids* solids = nullptr,
+           const RunControl& stopOnly = {});
 
   /// Shrinks the balls. Consecutive queries should be neighbours in space. The bits of the diameters depend neither on
   /// the order nor on the instruction set. If several walls give equal diameters, the wall with the lowest face index

@@ -10,6 +10,7 @@
 #include "core/stopwatch.h"
 #include "generate/shapes.h"
 #include "pipeline/backend.h"
+#include "pipeline/prepared_mesh.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
@@ -182,6 +183,26 @@ TEST_CASE("a stop request ends a computation, and the session stays usable") {
     CHECK(error.kind() == ErrorKind::Cancelled);
   }
   CHECK(vulkanSession().compute(makeSphere(80).mesh).report.noValueCount == 0);
+}
+
+TEST_CASE("a stop request ends the preparation of a mesh at any of its checkpoints") {
+  const Mesh mesh = makeSphere(80).mesh;
+  const auto prepare = [&](int stopAt) {
+    std::stop_source stop;
+    int callCount = 0;
+    const RunControl control{stop.get_token(),
+                             [&](double) {
+                               if (++callCount == stopAt) stop.request_stop();
+                             },
+                             {}};
+    StageSeconds seconds;
+    StageClock clock(seconds);
+    (void)prepareMesh(mesh, Orientation::Keep, clock, control);
+    return callCount;
+  };
+  const int count = prepare(0);
+  CHECK(count > 5);
+  for (int stopAt = 1; stopAt < count; ++stopAt) requireFailure([&] { (void)prepare(stopAt); }, ErrorCode::Cancelled);
 }
 
 TEST_CASE("progress goes from 0 to 1 and never back") {

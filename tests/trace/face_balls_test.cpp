@@ -16,6 +16,7 @@
 #include "support/brute_force_thickness.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
+#include "support/stopped_control.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;
@@ -320,4 +321,11 @@ TEST_CASE("progress increases from 0 to 1, and a stop request ends the work betw
                             }};
   test::requireFailure([&] { shrinkFaceBalls(tree, balls, stopping); }, ErrorCode::Cancelled);
   CHECK(checkpointCount == 2);
+}
+
+TEST_CASE("a stop request ends the construction of the tree of walls") {
+  const TracedMesh traced(generateShape("sphere", 80).mesh);
+  test::requireFailure(
+      [&] { (void)WallTree(traced.scene(), makeOpposingWalls({120}), nullptr, test::stoppedControl()); },
+      ErrorCode::Cancelled);
 }
