@@ -14,9 +14,11 @@ enum class Stage;  // report.h
 /// Cancellation and progress of a computation. A computation reports progress and polls for a stop between stages,
 /// between iterations of the solver, and between chunks of rays (about 50 to 100 ms each).
 struct RunControl {
-  std::stop_token stop;                           ///< A stop request ends the computation with Error{Cancelled}.
-  std::function<void(double fraction)> progress;  ///< Called in the thread of the caller with 0 to 1; may be empty.
-  std::function<void(Stage stage)> stageBegan;    ///< Called when a stage begins or continues; may be empty.
+  std::stop_token stop;  ///< A stop request ends the computation with Error{Cancelled}.
+  /// Called in the thread of the caller with 0 to 1; may be empty. Must not use the session of its computation, and
+  /// should not wait for a computation of another thread, which may wait for this one.
+  std::function<void(double fraction)> progress;
+  std::function<void(Stage stage)> stageBegan;  ///< Called when a stage begins or continues; may be empty.
 
   /// Reports progress. Throws Error{Cancelled} if a stop was requested.
   ASDFVK_API void checkpoint(double fraction) const;
