@@ -72,7 +72,8 @@ ComputationSettings computationSettings(const asdf_vk_options* options) {
 Options pointOptions(const asdf_vk_options* handle) {
   Options options = computationSettings(handle).options;
   if (options.measure == Measure::Both)
-    throw Error(ErrorCode::OptionConflict, "measure=both is for faces only; at points, measure either the diameter or the thickness");
+    throw Error(ErrorCode::OptionConflict,
+                "measure=both is for faces only; at points, measure either the diameter or the thickness");
   if (handle == nullptr) return options;
   const bool isThickness = options.measure == Measure::Thickness;
   std::vector<std::string> names{"measure", "orient"};

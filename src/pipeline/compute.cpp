@@ -119,11 +119,11 @@ void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, 
 
 /// The values of the triangles, smoothed if requested.
 std::vector<double> finalValues(const FaceDomain& domain, const std::vector<double>& values,
-                                const SmoothingOptions& smoothing, StageClock& clock) {
+                                const SmoothingOptions& smoothing, StageClock& clock, const RunControl& stopOnly) {
   if (!smoothing.isOn) return values;
   const auto scope = clock.time(Stage::Smooth);
   return smoothBilaterally(domain.graph, values,
-                           smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
+                           smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())), stopOnly);
 }
 
 /// Whether a component without a value has faces that could cast rays and did not.
@@ -175,8 +175,9 @@ void measureDiameter(Result& result, const Computation& computation, KeptTracers
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
-  const std::vector<double> values = finalValues(domain, rounds.interpolated.values, options.smoothing, clock);
   const RunControl stopOnly = control.withoutProgress();
+  const std::vector<double> values =
+      finalValues(domain, rounds.interpolated.values, options.smoothing, clock, stopOnly);
   SegmentedValues segmented = segmentValues(
       prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
   if (options.checkCount)
