@@ -56,9 +56,10 @@ void* operator new(size_t byteCount) {
 }
 
 void* operator new(size_t byteCount, std::align_val_t alignment) {
-  const auto align = static_cast<size_t>(alignment);
-  return asdfvk::allocated(byteCount,
-                           [&] { return std::aligned_alloc(align, (byteCount + align - 1) & ~(align - 1)); });
+  return asdfvk::allocated(byteCount, [&] {
+    void* memory = nullptr;
+    return ::posix_memalign(&memory, static_cast<size_t>(alignment), byteCount) == 0 ? memory : nullptr;
+  });
 }
 
 void operator delete(void* memory) noexcept { std::free(memory); }

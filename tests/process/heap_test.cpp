@@ -1,0 +1,47 @@
+#include "process/heap.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace asdfvk {
+namespace {
+
+struct alignas(256) Wide {
+  uint8_t bytes[256];
+};
+
+/// The flags of the mapping that contains the address, from /proc/self/smaps.
+std::string mappingFlagsAt(const void* address) {
+  std::ifstream maps("/proc/self/smaps");
+  bool isInside = false;
+  for (std::string line; std::getline(maps, line);) {
+    uintptr_t begin = 0, end = 0;
+    char dash = 0;
+    std::istringstream words(line);
+    if (words >> std::hex >> begin >> dash >> end && dash == '-')
+      isInside = begin <= reinterpret_cast<uintptr_t>(address) && reinterpret_cast<uintptr_t>(address) < end;
+    else if (isInside && line.starts_with("VmFlags:"))
+      return line + " ";
+  }
+  return "";
+}
+
+TEST_CASE("large memory is advised to have huge pages, with and without an alignment") {
+  configureHeap();
+  const auto plain = std::make_unique<std::vector<uint8_t>>(8 << 20);
+  const auto aligned = std::make_unique<std::vector<Wide>>(1 << 15);
+  CHECK(reinterpret_cast<uintptr_t>(aligned->data()) % alignof(Wide) == 0);
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled")) return;
+  CHECK(mappingFlagsAt(plain->data() + plain->size() / 2).find(" hg ") != std::string::npos);
+  CHECK(mappingFlagsAt(aligned->data() + aligned->size() / 2).find(" hg ") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace asdfvk
