@@ -131,9 +131,9 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk
 
 /* Computes the shape diameter at points, or the wall thickness if `options` has ("measure", "thickness"). points,
  * normals: 3 * point_count numbers each. values: receives point_count numbers in the unit of the mesh; NaN: no value.
- * options: "measure" and "orient" are allowed. For the thickness, "wall-angle" is also allowed. For the shape diameter,
- * "definition", "rays", "angle", "false-hit-angle", "outlier-deviations" and "cone-rotation" are also allowed. See
- * Scene::valuesAt() and Scene::thicknessAt() in asdf_vk/scene.h. */
+ * options: must not hold an option without effect on these values. The options with an effect are those of the cone of
+ * rays or of the opposing walls, "measure" and "orient". See Scene::valuesAt() and Scene::thicknessAt() in
+ * asdf_vk/scene.h. */
 ASDF_VK_C_API asdf_vk_status asdf_vk_values_at(asdf_vk_scene* scene, const asdf_vk_options* options,
                                                const double* points, const double* normals, size_t point_count,
                                                double* values, asdf_vk_progress progress, void* user);

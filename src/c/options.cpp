@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 
 #include "c/objects.h"
 #include "core/text.h"
@@ -76,14 +75,14 @@ Options pointOptions(const asdf_vk_options* handle) {
                 "measure=both is for faces only; at points, measure either the diameter or the thickness");
   if (handle == nullptr) return options;
   const bool isThickness = options.measure == Measure::Thickness;
-  std::vector<std::string> names{"measure", "orient"};
-  if (isThickness)
-    names.emplace_back("wall-angle");
-  else
-    names.insert(names.end(),
-                 {"definition", "rays", "angle", "false-hit-angle", "outlier-deviations", "cone-rotation"});
+  const auto hasEffect = [&](const OptionRow& row) {
+    return row.atPoints == AtPoints::Both || row.atPoints == (isThickness ? AtPoints::Thickness : AtPoints::Diameter);
+  };
+  std::vector<std::string> names;
+  for (const OptionRow& row : computationRows())
+    if (hasEffect(row)) names.emplace_back(row.name);
   for (const auto& [name, text] : handles<asdf_vk_options>().get(handle)->texts)
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (!hasEffect(*rowOf(computationRows(), name)))
       throw Error(ErrorCode::OptionConflict,
                   fmt::format("{} has no effect on the {} at points; remove it (the options are {})", name,
                               isThickness ? "thickness" : "shape diameter", joined(names, ", ")),

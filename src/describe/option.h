@@ -87,6 +87,9 @@ struct OptionRange {
 [[nodiscard]] constexpr OptionRange aboveAndBelow(double min, double max) { return {min, max, true, true}; }
 [[nodiscard]] constexpr OptionRange aboveUpTo(double min, double max) { return {min, max, true, false}; }
 
+/// The values at points (Scene::valuesAt(), Scene::thicknessAt()) that an option changes.
+enum class AtPoints { None, Diameter, Thickness, Both };
+
 /// An option. target: the struct that the options of the table set, for example ComputationSettings.
 struct OptionRow {
   const char* name;             ///< "time-budget"
@@ -100,6 +103,7 @@ struct OptionRow {
   /// The option that this option needs, with the values that it may have, for example "measure=thickness|both" or
   /// "thinner-than".
   const char* needs = "";
+  AtPoints atPoints = AtPoints::None;
   const char* defaultText = nullptr;  ///< Shown instead of the default value.
   const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
   const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option; empty: see isOfProgram().
