@@ -119,9 +119,10 @@ ASDF_VK_C_API asdf_vk_status asdf_vk_scene_mesh(const asdf_vk_scene* scene, asdf
 ASDF_VK_C_API void asdf_vk_scene_destroy(asdf_vk_scene* scene);
 
 /* Progress function of a caller. A computation calls this function about every 50 to 100 ms, in the thread and
- * floating-point environment of the caller. fraction: 0 to 1. stage: "trace", "solve", ..., or "" before the first
- * stage. A return value other than 0 requests a stop. The function must not throw or call longjmp(). If the function
- * starts a computation on a session that any computation uses, the new computation fails. */
+ * floating-point environment of the caller. fraction: the finished fraction of the whole computation, 0 to 1. stage:
+ * the current stage, "trace", "solve", ..., or "" before the first stage. A return value other than 0 requests a stop.
+ * The function must not throw or call longjmp(). If the function starts a computation on a session that any computation
+ * uses, the new computation fails. */
 typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 
 /* Computes the fields and the report of a scene. options: must not hold options of a session; null: the defaults.

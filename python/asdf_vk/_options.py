@@ -35,7 +35,9 @@ class CallOptions(TypedDict, total=False):
     """Options of every call."""
 
     progress: Progress | None
-    """Called with a fraction from 0 to 1 and the name of the stage. If it returns False, CancelledError is raised."""
+    """Called with the finished fraction of the whole call (0 to 1) and the name of the current stage, or "" before the
+    first stage. If it returns False, CancelledError is raised.
+    """
 
 
 class PointOptions(ConeOptions, CallOptions, total=False):

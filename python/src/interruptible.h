@@ -9,10 +9,10 @@
 namespace asdfvk::python {
 
 /// Runs `work` on a worker thread, without the GIL, and waits for its end. Every 20 ms, the calling thread checks for
-/// signals and calls `progress`. `progress` is None, or a callable of a fraction from 0 to 1 and the name of a stage.
-/// If a signal handler or `progress` raises an exception, a stop of `work` is requested; the exception is thrown when
-/// `work` has ended. If `progress` returns False (bool or numpy.bool_), Error{Cancelled} is thrown in the same way.
-/// Exceptions of `work` are thrown too.
+/// signals and calls `progress`. `progress` is None, or a callable with two arguments: the finished fraction of `work`
+/// (0 to 1), and the name of the current stage, or "" before the first stage. If a signal handler or `progress` raises
+/// an exception, a stop of `work` is requested; the exception is thrown when `work` has ended. If `progress` returns
+/// False (bool or numpy.bool_), Error{Cancelled} is thrown in the same way. Exceptions of `work` are thrown too.
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
 
 /// Stops each `work` that still runs for a daemon thread, and waits for its end. Called at the end of the process, when

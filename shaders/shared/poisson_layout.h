@@ -58,13 +58,11 @@ struct PoissonPush {
   uint workgroupCount;
 };
 
-// The scalars of an iteration for every backend: in C++ a template over float and double, in GLSL float.
-//
-// One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
-// p.Mp and r.r, each iteration computes r.Mp and Mp.Mp. These sums give the next r.r before the step is made. The
-// recurrence of Chronopoulos and Gear (1989) multiplies the residual by the matrix. Here, the matrix multiplies the
-// direction, and every iteration sums r.r. This iteration needs one vector fewer. In float32 its drift is not larger
-// than that of the textbook iteration.
+// Conjugate gradients with one reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on
+// the CRAY X-MP/48"): besides p.Mp and r.r, each iteration computes r.Mp and Mp.Mp. These sums give the next r.r before
+// the step is made. The recurrence of Chronopoulos and Gear (1989) multiplies the residual by the matrix. Here, the
+// matrix multiplies the direction, and every iteration sums r.r. This iteration needs one vector fewer. In float32 its
+// drift is not larger than that of the textbook iteration.
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
 const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.
@@ -74,6 +72,8 @@ const float kCgFloatRounding = 1.0e-7f;
 
 #ifdef __cplusplus
 #define ASDFVK_CG_FUNCTION [[nodiscard]] static
+// The sums of one iteration of the conjugate gradient method, and the rules that compute the next step from them. All
+// solvers by conjugate gradients use these rules: C++ for float and double (template), GLSL for float.
 template <typename Real>
 struct CgRules {
 #else

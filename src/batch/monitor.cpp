@@ -58,8 +58,8 @@ void Monitor::note(const std::string& message) {
 }
 
 /// If announce() did not print the backend of the result, adds a message to the first result of this backend. Such a
-/// backend runs after a failure of a device, for example. Without a progress line no message is needed, because the
-/// report of the mesh has a warning.
+/// backend runs after a failure of a device, for example. A run without a progress line (MonitorOptions::showsProgress)
+/// needs no message, because the user sees the report of the mesh, and the report has the warning about the failure.
 void Monitor::noteOtherBackend(JobResult& result) {
   const MeshRecord& record = result.record;
   if (!options_.showsProgress || options_.isQuiet || record.backend.empty() || record.status == MeshStatus::Skipped)

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-
 #include "c/objects.h"
 #include "core/text.h"
 

@@ -145,7 +145,8 @@ ConeFrame cgalConeFrame(const Vec3d& inward) {
 
 double coneRotation(const Cone& cone, uint64_t key) {
   if (cone.rotation == ConeRotation::Fixed) return 0;
-  return 2 * std::numbers::pi * Random(key).real();  // The first random number is a hash of the seed.
+  // The first number of a generator seeded with `key` is a hash of `key`, so that the rotation depends on `key` only.
+  return 2 * std::numbers::pi * Random(key).real();
 }
 
 ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key) {

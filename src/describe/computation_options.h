@@ -17,7 +17,7 @@ struct SessionSettings : SessionOptions {
   uint32_t threadCount = 0;  ///< 0: the number of cores.
 };
 
-/// Groups of options of several tables.
+/// Headings of option groups (OptionRow::group) that occur in more than one table of options.
 inline constexpr const char* kOutputGroup = "Output";
 inline constexpr const char* kDeviceGroup = "Device";
 inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";

@@ -102,7 +102,9 @@ CapsuleUnion::Sample CapsuleUnion::sample(const Vec3d& p, Selection selection) c
   return sample;
 }
 
-// A capsule farther away than a few blends has no effect on the smooth minimum.
+// A capsule has no effect on the smooth minimum if its distance exceeds the least distance by more than a few blend
+// widths. Within `radius` of p, each distance differs by at most `radius` from the distance at p, so two distances move
+// apart by at most 2 * radius.
 CapsuleUnion::Selection CapsuleUnion::near(const Vec3d& p, double radius) const {
   std::vector<double> distances;
   for (const Axis& axis : axes_) distances.push_back(nearest(axis, p).distance);

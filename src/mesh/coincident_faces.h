@@ -31,10 +31,10 @@ namespace asdfvk {
 
 /// #F: the representative of each face, which is the face of lowest index with its corners at the same three points in
 /// the same winding. Vertex indices may differ. Points are the same where their coordinates are equal and finite; -0
-/// equals 0. Faces with two corners at one point are compared by vertex indices. A copy is treated as its
-/// representative, so that every backend reports the same face. Faces at the same points in opposite winding, for
-/// example where parts touch, are not copies. edges: the survey of the mesh, which often proves quickly that there are
-/// no copies.
+/// equals 0. Faces with two corners at one point are compared by vertex indices. A face whose representative is another
+/// face is a copy. If a ray hits a copy, the hit is reported as a hit of the representative, so that every backend
+/// reports the same face. Faces at the same points in opposite winding, for example where parts touch, are not copies.
+/// edges: the survey of the mesh, which often proves quickly that there are no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 /// For each representative its own index and those of its copies; nothing for any other face.

@@ -18,8 +18,9 @@ class SeedPrediction {
   /// The computation must outlive this object.
   explicit SeedPrediction(const Computation& computation) : computation_(computation) {}
 
-  /// Predicts all faces from the hits of these seeds. Does nothing if Computation::keepsHits() is false. Seeds of an
-  /// earlier call must be at the same indices. Throws Error{Cancelled}.
+  /// Predicts all faces from the hits of these seeds. Does nothing if Computation::keepsHits() is false. A seed that
+  /// was in `hits` of an earlier call, and is in `hits` again, must have the same index. A new seed must have an index
+  /// that no other seed had. An entry kNoFace leaves a seed out. Throws Error{Cancelled}.
   void predict(const SeedHitsView& hits, const RunControl& control);
   /// Adds the seeds that have no cell yet to the last prediction. Returns the values that were replaced; see
   /// asdfvk::addSeeds(). Throws the errors of predict().

@@ -28,7 +28,8 @@ struct GraphProblem {
   std::span<const uint32_t> componentOf;  ///< #F
 };
 
-/// The system of the unknown faces.
+/// The linear system (buildPoissonSystem()) whose unknowns are the values of the faces without a constraint. Faces
+/// without a path of arcs to a constraint are not unknowns.
 [[nodiscard]] PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, GraphProblem problem);
 
 /// The least tolerance that a device reaches without residuals in double.

@@ -61,9 +61,9 @@ class DevicePredictor {
 };
 
 /// Predicts the values of all faces. The result does not depend on the number of threads. earlier: empty, or a
-/// prediction of the same scene, cone and options; seeds that still exist have the same indices in `hits`. Values that
-/// did not change are copied from `earlier`. device: null predicts on the CPU, which cannot be cancelled. Throws the
-/// errors of the device.
+/// prediction of the same scene, cone and options. A seed of both predictions must have the same index in `hits` of
+/// both. Values that did not change are copied from `earlier`. device: null predicts on the CPU, which cannot be
+/// cancelled. Throws the errors of the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                        const SeedHitsView& hits, const PredictionOptions& options,
                                        Prediction earlier = {}, DevicePredictor* device = nullptr,

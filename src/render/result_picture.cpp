@@ -50,7 +50,7 @@ std::string verdictText(ThicknessVerdict verdict) {
   return verdict == ThicknessVerdict::Passed ? "PASS" : verdict == ThicknessVerdict::Failed ? "FAIL" : "NOT JUDGED";
 }
 
-/// Callouts of the first regions. Walls come before sharp regions.
+/// Callouts of the first kMaxCount regions. In ThicknessReport::regions, thin walls are before sharp regions.
 std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   constexpr size_t kMaxCount = 8;
   std::vector<Callout> callouts;

@@ -29,13 +29,14 @@ struct CgalValues {
 /// least value. Throws the errors of postprocessLikeCgal().
 [[nodiscard]] std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::span<const double> values);
 
-/// The second step of the post-processing. The value of a face f becomes the mean over the faces g within R rings of
-/// neighbours around f, f included, with the weights
-///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
-/// where R = 1 + floor(sqrt(#F / 2000)), and sigma_f is 1.5 times the root mean square of v_g - v_f. Precondition: the
-/// values and their squares are finite. Polls `control` every 256 faces. Throws Error{Cancelled}. Sums have the order
-/// of a breadth-first search, so that the bits do not depend on the number of threads. If exp() has the bits of
-/// core/lane_exp.h, the bits do not depend on the instruction set either.
+/// The second step of the post-processing. Let R = 1 + floor(sqrt(#F / 2000)). The value v_f of a face f becomes a
+/// weighted mean of the values v_g of the faces g in the rings 0 to R around f; ring 0 is f itself. A face g in ring r
+/// has the weight
+///   exp(-(r / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
+/// with a real division R / 2. sigma_f is 1.5 times the root mean square of v_g - v_f over the same faces g. If sigma_f
+/// is 0, v_f does not change. Precondition: the values and their squares are finite. Polls `control` every 256 faces.
+/// Throws Error{Cancelled}. Sums have the order of a breadth-first search, so that the bits do not depend on the number
+/// of threads. If exp() has the bits of core/lane_exp.h, the bits do not depend on the instruction set either.
 [[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                                  const RunControl& control = {},
                                                  InstructionSet instructionSet = widestInstructionSet());

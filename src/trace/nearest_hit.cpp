@@ -110,7 +110,7 @@ class Walk {
   double contactDistance_;
   const Counts& counts_;
   RayHit best_;
-  // The distance of the best hit for comparisons, with the addition for a hit on an outer side.
+  // best_.distance, plus kOuterSideFactor * contactDistance_ if best_ is on the outer side of its face.
   double limit_ = kNoHit;
 };
 

@@ -199,7 +199,8 @@ class ThinSearch {
   const PointFans& fans_;
   const SharpEdges& sharp_;
   double limit_, maxLength_;
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> edges_;  ///< Lines of the edges, by their points.
+  /// Maps the two end points of a mesh edge, in ascending order, to the number of its line (Side::line).
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> edges_;
   uint32_t lineCount_ = 0;
   std::vector<Piece> finished_;
 };

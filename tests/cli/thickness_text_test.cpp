@@ -73,7 +73,7 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
     checkHolds(text, "\n  unjudged  1,200 faces of open components: closing them may add a thin wall");
     checkHolds(text, "\n            1 face of closed components oriented inwards or inconsistently; --orient auto ");
     checkHolds(text, "\n            2 degenerate faces left out");
-    checkHolds(text, "\n            3 faces crossed by a face of another part");
+    checkHolds(text, "\n            3 faces crossed by a face of another body");
   };
   checkSentences();
   thickness.verdict = ThicknessVerdict::Failed;

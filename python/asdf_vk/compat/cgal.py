@@ -8,7 +8,8 @@ The functions have CGAL's names of parameters and CGAL's defaults. They follow t
 and contain no code of CGAL. Differences:
 
 - In results, a missing value is NaN; in CGAL it is -1. In arguments, NaN and -1 are missing values.
-- By default the graph cut expands all clusters, as in some versions of CGAL. expansion="first" is for CGAL 5.5.1.
+- The graph cut of segmentation_from_sdf_values() expands all clusters by default. CGAL 5.5.1 expands the first cluster
+  only; expansion="first" does the same. Some other versions of CGAL expand all clusters.
 - Meshes need not be manifold. Two faces are neighbours across an edge if they traverse it in opposite directions and
   no third face has this edge. An edge of more faces is divided into several edges, as in CGAL's readers. CGAL's
   readers also reverse faces of such meshes; these functions do not.
@@ -61,7 +62,8 @@ def sdf_values(
     postprocess: apply sdf_values_postprocessing().
     seeds: faces from which rays start: "all" as in CGAL, a share such as 0.1, or a count. The values of the other faces
         are interpolated; then segments differ from CGAL's segments.
-    progress: called with a fraction from 0 to 1 and the name of the stage. The return value False cancels.
+    progress: called with the finished fraction of the whole call (0 to 1) and the name of the current stage, or ""
+        before the first stage. The return value False cancels.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
     Returns the values, float64 (m,), and a pair of numbers in the unit of the mesh. Post-processed values are in [0,

@@ -12,7 +12,9 @@ using Ints8 = IntsOf<Float8>;
 constexpr int32_t kSignBit = std::numeric_limits<int32_t>::min();
 constexpr float kTinyDirection = 1e-20F;
 
-// GCC offers the instructions of AVX2 as functions, even if the baseline does not have AVX2.
+// GCC accepts the builtins of AVX2 and FMA in an always-inlined template, even if the file is compiled without AVX2 and
+// FMA. (GCC declares these builtins at the first function for the instruction set: runWithAvx2() in core/simd.h.) Clang
+// does not accept them, so clang compiles the generic code below.
 #if defined(__x86_64__) && !defined(__clang__)
 template <typename Floats>
 constexpr bool kHasShuffles = sizeof(Floats) >= sizeof(Float8);
