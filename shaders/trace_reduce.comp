@@ -26,7 +26,7 @@ uint deviationBits(uint ray, float centre) {
 
 // The mean of the middle two differences from `centre`; with the centre 0, the median of the lengths. Each pass
 // determines two bits, which halves the iterations of a bisection.
-float medianDeviation(uint validCount, float centre) {
+float medianDifference(uint validCount, float centre) {
   const uint rank = (validCount - 1u) / 2u;
   uint bits = 0u;
   for (int shift = 30; shift >= 0; shift -= 2) {
@@ -47,7 +47,7 @@ float medianDeviation(uint validCount, float centre) {
 }
 
 float outlierBound(uint validCount, float mean, float median) {
-  if (kIsCgal) return push.outlierDeviations * medianDeviation(validCount, median);
+  if (kIsCgal) return push.outlierDeviations * medianDifference(validCount, median);
   float variance = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const float l = uintBitsToFloat(lengthBits[ray]);
@@ -57,7 +57,7 @@ float outlierBound(uint validCount, float mean, float median) {
 }
 
 float weightedMean(uint validCount, float mean) {
-  const float median = medianDeviation(validCount, 0.0);
+  const float median = medianDifference(validCount, 0.0);
   const float bound = outlierBound(validCount, mean, median);
   float sum = 0.0;
   float weightSum = 0.0;

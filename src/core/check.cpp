@@ -12,4 +12,6 @@ void failCheck(const char* file, int line, const char* text, const std::string& 
   throw CheckFailure(fmt::format("{}:{}: {} ({} against {})", file, line, text, left, right));
 }
 
+std::string checkedNumber(double number) { return fmt::format("{}", number); }
+
 }  // namespace asdfvk

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,13 @@ class CheckFailure : public std::logic_error {
 [[noreturn]] void failCheck(const char* file, int line, const char* text, const std::string& left,
                             const std::string& right);
 
+/// The number for a message.
+[[nodiscard]] std::string checkedNumber(double number);
+template <std::integral T>
+[[nodiscard]] std::string checkedNumber(T number) {
+  return std::to_string(number);
+}
+
 /// Throws CheckFailure unless `condition` holds, also in release builds.
 #define ASDFVK_CHECK(condition)                                            \
   do {                                                                     \
@@ -22,13 +30,13 @@ class CheckFailure : public std::logic_error {
   } while (false)
 
 /// Like ASDFVK_CHECK for `left op right`, with both numbers in the message: ASDFVK_CHECK_OP(a, <=, b).
-#define ASDFVK_CHECK_OP(left, op, right)                                                            \
-  do {                                                                                              \
-    const auto& asdfvkLeft = (left);                                                                \
-    const auto& asdfvkRight = (right);                                                              \
-    if (!(asdfvkLeft op asdfvkRight))                                                               \
-      ::asdfvk::failCheck(__FILE__, __LINE__, #left " " #op " " #right, std::to_string(asdfvkLeft), \
-                          std::to_string(asdfvkRight));                                             \
+#define ASDFVK_CHECK_OP(left, op, right)                                                                   \
+  do {                                                                                                     \
+    const auto& asdfvkLeft = (left);                                                                       \
+    const auto& asdfvkRight = (right);                                                                     \
+    if (!(asdfvkLeft op asdfvkRight))                                                                      \
+      ::asdfvk::failCheck(__FILE__, __LINE__, #left " " #op " " #right, asdfvk::checkedNumber(asdfvkLeft), \
+                          asdfvk::checkedNumber(asdfvkRight));                                             \
   } while (false)
 
 }  // namespace asdfvk

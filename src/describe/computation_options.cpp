@@ -16,8 +16,8 @@ constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clocks.
 #define COMPUTATION_MEMBER(path) ASDFVK_MEMBER(ComputationSettings, path)
 #define COMPUTATION_CHOICE(path, names) ASDFVK_CHOICE(ComputationSettings, path, names)
 
-// The names of samplers, solvers, backends and kernels repeat tables of other layers. tests/cli/options_test.cpp
-// compares the names.
+// The names of samplers and solvers here, and of backends and kernels in session_options.cpp, repeat tables of other
+// layers. tests/cli/option_values_test.cpp compares the names.
 const std::array kComputationRows{
     OptionRow{
         .name = "recipe",
@@ -27,6 +27,7 @@ const std::array kComputationRows{
             "Set of options; single options override the set. paper: the method of the ASDF paper. balanced: "
             "about half the error of paper. quality: also pools the rays of neighbouring seeds, for the least error",
         .more = "[method.md](method.md#recipes) lists the options of each set.",
+        .atPoints = AtPoints::Diameter,
         .apply = [](void* t) { applyRecipe(static_cast<ComputationSettings*>(t)->recipe, optionsOf(t)); }},
     OptionRow{.name = "definition",
               .access = COMPUTATION_CHOICE(options.cone.definition, kDefinitions),

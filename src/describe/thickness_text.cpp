@@ -37,7 +37,7 @@ ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) 
           "of closed components oriented inwards or inconsistently; {orient=auto} reverses inverted components",
           spelling));
   add(unjudged.degenerateCount, "degenerate face", "left out: without a normal, or with a corner that is not finite");
-  add(unjudged.selfCrossedCount, "face", "crossed by a face of the same body: inside and outside are ambiguous there");
+  add(unjudged.selfCrossedCount, "face", "crossed by their own body: inside and outside are ambiguous there");
   add(unjudged.crossedCount, "face", "crossed by a face of another body: the union may be thicker than reported");
   return rows;
 }
@@ -98,10 +98,9 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling s
   const bool hasValues = !std::isnan(thickness.median);
   const UnjudgedFaces& unjudged = thickness.unjudged;
   if (!hasValues || unjudged.preventVerdict())
-    rows.emplace_back("unjudged",
-                      fmt::format("faces: {} of open components, {} inverted, {} crossed by a face of the same body",
-                                  groupDigits(unjudged.openCount), groupDigits(unjudged.invertedCount),
-                                  groupDigits(unjudged.selfCrossedCount)));
+    rows.emplace_back("unjudged", fmt::format("faces: {} of open components, {} inverted, {} crossed by their own body",
+                                              groupDigits(unjudged.openCount), groupDigits(unjudged.invertedCount),
+                                              groupDigits(unjudged.selfCrossedCount)));
   if (!hasValues) return rows;
   std::string text = fmt::format("median {}, greatest {}", lengthText(thickness.median), lengthText(thickness.max));
   if (!thickness.regions.empty()) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/dual_graph.h"
@@ -27,6 +28,11 @@ class ArcAngles {
   [[nodiscard]] std::span<const float> get() {
     if (angles_.empty()) angles_ = arcAngles(graph_, geometry_);
     return angles_;
+  }
+  /// Like get(), and releases the memory. A later use computes the angles again.
+  [[nodiscard]] std::vector<float> take() {
+    (void)get();
+    return std::exchange(angles_, {});
   }
 
  private:

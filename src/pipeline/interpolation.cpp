@@ -109,7 +109,7 @@ std::vector<double> Interpolation::valuesAt(std::span<const uint32_t> faces, std
 std::span<const double> Interpolation::weights() {
   if (weights_.empty())
     weights_ = options_.interpolation.weights == ArcWeights::Feature
-                   ? featureWeights(arcAngles_.get())
+                   ? featureWeights(arcAngles_.take())
                    : distanceWeights(domain_.graph, prepared_.geometry);
   return weights_;
 }

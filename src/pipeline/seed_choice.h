@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "asdf_vk/options.h"
+#include "asdf_vk/run_control.h"
+#include "mesh/arc_angles.h"
 #include "pipeline/face_domain.h"
 #include "seeds/samplers.h"
 

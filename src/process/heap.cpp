@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -51,6 +52,16 @@ void configureHeap() {
 
 }  // namespace asdfvk
 
+// The address sanitizer checks its own operators.
+#if defined(__SANITIZE_ADDRESS__)
+#define ASDFVK_HAS_OWN_OPERATORS 0
+#elif defined(__has_feature)
+#define ASDFVK_HAS_OWN_OPERATORS !__has_feature(address_sanitizer)
+#else
+#define ASDFVK_HAS_OWN_OPERATORS 1
+#endif
+
+#if ASDFVK_HAS_OWN_OPERATORS
 void* operator new(size_t byteCount) {
   return asdfvk::allocated(byteCount, [&] { return std::malloc(byteCount > 0 ? byteCount : 1); });
 }
@@ -58,7 +69,8 @@ void* operator new(size_t byteCount) {
 void* operator new(size_t byteCount, std::align_val_t alignment) {
   return asdfvk::allocated(byteCount, [&] {
     void* memory = nullptr;
-    return ::posix_memalign(&memory, static_cast<size_t>(alignment), byteCount) == 0 ? memory : nullptr;
+    const size_t allowed = std::max(static_cast<size_t>(alignment), sizeof(void*));
+    return ::posix_memalign(&memory, allowed, byteCount) == 0 ? memory : nullptr;
   });
 }
 
@@ -66,3 +78,4 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif

@@ -3,8 +3,8 @@
 namespace asdfvk {
 
 /// Makes the allocator of the program reuse freed memory and ask for huge pages, because the kernel needs time for each
-/// new page. All threads share one heap, so that a thread can reuse memory that another thread freed. A program that
-/// calls this function also gets the operators `new` and `delete` of heap.cpp.
+/// new page. All threads share one heap, so that a thread can reuse memory that another thread freed. Every program
+/// that links this layer has the operators `new` and `delete` of heap.cpp, which ask for huge pages.
 void configureHeap();
 
 }  // namespace asdfvk

@@ -22,7 +22,7 @@ struct SeedDomain {
   const FaceGeometry& geometry;
   ArcAngles& arcAngles;
   std::span<const uint32_t> candidates;  ///< Faces that can cast rays, ascending, each once.
-  RunControl stopOnly = {};              ///< A stop request ends the selection with Error{Cancelled}.
+  RunControl stopOnly = {};              ///< Ends samplers that measure distances, by Error{Cancelled}.
 };
 
 /// The candidates that are not in `existing` (any order), ascending. Throws CheckFailure for an existing face that is

@@ -122,12 +122,12 @@ TEST_CASE("values at points; the orientation is that of each call") {
   for (const OptionTexts& accepted :
        {OptionTexts{{"rays", "12"}, {"angle", "90"}, {"false-hit-angle", "80"}},
         OptionTexts{{"outlier-deviations", "2"}, {"cone-rotation", "hashed"}, {"measure", "sdf"}},
-        OptionTexts{{"definition", "cgal"}}, OptionTexts{{"measure", "thickness"}, {"wall-angle", "150"}}})
+        OptionTexts{{"definition", "cgal"}}, OptionTexts{{"recipe", "quality"}},
+        OptionTexts{{"measure", "thickness"}, {"wall-angle", "150"}}})
     requireDone(valuesAt(accepted));
   for (const OptionTexts& refused :
-       {OptionTexts{{"seeds", "all"}}, OptionTexts{{"recipe", "quality"}}, OptionTexts{{"smooth", "auto"}},
-        OptionTexts{{"per", "vertex"}}, OptionTexts{{"thinner-than", "1"}},
-        OptionTexts{{"rays", "12"}, {"measure", "thickness"}}}) {
+       {OptionTexts{{"seeds", "all"}}, OptionTexts{{"smooth", "auto"}}, OptionTexts{{"per", "vertex"}},
+        OptionTexts{{"thinner-than", "1"}}, OptionTexts{{"rays", "12"}, {"measure", "thickness"}}}) {
     CHECK(valuesAt(refused) == ASDF_VK_USAGE);
     CHECK_MESSAGE(
         std::string(asdf_vk_last_error()).starts_with(std::string(refused[0].first) + " has no effect on the"),

@@ -144,8 +144,7 @@ TEST_CASE("the short report has at most six lines of 100 columns, and no device,
   found = lines();
   REQUIRE(found.size() == 6);
   CHECK_EQ(found[0], "horse.ply: NOT JUDGED: none of the judged faces is thinner than 0.812345");
-  CHECK_EQ(found[1],
-           "  unjudged  faces: 12,345 of open components, 12,345 inverted, 0 crossed by a face of the same body");
+  CHECK_EQ(found[1], "  unjudged  faces: 12,345 of open components, 12,345 inverted, 0 crossed by their own body");
   CHECK_EQ(found[2],
            "  thickness median 1.235e-10, greatest 1.235e-10; 1,234 thin regions, 12.3 % of the area (--verbose)");
   CHECK_EQ(found[3], "  mesh      96,966 faces, bounding box 1.235e-05 x 2 x 3");

@@ -1,5 +1,4 @@
 #include "mesh/curvature.h"
-#include "mesh/arc_angles.h"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/arc_angles.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -38,7 +39,11 @@ TEST_CASE("large memory is advised to have huge pages, with and without an align
   const auto plain = std::make_unique<std::vector<uint8_t>>(8 << 20);
   const auto aligned = std::make_unique<std::vector<Wide>>(1 << 15);
   CHECK(reinterpret_cast<uintptr_t>(aligned->data()) % alignof(Wide) == 0);
-  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled")) return;
+  ::operator delete (::operator new (1, std::align_val_t{1}), std::align_val_t{1});
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled")) {
+    MESSAGE("no huge pages on this system: the advice is not tested");
+    return;
+  }
   CHECK(mappingFlagsAt(plain->data() + plain->size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(aligned->data() + aligned->size() / 2).find(" hg ") != std::string::npos);
 }

@@ -3,8 +3,6 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <utility>
 
 #include "asdf_vk/choices.h"
 #include "asdf_vk/options.h"
