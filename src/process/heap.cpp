@@ -9,11 +9,29 @@
 #include <cstdlib>
 #include <new>
 
+// The address sanitizer checks its own operators.
+#if defined(__SANITIZE_ADDRESS__)
+#define ASDFVK_HAS_OWN_OPERATORS 0
+#elif defined(__has_feature)
+#define ASDFVK_HAS_OWN_OPERATORS !__has_feature(address_sanitizer)
+#else
+#define ASDFVK_HAS_OWN_OPERATORS 1
+#endif
+
+namespace asdfvk {
+
+void configureHeap() {
+  constexpr int kKeptBytes = 128 << 20;  // Unused memory at the end of the heap that is not returned to the kernel.
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_ARENA_MAX, 1);
+  ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
+}
+
+}  // namespace asdfvk
+
+#if ASDFVK_HAS_OWN_OPERATORS
 namespace asdfvk {
 namespace {
-
-/// Bytes of unused memory at the end of the heap that are not returned to the kernel.
-constexpr int kKeptBytes = 128 << 20;
 
 constexpr size_t kHugePageBytes = 2 << 20, kLeastAdvisedBytes = 128 << 10;
 
@@ -44,24 +62,8 @@ void* allocated(size_t byteCount, const Allocate& allocate) {
 
 }  // namespace
 
-void configureHeap() {
-  ::mallopt(M_MMAP_MAX, 0);
-  ::mallopt(M_ARENA_MAX, 1);
-  ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
-}
-
 }  // namespace asdfvk
 
-// The address sanitizer checks its own operators.
-#if defined(__SANITIZE_ADDRESS__)
-#define ASDFVK_HAS_OWN_OPERATORS 0
-#elif defined(__has_feature)
-#define ASDFVK_HAS_OWN_OPERATORS !__has_feature(address_sanitizer)
-#else
-#define ASDFVK_HAS_OWN_OPERATORS 1
-#endif
-
-#if ASDFVK_HAS_OWN_OPERATORS
 void* operator new(size_t byteCount) {
   return asdfvk::allocated(byteCount, [&] { return std::malloc(byteCount > 0 ? byteCount : 1); });
 }
