@@ -62,7 +62,7 @@ vec4 distancesTo(uint bytes, float perByte, float start) {
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// For each axis, the size of one step of the bytes of a node.
+// For each axis, the length of one unit of the bytes in which a node stores its boxes.
 vec3 stepsOf(DeviceWideNode node) {
   return uintBitsToFloat(uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u);
 }

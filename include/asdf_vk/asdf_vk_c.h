@@ -31,8 +31,8 @@ extern "C" {
 /* NOLINTBEGIN(readability-identifier-naming) */
 
 /* Version of the binary interface and of the shared library (libasdf-vk-c.so.1). The loaded library fits this header
- * if asdf_vk_abi() returns ASDF_VK_ABI. Between releases with an equal ASDF_VK_ABI, only
- * functions and enumerators are added. */
+ * if asdf_vk_abi() returns ASDF_VK_ABI. Releases with an equal ASDF_VK_ABI differ only
+ * in added functions and enumerators. */
 #define ASDF_VK_ABI 1
 ASDF_VK_C_API int asdf_vk_abi(void);
 /* Version of asdf-vk as a text: "0.2.0". */

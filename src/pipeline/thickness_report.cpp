@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <set>
 
+#include "core/disjoint_sets.h"
 #include "core/weighted_sample.h"
 #include "pipeline/thickness.h"
 #include "pipeline/value_report.h"
@@ -158,22 +158,15 @@ class Description {
   /// Joins the two sides of a wall into one region if the least ball of one side touches the other side. Sharp regions
   /// are not joined, because the verdict may leave them out.
   void joinSides(std::vector<std::vector<uint32_t>>& partsOf) const {
-    std::vector<uint32_t> joinedWith(partsOf.size());
-    std::iota(joinedWith.begin(), joinedWith.end(), 0u);
-    const auto rootOf = [&](uint32_t region) {
-      while (joinedWith[region] != region) region = joinedWith[region];
-      return region;
-    };
+    DisjointSets regions(partsOf.size());
     for (const std::vector<uint32_t>& ofRegion : partsOf) {
       if (isSharp(ofRegion)) continue;
       const ThinPart& thinnest = thickness_.thinParts[thinnestOf(ofRegion)];
       const std::optional<uint32_t> opposite = regionOpposite(thinnest);
-      if (!opposite || isSharp(partsOf[*opposite])) continue;
-      const uint32_t a = rootOf(thinnest.region), b = rootOf(*opposite);
-      joinedWith[std::max(a, b)] = std::min(a, b);
+      if (opposite && !isSharp(partsOf[*opposite])) regions.join(thinnest.region, *opposite);
     }
     for (uint32_t region = 0; region < partsOf.size(); ++region) {
-      std::vector<uint32_t>&from = partsOf[region], &to = partsOf[rootOf(region)];
+      std::vector<uint32_t>&from = partsOf[region], &to = partsOf[regions.lowestOf(region)];
       if (&from == &to) continue;
       to.insert(to.end(), from.begin(), from.end());
       from.clear();

@@ -61,7 +61,6 @@ void* allocated(size_t byteCount, const Allocate& allocate) {
 }
 
 }  // namespace
-
 }  // namespace asdfvk
 
 void* operator new(size_t byteCount) {
