@@ -11,23 +11,23 @@
 
 namespace asdfvk {
 
-/// A box during the build. Upper bounds are stored negated, so that enlarging the box takes two minimums.
+/// A box during the build. Upper bounds are stored negated, so that enlarging the box takes minimums only.
 struct SplitBox {
   Float4 lower, negatedUpper;
 
-  [[nodiscard]] static SplitBox empty() {
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE static SplitBox empty() {
     const Float4 nothing = broadcast<Float4>(std::numeric_limits<float>::infinity());
     return {nothing, nothing};
   }
-  void grow(const SplitBox& other) {
+  ASDFVK_ALWAYS_INLINE void grow(const SplitBox& other) {
     lower = min(other.lower, lower);
     negatedUpper = min(other.negatedUpper, negatedUpper);
   }
-  [[nodiscard]] Float4 extents() const { return -(negatedUpper + lower); }
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 extents() const { return -(negatedUpper + lower); }
   /// Twice the centre, with a single rounding.
-  [[nodiscard]] Float4 doubledCentre() const { return lower - negatedUpper; }
-  [[nodiscard]] float doubledCentre(size_t axis) const { return lower[axis] - negatedUpper[axis]; }
-  [[nodiscard]] float halfArea() const {
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 doubledCentre() const { return lower - negatedUpper; }
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE float doubledCentre(size_t axis) const { return lower[axis] - negatedUpper[axis]; }
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE float halfArea() const {
     const Float4 e = extents();
     return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
   }
@@ -38,11 +38,13 @@ struct SplitBox {
 };
 
 /// A triangle during the build, 32 bytes: its box, with its face in the unused lane of the lower corner.
-struct SplitTriangle {
+struct alignas(32) SplitTriangle {
   SplitBox box;
 
   SplitTriangle() = default;
   SplitTriangle(const SplitBox& b, uint32_t face) : box(b) { box.lower[3] = std::bit_cast<float>(face); }
+  float* numbers() { return reinterpret_cast<float*>(this); }
+  [[nodiscard]] const float* numbers() const { return reinterpret_cast<const float*>(this); }
   [[nodiscard]] uint32_t face() const { return std::bit_cast<uint32_t>(float{box.lower[3]}); }
 };
 static_assert(sizeof(SplitTriangle) == 32);
