@@ -1,9 +1,10 @@
 #include "predict/hit_points.h"
-#include "core/prefetch.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+
+#include "core/prefetch.h"
 
 namespace asdfvk {
 namespace {
@@ -44,6 +45,19 @@ HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsVi
 
 void HitPoints::clear() { groups_.clear(); }
 
+void HitPoints::prefetchHits(uint32_t seed) const {
+  const auto hits = std::as_bytes(hits_.of(seed));
+  for (size_t place = 0; place < hits.size(); place += 64) prefetchMemory(&hits[place]);
+  prefetchMemory(&hits.back());
+  prefetchMemory(&scene_.geometry.barycentres[hits_.seeds[seed]]);
+  prefetchMemory(&scene_.geometry.normals[hits_.seeds[seed]]);
+}
+
+void HitPoints::prefetchNormals(uint32_t seed) const {
+  for (const ConeHit& hit : hits_.of(seed))
+    if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
+}
+
 /// Whether a hit is neither a miss nor a false hit.
 bool HitPoints::isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit& hit) const {
   return hit.face != kNoFace &&
@@ -72,9 +86,6 @@ HitRange HitPoints::appendEmpty(size_t pointCount) {
 HitRange HitPoints::append(uint32_t seed) {
   const std::span<const ConeHit> hits = hits_.of(seed);
   const uint32_t seedFace = hits_.seeds[seed];
-  // The normals are at random places in memory. Without the prefetch, cache misses take most of the time.
-  for (const ConeHit& hit : hits)
-    if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
   const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);
   const LengthWindow window = inlierWindow(seed, frame);
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);

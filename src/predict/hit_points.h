@@ -17,6 +17,10 @@ class HitPoints {
 
   void clear();
 
+  /// Prefetch the memory that append() reads, first the hits, later the normals of the hit faces.
+  void prefetchHits(uint32_t seed) const;
+  void prefetchNormals(uint32_t seed) const;
+
   /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates.
   HitRange append(uint32_t seed);
 
