@@ -4,8 +4,8 @@
 
 namespace asdfvk {
 
-std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene) {
-  std::vector<TrianglePlane> planes(scene.bvh.primitiveFaces.size());
+UnsetVector<TrianglePlane> trianglePlanes(const TraceScene& scene) {
+  UnsetVector<TrianglePlane> planes(scene.bvh.primitiveFaces.size());
   forEachInParallel(planes.size(), [&](size_t primitive) {
     const uint32_t face = scene.bvh.primitiveFaces[primitive];
     const Vec3d& normal = scene.geometry.normals[face];

@@ -1,7 +1,8 @@
 #include "trace/cpu/cone_group.h"
-#include "core/prefetch.h"
 
 #include <limits>
+
+#include "core/prefetch.h"
 
 namespace asdfvk {
 
@@ -31,15 +32,18 @@ void ConeGroup::clear() {
 }
 
 void ConeGroup::trace() {
+  const bool keepsHits = size_ > 0 && !seeds_[0].hits.empty();
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     cast(cones_.cone.directions[ray], hits_[ray]);
-    for (const uint32_t primitive : hits_[ray].primitives)
-      if (primitive != kNoFace) prefetchMemory(&cones_.planes[primitive]);
+    for (const uint32_t primitive : hits_[ray].primitives) {
+      if (primitive == kNoFace) continue;
+      prefetchMemory(&cones_.planes[primitive]);
+      if (keepsHits) prefetchMemory(&cones_.scene.bvh.primitiveFaces[primitive]);
+    }
   }
   lanes_.measure(frames_, hits_);
   values_ = lanes_.values();
-  for (size_t lane = 0; lane < size_; ++lane)
-    if (!seeds_[lane].hits.empty()) writeHits(lane);
+  for (size_t lane = 0; keepsHits && lane < size_; ++lane) writeHits(lane);
 }
 
 /// coneDirection: one of Cone::directions.

@@ -110,7 +110,7 @@ class CpuTracer final : public ConeTracer {
   TraceScene scene_;
   const Cone& cone_;
   SeedOrder seedOrder_;
-  std::vector<TrianglePlane> planes_;
+  UnsetVector<TrianglePlane> planes_;
   LaneBvh bvh_;
 };
 
