@@ -40,7 +40,7 @@ Rgba colourOf(double value, const ColourRange& range) {
   Rgba colour{0, 0, 0, 255};
   for (size_t channel = 0; channel < 3; ++channel) {
     const double from = kViridis[below][channel], to = kViridis[below + 1][channel];
-    colour[channel] = static_cast<uint8_t>(std::lround(from + (to - from) * fraction));
+    colour[channel] = static_cast<uint8_t>(from + (to - from) * fraction + 0.5);
   }
   return colour;
 }
