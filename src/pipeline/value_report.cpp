@@ -37,6 +37,7 @@ Warning describeMissing(const Report& report, const PreparedMesh& prepared, cons
 
 ValueRange rangeOf(const std::vector<double>& values) {
   std::vector<double> present;
+  present.reserve(values.size());
   std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
   if (present.empty()) return {};
   const auto [low, high] = std::minmax_element(present.begin(), present.end());

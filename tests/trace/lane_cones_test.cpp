@@ -91,7 +91,7 @@ namespace {
 void checkLengths(const ConeOptions& options) {
   Random random(8);
   const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.1, 4));
-  const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
+  const UnsetVector<TrianglePlane> planes = trianglePlanes(traced.scene());
   const Cone cone = makeCone(options);
   const Eight eight = eightCones(traced, cone, random);
   std::vector<LaneHits> hits(cone.directions.size());
