@@ -12,7 +12,7 @@ constexpr uint32_t kMaxBinCount = 32;
 // good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
-// Boxes and numbers of the triangles in the sample, per axis and bin.
+// The bounding box and the count of the triangles in the sample, per axis and bin.
 struct Bins {
   std::array<std::array<Float8, kMaxBinCount>, 3> boxes;
   std::array<std::array<uint32_t, kMaxBinCount>, 3> counts{};
@@ -38,14 +38,14 @@ struct Bins {
 // Maps doubled centres to bins, per axis. Factor 0 means that the axis cannot be split, because the centres coincide or
 // are so close that the factor would overflow.
 struct Binning {
-  Float4 origin, factor{};
+  Float4 origin, factor;
   uint32_t binCount = 0;
 
   ASDFVK_ALWAYS_INLINE Binning(const SplitBox& centres, uint32_t count) : origin(centres.lower), binCount(count) {
     // Slightly less than the bin count: then rounding moves no centre beyond the last bin.
     const Float4 f = static_cast<float>(count) * (1 - 0x1p-20f) / centres.extents();
     const IntsOf<Float4> isFinite = f - f == 0;
-    factor = select(isFinite & IntsOf<Float4>{-1, -1, -1, 0}, f);
+    factor = select(isFinite & IntsOf<Float4>{-1, -1, -1, 0}, f);  // The last lane may hold a face.
   }
   [[nodiscard]] ASDFVK_ALWAYS_INLINE IntsOf<Float4> binsOf(const SplitBox& box) const {
     return __builtin_convertvector((box.doubledCentre() - origin) * factor, IntsOf<Float4>);
@@ -92,8 +92,8 @@ ASDFVK_ALWAYS_INLINE inline SplitBox boundCentres(std::span<const SplitTriangle>
   return centres;
 }
 
-// Branch-free: the condition is unpredictable. Moves triangles as vectors, because Bins::add() would wait for two
-// stores of 16 bytes.
+// Branch-free: the condition is unpredictable. Moves triangles as vectors of 32 bytes, because the load in Bins::add()
+// would wait for two preceding stores of 16 bytes.
 template <typename IsLeft>
 ASDFVK_ALWAYS_INLINE inline size_t partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLeft) {
   size_t leftCount = 0;
@@ -125,8 +125,8 @@ ASDFVK_ALWAYS_INLINE inline size_t splitAtBestBin(std::span<SplitTriangle> trian
 
 }  // namespace
 
-size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount) {
-  return dispatch<Float8>(widestInstructionSet(),
+size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount, InstructionSet instructionSet) {
+  return dispatch<Float8>(instructionSet,
                           [&]<typename>() ASDFVK_ALWAYS_INLINE { return splitAtBestBin(triangles, binCount); });
 }
 

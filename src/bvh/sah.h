@@ -51,8 +51,10 @@ static_assert(sizeof(SplitTriangle) == 32);
 
 /// Splits by the binned surface-area heuristic (Wald 2007), for many triangles by a sample. Reorders `triangles` and
 /// returns the number of triangles on the left, at least one and less than all. If all centres of the sample coincide,
-/// returns 0 and does not reorder. binCount: per axis, 2 to 32.
-[[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount);
+/// returns 0 and does not reorder. The result is the same for every instruction set. binCount: per axis, 2 to 32.
+/// Precondition: the boxes are in normalised coordinates.
+[[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount,
+                                InstructionSet instructionSet = widestInstructionSet());
 
 /// Splits at the median of the centres along their widest axis; if all centres coincide, into halves in the given
 /// order. Precondition: at least two triangles.

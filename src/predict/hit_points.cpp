@@ -48,7 +48,7 @@ void HitPoints::clear() { groups_.clear(); }
 void HitPoints::prefetchHits(uint32_t seed) const {
   const auto hits = std::as_bytes(hits_.of(seed));
   for (size_t place = 0; place < hits.size(); place += 64) prefetchMemory(&hits[place]);
-  prefetchMemory(&hits.back());
+  prefetchMemory(&hits.back());  // The hits may begin within a cache line.
   prefetchMemory(&scene_.geometry.barycentres[hits_.seeds[seed]]);
   prefetchMemory(&scene_.geometry.normals[hits_.seeds[seed]]);
 }

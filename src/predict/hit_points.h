@@ -17,8 +17,9 @@ class HitPoints {
 
   void clear();
 
-  /// Prefetch the memory that append() reads, first the hits, later the normals of the hit faces.
+  /// Prefetches the hits of a seed, and the barycentre and normal of its face, for append().
   void prefetchHits(uint32_t seed) const;
+  /// Prefetches the normals of the hit faces, for append(). Reads the hits.
   void prefetchNormals(uint32_t seed) const;
 
   /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates.

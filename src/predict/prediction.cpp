@@ -40,12 +40,13 @@ class CellPredictor {
   }
 
  private:
-  void runCell(uint32_t cell, std::vector<double>& values);
-  void prefetchFaces(uint32_t cell) const;
   struct CachedHits {
     uint32_t seed = kNoCell;
     HitRange range;
   };
+
+  void runCell(uint32_t cell, std::vector<double>& values);
+  void prefetchFaces(uint32_t cell) const;
   [[nodiscard]] CachedHits& placeOf(uint32_t seed);
   void appendHits(std::span<const uint32_t> cells);
   [[nodiscard]] HitRange hitsOf(uint32_t seed);
@@ -57,7 +58,7 @@ class CellPredictor {
   const PredictionInput& input_;
   HitPoints points_;
   PredictionKernel kernel_;
-  std::vector<CachedHits> cached_;     // Hash table by seed, with open addressing. Its size is a power of two.
+  std::vector<CachedHits> cached_;    // Hash table by seed, with open addressing. Its size is a power of two.
   std::vector<CachedHits*> newHits_;  // Entries of cached_ that appendHits() fills.
 
   // For the current cell:
@@ -105,10 +106,10 @@ CellPredictor::CachedHits& CellPredictor::placeOf(uint32_t seed) {
   }
 }
 
-/// Appends the hit points of all seeds of those cells that cannot reuse an earlier prediction. Most of the time are
-/// cache misses; prefetching for seeds ahead halves their time.
+/// Appends the hit points of all seeds of those cells that cannot reuse an earlier prediction. Cache misses take most
+/// of the time without prefetching.
 void CellPredictor::appendHits(std::span<const uint32_t> cells) {
-  constexpr size_t kDistance = 4;  // The normals of the hits are prefetched so many seeds ahead, the hits twice as many.
+  constexpr size_t kDistance = 4;  // Normals are prefetched 4 seeds ahead. Hits are prefetched 8 seeds ahead.
   newHits_.clear();
   for (const uint32_t cell : cells) {
     if (input_.hasEarlierSeeds(cell)) continue;
@@ -128,7 +129,7 @@ void CellPredictor::appendHits(std::span<const uint32_t> cells) {
   }
 }
 
-/// The hit points of the seed, computed on first use.
+/// The hit points of the seed. Appends them if appendHits() has not, because the cell keeps some of its earlier values.
 HitRange CellPredictor::hitsOf(uint32_t seed) {
   CachedHits& cached = placeOf(seed);
   if (cached.seed == kNoCell) cached = {seed, points_.append(seed)};

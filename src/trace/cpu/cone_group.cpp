@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/check.h"
 #include "core/prefetch.h"
 
 namespace asdfvk {
@@ -18,6 +19,7 @@ ConeGroup::ConeGroup(const CpuCones& cones)
 }
 
 void ConeGroup::add(const CpuSeed& seed) {
+  ASDFVK_CHECK(size_ == 0 || seed.hits.empty() == seeds_[0].hits.empty());
   const size_t lane = size_++;
   seeds_[lane] = seed;
   frames_.set(lane, seed.start.frame, seed.start.origin, seed.start.normal);
