@@ -4,8 +4,8 @@
 
 namespace asdfvk {
 
-/// Fetches an object of up to 65 bytes into the cache, also if the object lies in two cache lines. The assembly statement
-/// counts as a side effect. Without a side effect, GCC removes calls of a function that only prefetches.
+/// Fetches an object of up to 65 bytes into the cache, also if the object lies in two cache lines. The assembly
+/// statement counts as a side effect. Without a side effect, GCC removes calls of a function that only prefetches.
 template <typename Object>
 inline void prefetchMemory(const Object* object) {
   __builtin_prefetch(object);

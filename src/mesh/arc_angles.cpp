@@ -21,7 +21,7 @@ double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g)
 std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, size_t{graph.faceCount()});
   std::vector<float> angles(graph.neighbours.size());
-  setForEachPair(graph, std::span(angles), [&](uint32_t face, uint32_t neighbour) {
+  setForEachPair(graph, geometry, std::span(angles), [&](uint32_t face, uint32_t neighbour) {
     return static_cast<float>(signedDihedralAngle(geometry, face, neighbour));
   });
   return angles;

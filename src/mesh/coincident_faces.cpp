@@ -73,7 +73,7 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
       if (bucket[i].hash != bucket[first].hash) first = i;
       // `same` is nearly always `first`; different points may have the same hash.
       size_t same = first;
-      while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
+      while (same < i && !(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
       lowest[bucket[i].vertex] = bucket[same].vertex;
     }
   });

@@ -8,6 +8,7 @@
 #include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 
 namespace asdfvk {
 namespace {
@@ -138,9 +139,13 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
     forEachTask((values.size() + kSweepBlockSize - 1) / kSweepBlockSize, [&](size_t block) {
       const size_t begin = block * kSweepBlockSize, end = std::min(begin + kSweepBlockSize, values.size());
       std::copy_n(&values[begin], end - begin, &next[begin]);
-      for (size_t face = begin; face < end; ++face)
+      for (size_t face = begin; face < end; ++face) {
+        if (const size_t later = face + 16; later < end)
+          for (const uint32_t neighbour : graph.neighboursOf(static_cast<uint32_t>(later)))
+            prefetchMemory(&geometry.normals[neighbour]);
         if (!aggregates.isCentre(static_cast<uint32_t>(face)) && std::isfinite(values[face]))
           relax(static_cast<uint32_t>(face), static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
+      }
     });
 }
 

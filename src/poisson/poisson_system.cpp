@@ -98,7 +98,7 @@ std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   std::vector<double> weights(graph.neighbours.size());
   const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
-  setForEachPair(graph, std::span(weights), [&](uint32_t face, uint32_t neighbour) {
+  setForEachPair(graph, geometry, std::span(weights), [&](uint32_t face, uint32_t neighbour) {
     // The difference of the halves does not overflow.
     const Vec3d half = geometry.barycentres[neighbour] * 0.5 - geometry.barycentres[face] * 0.5;
     return std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
