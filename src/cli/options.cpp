@@ -146,23 +146,18 @@ void completeFields(CommandLine& line) {
   std::vector<std::pair<const char*, std::string>> shown;
   for (const std::string& name : outputs.fields) shown.emplace_back("--fields", name);
   if (!outputs.pictureOf.empty()) shown.emplace_back("--picture-of", outputs.pictureOf);
-  const auto shows = [&](std::string_view name) {
-    return std::any_of(shown.begin(), shown.end(), [&](const auto& field) { return field.second == name; });
+  if (!outputs.points.empty()) options.computesCentres = true;
+  const auto rowOf = [](std::string_view name) {
+    return std::find_if(fieldRows().begin(), fieldRows().end(), [&](const FieldRow& row) { return row.name == name; });
   };
-  if (shows("centre") || shows("component") || !outputs.points.empty()) options.computesCentres = true;
-  if (options.measuresThickness() && (shows("sdf") || shows("seed") || shows("error"))) options.measure = Measure::Both;
+  for (const auto& field : shown)
+    if (const auto request = rowOf(field.second)->request; request != nullptr) request(options);
   for (const auto& field : shown) {
-    const char* option = field.first;
-    const std::string& name = field.second;
-    const auto row =
-        std::find_if(fieldRows().begin(), fieldRows().end(), [&](const auto& r) { return r.name == name; });
-    const bool isComputed = name == "normalized"          ? options.postprocesses()
-                            : name == "segment"           ? options.segmentation != Segmentation::None
-                            : name.ends_with("thickness") ? options.measuresThickness()
-                                                          : true;
-    if (!isComputed) refuseOptions(fmt::format("{} {} needs --{}", option, name, row->needs));
-    if (name == "error" && !estimates(options))
-      refuseOptions(fmt::format("{} error needs an error estimate; drop --no-estimate and --seeds all", option));
+    const FieldRow& row = *rowOf(field.second);
+    if (row.isComputed != nullptr && !row.isComputed(options))
+      refuseOptions(fmt::format("{} {} needs --{}", field.first, row.name, row.needs));
+    if (field.second == "error" && !estimates(options))
+      refuseOptions(fmt::format("{} error needs an error estimate; drop --no-estimate and --seeds all", field.first));
   }
 }
 

@@ -11,40 +11,64 @@
 namespace asdfvk {
 namespace {
 
+bool postprocesses(const Options& options) { return options.postprocesses(); }
+bool segments(const Options& options) { return options.segmentation != Segmentation::None; }
+bool measuresThickness(const Options& options) { return options.measuresThickness(); }
+
+void requestDiameter(Options& options) {
+  if (options.measuresThickness()) options.measure = Measure::Both;
+}
+
+void requestCentres(Options& options) { options.computesCentres = true; }
+
 // scripts/write-report-keys copies these rows to docs/formats.md.
 constexpr std::array kFields{
-    FieldRow{.name = "sdf", .label = "shape diameter", .unit = "length", .meaning = "the shape diameter"},
-    FieldRow{.name = "seed", .label = "seeds", .type = FieldType::Flag, .meaning = "1 where the face cast rays"},
+    FieldRow{.name = "sdf",
+             .label = "shape diameter",
+             .unit = "length",
+             .request = requestDiameter,
+             .meaning = "the shape diameter"},
+    FieldRow{.name = "seed",
+             .label = "seeds",
+             .type = FieldType::Flag,
+             .request = requestDiameter,
+             .meaning = "1 where the face cast rays"},
     FieldRow{.name = "error",
              .label = "expected error",
              .unit = "length",
+             .request = requestDiameter,
              .meaning = "expected error; 0 at seeds that keep their value; only with an estimate of the error"},
     FieldRow{.name = "normalized",
              .label = "normalised diameter",
              .needs = "postprocess cgal",
+             .isComputed = postprocesses,
              .meaning = "post-processed value, from 0 to 1 ([segmentation.md](segmentation.md))"},
     FieldRow{.name = "segment",
              .label = "segments",
              .type = FieldType::Label,
              .needs = "segment",
+             .isComputed = segments,
              .meaning = "number of the segment: segments are numbered from 0 by ascending mean value; 4294967295 for a "
                         "face with fewer than three corners"},
     FieldRow{.name = "thickness",
              .label = "wall thickness",
              .unit = "length",
              .needs = "measure thickness",
+             .isComputed = measuresThickness,
              .meaning = "wall thickness at the barycentre; for a polygon, the least value of its triangles "
                         "([thickness.md](thickness.md))"},
     FieldRow{.name = "least_thickness",
              .label = "least wall thickness",
              .unit = "length",
              .needs = "measure thickness",
+             .isComputed = measuresThickness,
              .meaning = "least wall thickness over all points of the face"},
     FieldRow{.name = "centre",
              .label = "skeleton point",
              .unit = "length",
              .componentCount = 3,
              .needs = "fields centre",
+             .request = requestCentres,
              .meaning = "skeleton point: the barycentre of the face, moved inwards along its normal by half of the "
                         "shape diameter. For a polygon, barycentre and normal are area-weighted means over its "
                         "triangles. No value if the face has no shape diameter or no normal (zero area)"},
@@ -52,6 +76,7 @@ constexpr std::array kFields{
              .label = "components",
              .type = FieldType::Label,
              .needs = "fields component",
+             .request = requestCentres,
              .meaning = "number of the component (faces connected by edges): components are numbered from 0 by their "
                         "first faces; 4294967295 for a face with fewer than three corners"},
 };

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "asdf_vk/field.h"
+#include "asdf_vk/options.h"
 
 namespace asdfvk {
 
@@ -15,8 +16,10 @@ struct FieldRow {
   const char* unit = "";  ///< See Field::unit.
   FieldType type = FieldType::Real;
   uint32_t componentCount = 1;
-  const char* needs = nullptr;  ///< The option that computes the field; null: no option is needed.
-  const char* meaning;          ///< Meaning of the entry of a face.
+  const char* needs = nullptr;                   ///< The option that computes the field; null: no option is needed.
+  bool (*isComputed)(const Options&) = nullptr;  ///< Whether the options compute the field; null: always.
+  void (*request)(Options&) = nullptr;           ///< Sets what a user implies who asks for the field; null: nothing.
+  const char* meaning;                           ///< Meaning of the entry of a face.
 };
 
 /// All fields, in the order of a result.
