@@ -185,20 +185,24 @@ std::string errorSentence(const Report& report) {
 }  // namespace
 
 ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
+  constexpr size_t kMaxRows = 5;
   ReportRows rows;
+  bool hasDiameter = true;
   if (report.thickness) {
     rows = shortThicknessRows(*report.thickness, spelling);
     rows.emplace_back(
         "mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}", counted(report.faceCount, "face"),
                             report.size.x, report.size.y, report.size.z, report.unit.empty() ? "" : " " + report.unit));
+    // Parts and the result of a check were asked for, so they come before the diameter if there is not room for all.
+    const size_t askedCount = (report.segmentCount ? 1U : 0U) + (report.check ? 1U : 0U);
+    hasDiameter = report.seedCount > 0 && rows.size() + askedCount < kMaxRows;
   } else {
-    rows = {{"mesh", meshRow(report)}, {"diameter", shortValueRow(report)}};
+    rows = {{"mesh", meshRow(report)}};
   }
+  if (hasDiameter) rows.emplace_back("diameter", shortValueRow(report));
   if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));
-  // With a thickness, the estimated error of the diameter is left out. Without room for the result of a check, the
-  // error message still reports a failed check.
-  constexpr size_t kMaxRows = 5;
-  if ((report.estimatedError && !report.thickness) || (report.check && rows.size() < kMaxRows))
+  // Without room for the result of a check, the error message still reports a failed check.
+  if (((report.estimatedError && hasDiameter) || report.check) && rows.size() < kMaxRows)
     rows.emplace_back("error", shortErrorRow(report));
   return rows;
 }

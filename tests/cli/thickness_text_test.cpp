@@ -117,6 +117,36 @@ TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, 
   checkHolds(textOf(result), "2 sharp edges or tips: allowed, together with the thin surface around them\n");
 }
 
+TEST_CASE("the short report has the diameter and its error if they were computed and there is room") {
+  Result result = soundResult(0.8);
+  Report& report = result.report;
+  const auto titles = [&] {
+    const std::string text = textReport(outcomeOf(result, kDefaults.outputs));
+    std::string found;
+    for (size_t end = text.find('\n'); end + 1 < text.size(); end = text.find('\n', end + 1))
+      found += text.substr(end + 3, text.find(' ', end + 3) - end - 3) + " ";
+    return found;
+  };
+  CHECK_EQ(titles(), "thickness mesh output ");
+  report.seedCount = 100;
+  report.sdf = {.min = 0.5, .median = 1.5, .max = 2.5};
+  report.estimatedError = ErrorEstimate{.average = 0.01};
+  CHECK_EQ(titles(), "thickness mesh diameter error output ");
+  checkHolds(textReport(outcomeOf(result, kDefaults.outputs)),
+             "\n  diameter  0.5 to 2.5, median 1.5\n  error     about 1 % of the range on average\n");
+  report.segmentCount = 3;
+  CHECK_EQ(titles(), "thickness mesh diameter segments output ");
+  report.check = CheckReport{.passed = true, .tracedCount = 2000, .agreeingCount = 2000, .comparedCount = 2000};
+  CHECK_EQ(titles(), "thickness mesh segments error output ");
+  report.segmentCount.reset();
+  CHECK_EQ(titles(), "thickness mesh diameter error output ");
+  report.check.reset();
+  report.thickness->unjudged.openCount = 7;
+  CHECK_EQ(titles(), "unjudged thickness mesh diameter output ");
+  report.segmentCount = 3;
+  CHECK_EQ(titles(), "unjudged thickness mesh segments output ");
+}
+
 TEST_CASE("the document has every value of the thickness") {
   Result result = soundResult(1.5);
   ThicknessReport& thickness = *result.report.thickness;
