@@ -44,7 +44,7 @@ Parts
 
 Accuracy and time
   asdf-vk horse.ply --max-error 1%             add rays until the error is 1 %
-    --seeds N%|N|all              faces that cast rays; default 10%
+    --seeds N%|N|all              faces with rays; default 10%, at least 3,000
     --recipe paper|balanced|quality            quality: pooled rays, slower
     --check                       compare 2,000 faces with the reference
 

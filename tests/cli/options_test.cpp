@@ -246,7 +246,7 @@ TEST_CASE("--help has tasks with examples, of options that exist; --help=all has
   std::istringstream lines(basic);
   for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(line.size() <= 80, line);
   for (const char* part : {"--segment", "--thinner-than", "--fail-if-thinner", " -r ", "summarize", "-o horse.html",
-                           "--help=all lists all options"})
+                           "default 10%, at least 3,000", "--help=all lists all options"})
     CHECK_MESSAGE(basic.find(part) != std::string::npos, part);
   const std::string all = parseCommandLine({"--help=all"}).answer.value();
   const std::set<std::string> known = optionsIn(all);
