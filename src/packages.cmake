@@ -28,11 +28,13 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # The first line of a description is the summary.
 set(description
-"The shape diameter function is the thickness of a shape behind each face of
-its surface. It serves to segment, skeletonise, check and retrieve shapes.
-Rays from a tenth of the faces are traced by Vulkan compute, on a GPU or a
-CPU, and the values of the other faces are interpolated. The error is
-estimated. Parts and the wall thickness are computed from the same rays.
+"The local thickness of a shape at each face of its surface is the shape
+diameter function or the wall thickness. The first serves to segment,
+skeletonise and retrieve shapes, the second to check walls. For the shape
+diameter function, rays from a tenth of the faces are traced by Vulkan
+compute, on a GPU or a CPU, and the values of the other faces are
+interpolated. The error is estimated. Parts are computed from these values.
+The wall thickness is exact and needs no rays.
 
 ")
 
@@ -40,7 +42,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME asdf-vk)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "shape diameter function of triangle meshes by Vulkan compute
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "local thickness of triangle meshes by Vulkan compute
 ${description}This package has the programs asdf-vk and asdf-vk-generate.")
 
 # Dependencies of asdf-vk-config.cmake. The static library is bound to the symbols of one major version of fmt.
@@ -53,7 +55,7 @@ get_target_property(abi asdf-vk-c SOVERSION)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libasdf-vk-c${abi} (= ${PROJECT_VERSION}), ${depends}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libopenmesh-dev)
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "shape diameter function of triangle meshes - development files
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "local thickness of triangle meshes - development files
 ${description}This package has the static library, its headers, a CMake package and
 pkg-config files, also of the shared library for C.")
 
@@ -62,7 +64,7 @@ set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_C_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs ${PROJECT_BINARY_DIR}/debian/triggers)
-set(CPACK_DEBIAN_C_DESCRIPTION "shape diameter function of triangle meshes - library for C
+set(CPACK_DEBIAN_C_DESCRIPTION "local thickness of triangle meshes - library for C
 ${description}This package has the shared library of the interface in C.")
 
 # The module is bound to the minor version of the Python for which it is built.
@@ -74,7 +76,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${pythonNext}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${vulkan}")
-set(CPACK_DEBIAN_PYTHON_DESCRIPTION "shape diameter function of triangle meshes - Python module
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "local thickness of triangle meshes - Python module
 ${description}This package has the Python module asdf_vk, and cgal_Segmentation_Module for
 programs that call that extension of CGAL.")
 

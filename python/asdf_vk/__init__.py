@@ -1,4 +1,4 @@
-"""Shape diameter function of triangle meshes on Vulkan: the local diameter of the shape at each face.
+"""Local thickness (shape diameter function) of triangle meshes, on Vulkan or the CPU: a value for each face.
 
     import asdf_vk
     values = asdf_vk.shape_diameter(vertices, faces)    # float32 (m,), in the unit of the mesh, NaN = no value

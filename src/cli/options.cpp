@@ -273,7 +273,8 @@ void refuseOptions(const std::string& message) { throw Error(ErrorCode::OptionCo
 
 std::string shortUsage() {
   return "Usage: asdf-vk MESH... [OPTIONS]\n"
-         "Computes the shape diameter function of triangle meshes. Writes NAME.asdf.ply beside each mesh.\n"
+         "Computes the local thickness (shape diameter function) of triangle meshes.\n"
+         "Writes NAME.asdf.ply beside each mesh.\n"
          "asdf-vk --help has examples and the options.\n";
 }
 
