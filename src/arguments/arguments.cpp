@@ -102,7 +102,7 @@ std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<st
   return attached;
 }
 
-void ArgumentParser::readPositional(const std::vector<std::string>& arguments) {
+void ArgumentParser::readPositional(const std::vector<std::string>& arguments, const std::vector<std::string>& typed) {
   const auto positional =
       std::find_if(entries_.begin(), entries_.end(), [](const Entry& entry) { return isPositional(entry.argument); });
   bool hasEnded = false;
@@ -111,7 +111,14 @@ void ArgumentParser::readPositional(const std::vector<std::string>& arguments) {
       hasEnded = true;
       continue;
     }
-    if (!hasEnded && text.size() > 1 && text.starts_with('-')) (void)find(text.substr(0, text.find('=')));
+    // CLI11 shortens "-q=x" to "-=x" if -q takes no value.
+    const auto whole = std::find_if(typed.begin(), typed.end(), [&](const std::string& t) {
+      return text.starts_with("-=") && t.size() > text.size() && t[0] == '-' && t[1] != '-' &&
+             t.ends_with(text.substr(1));
+    });
+    if (!hasEnded && whole != typed.end())
+      refuse(fmt::format("{}: -{} takes no value", *whole, (*whole)[whole->find('=') - 1]));
+    if (!hasEnded && text.size() > 1 && text.starts_with('-')) (void)find(text.substr(0, text.find('=', 2)));
     if (positional == entries_.end() || (!positional->given.empty() && !positional->argument.isList))
       refuse(fmt::format("'{}' is one argument too many", text));
     positional->given.resize(1);
@@ -149,7 +156,7 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& error) {
     refuse(error.what());
   }
-  readPositional(app.remaining());
+  readPositional(app.remaining(), arguments);
   for (size_t i = 0; i < entries_.size(); ++i) {
     if (options[i] == nullptr) continue;
     std::vector<Argument::Values>& given = entries_[i].given;

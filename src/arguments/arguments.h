@@ -67,7 +67,8 @@ class ArgumentParser {
   /// Joins each optional value to its option by '='. CLI11 would always take the next argument as the value.
   [[nodiscard]] std::vector<std::string> withAttachedValues(const std::vector<std::string>& arguments) const;
   /// Reads the positional arguments and refuses unknown options. CLI11 would read a file name such as "[a]" as a list.
-  void readPositional(const std::vector<std::string>& arguments);
+  /// typed: the whole command line, for messages.
+  void readPositional(const std::vector<std::string>& arguments, const std::vector<std::string>& typed);
   void read(const std::vector<std::string>& arguments);
 
   std::string name_, description_, version_;

@@ -117,6 +117,9 @@ TEST_CASE("arguments that do not fit are refused with the reason") {
   CHECK_EQ(parse({"--scale", ""}).refusal, "--scale: '' is not a number");
   CHECK_EQ(parse({"--shift", "1", "2"}).refusal, "--shift takes exactly 3 values, once");
   CHECK_EQ(parse({"--quiet=yes"}).refusal, "--quiet takes no value");
+  CHECK_EQ(parse({"-q=yes"}).refusal, "-q=yes: -q takes no value");
+  CHECK_EQ(parse({"-lq=", "-f", "x"}).refusal, "-lq=: -q takes no value");
+  CHECK_EQ(parse({"-=x"}).refusal, "-=x is unknown; odd --help lists the options");
   CHECK_EQ(parse({"--second=", "b"}).refusal, "--second= has no value");
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--first"}, {"-f", "x", "-f", "y"}})
     CHECK_EQ(parse(arguments).refusal, "--first takes exactly one value, once");
