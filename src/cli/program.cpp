@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/run_control.h"
@@ -40,13 +41,23 @@ MeshSettings settingsOf(const CommandLine& line) {
           .isOfBatch = line.batch.isBatch()};
 }
 
+constexpr const char* kSummarize = "summarize";
+
+/// Throws Error{UnknownName} if the first argument is no file and looks like a misspelt command.
+void requireNoMisspeltCommand(const std::string& first) {
+  std::error_code ignored;
+  if (similarNames(first, {kSummarize}).empty() || std::filesystem::exists(first, ignored)) return;
+  throw Error(ErrorCode::UnknownName,
+              fmt::format("'{}' is neither a file nor a command; did you mean {}?", first, kSummarize));
+}
+
 /// The command `asdf-vk summarize LOG.jsonl...`. arguments: those after `summarize`.
 ExitCode summarize(const std::vector<std::string>& arguments) {
   std::vector<std::string> logs;
   std::string format;
   bool isJson = false;
   ArgumentParser parser(
-      "asdf-vk summarize",
+      fmt::format("asdf-vk {}", kSummarize),
       "Summarises the logs of batches: times, estimated errors, failures by code. If a mesh has several "
       "records, only the latest one counts.",
       "",
@@ -90,7 +101,8 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
     runWorker();
     return ExitCode::Done;
   }
-  if (arguments.front() == "summarize") return summarize({arguments.begin() + 1, arguments.end()});
+  if (arguments.front() == kSummarize) return summarize({arguments.begin() + 1, arguments.end()});
+  requireNoMisspeltCommand(arguments.front());
   const CommandLine line = parseCommandLine(arguments);
   if (line.answer) {
     writeStandardOutput(*line.answer);

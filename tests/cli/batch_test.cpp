@@ -194,6 +194,8 @@ TEST_CASE("summarize counts the last record of each mesh, as text and JSON") {
                "--json and --format csv contradict each other");
   checkFailure(runAsdf({"summarize", tree / "missing"}), 2, "missing");
   checkFailure(runAsdf({"summarize"}), 1, "summarize --help");
+  checkFailure(runAsdf({"sumarize", tree / "log"}), 1,
+               "'sumarize' is neither a file nor a command; did you mean summarize?");
 }
 
 TEST_CASE("options of a batch that contradict each other are refused") {
