@@ -153,7 +153,7 @@ const std::array kComputationRows{
                       "means parts. cgal: soft clustering and graph cut as in CGAL; implies --postprocess cgal; use "
                       "cgal with --seeds all",
               .bareValue = "parts",
-              .wanted = "one of none|parts|cgal; the option parts sets the number of parts"},
+              .wanted = "one of none|parts|cgal; {parts} sets the number of parts"},
     OptionRow{.name = "parts",
               .access = COMPUTATION_MEMBER(options.parts.partCount),
               .range = fromTo(1, kMaxPartCount),

@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "describe/computation_options.h"
 
 namespace asdfvk {
 namespace {
@@ -110,7 +111,8 @@ OptionValue typed(const OptionRow& row, const std::string& text) {
 
 [[noreturn]] void fail(const OptionRow& row, const std::string& shown, OptionSpelling spelling) {
   const ErrorCode code = namesOf(row).empty() ? ErrorCode::OptionOutOfRange : ErrorCode::UnknownName;
-  throw Error(code, fmt::format("{}: {} is not {}", spelled(row, spelling), shown, wantedText(row)),
+  const std::string wanted = withSpelledOptions(computationRows(), wantedText(row), spelling);
+  throw Error(code, fmt::format("{}: {} is not {}", spelled(row, spelling), shown, wanted),
               {{"option", spelled(row, spelling)}});
 }
 

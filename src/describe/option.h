@@ -112,7 +112,8 @@ struct OptionRow {
   bool emptyIsAuto = false;           ///< The name "auto" sets the member to an empty string.
   std::vector<std::string> (*moreNames)() = nullptr;  ///< Returns further allowed values of a string option.
   const char* bareValue = nullptr;  ///< Value of an option that is given without a value; null: a value is required.
-  const char* wanted = nullptr;     ///< Description of valid values for messages: "an error such as 1%".
+  /// Description of valid values for messages: "an error such as 1%". Options of the computation are in braces.
+  const char* wanted = nullptr;
   /// Returns false or throws for an invalid value.
   bool (*read)(void* target, const OptionValue& value) = nullptr;
   OptionValue (*write)(const void* target) = nullptr;

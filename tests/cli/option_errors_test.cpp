@@ -89,7 +89,7 @@ TEST_CASE("unknown, doubled and bare options are refused") {
   CHECK_EQ(refusal({"a.ply", "--bogus"}), "--bogus is unknown; asdf-vk --help lists the options");
   CHECK_EQ(refusal({"a.ply", "--seed", "5"}), "--seed is unknown; did you mean --seeds or --rng-seed?");
   CHECK_EQ(refusal({"a.ply", "--segment", "5"}),
-           "--segment: '5' is not one of none|parts|cgal; the option parts sets the number of parts");
+           "--segment: '5' is not one of none|parts|cgal; --parts sets the number of parts");
   CHECK(refusal({"a.ply", "--rays", "3", "--rays", "4"}).find("--rays") != std::string::npos);
   CHECK(refusal({"a.ply", "--rays"}).find("--rays") != std::string::npos);
   CHECK_EQ(refusal({"--help=some"}), "--help: 'some' is not 'all'; write --help or --help=all");
