@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._errors import MeshWarning, error_of
-from ._options import Progress, checked_progress
+from ._options import Progress, check_names, checked_progress
 
 _STACK_LEVEL = 4  # A warning names the line of the caller's code that calls the public function.
 
@@ -18,11 +18,7 @@ _STACK_LEVEL = 4  # A warning names the line of the caller's code that calls the
 def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
     """Removes `progress` from the options and returns it. Raises UsageError for an option name that is not allowed."""
     progress = checked_progress(options.pop("progress", None))
-    for name in options:
-        if name not in allowed:
-            similar = _core.similar_names(name, [*allowed, "progress"])
-            hint = f"; did you mean {similar}?" if similar else ""
-            raise error_of("unknownName", f"there is no option '{name}'{hint}", {"option": name})
+    check_names(options, [*allowed, "progress"])
     return progress
 
 
@@ -35,7 +31,8 @@ def method_of(method: Any) -> str:
 def _merged(options: dict[str, Any], implied: dict[str, Any]) -> dict[str, Any]:
     for name, value in implied.items():
         if options.get(name) is not None and not (isinstance(options[name], type(value)) and options[name] == value):
-            raise error_of("optionConflict", f"{name}={options[name]!r} contradicts this function: use compute()")
+            hint = "parts=N sets the number of parts" if name == "segment" else "use compute()"
+            raise error_of("optionConflict", f"{name}={options[name]!r} contradicts this function: {hint}")
     return {**options, **implied}
 
 

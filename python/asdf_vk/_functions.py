@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Integral
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import mesh_argument
 from ._compute import computed, method_of, skeleton_of, values_of, with_diameter
+from ._errors import error_of
 from ._info import Info, info_of
 from ._options import BackendOptions, FunctionOptions, Progress
 from ._scene import Scene
@@ -94,6 +96,8 @@ def segment(
     Returns int32 (m,) per face, or (n,) per vertex: labels 0 to k - 1, ascending by mean value. A face without a
     triangle has the label -1. Raises and warns like compute().
     """
+    if isinstance(faces, Integral):
+        raise error_of("arrayType", f"faces={faces} is a number, not an array; parts={faces} sets the number of parts")
     given = dict(options)
     return values_of(_computed(vertices, faces, given, segment=method_of(method)), "segment", given)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Literal, Optional, TypedDict
+from typing import TYPE_CHECKING, Any, Callable, Collection, Iterable, Literal, Optional, TypedDict
 
+from . import _core
 from ._errors import error_of
 from ._keywords import ComputeOptions, SessionOptions
 
@@ -18,6 +19,15 @@ def checked_progress(progress: Any) -> Progress | None:
     if progress is not None and not callable(progress):
         raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
     return progress
+
+
+def check_names(names: Iterable[str], allowed: Collection[str]) -> None:
+    """Raises UsageError for an option name that is not allowed, with a hint to similar names."""
+    for name in names:
+        if name not in allowed:
+            similar = _core.similar_keywords(name, list(allowed))
+            hint = f"; did you mean {similar}?" if similar else ""
+            raise error_of("unknownName", f"there is no option '{name}'{hint}", {"option": name})
 
 
 class ConeOptions(TypedDict, total=False):

@@ -6,12 +6,17 @@ import atexit
 import os
 import threading
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _core
 from ._errors import error_of
+from ._keywords import SessionOptions
+from ._options import check_names
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True)
@@ -43,17 +48,9 @@ class Session:
     Any number of threads may use a session. A session runs one computation at a time. Raises DeviceError.
     """
 
-    def __init__(
-        self,
-        *,
-        backend: str | None = "auto",
-        device: str | int | None = "",
-        require_gpu: bool | None = False,
-        threads: int | None = 0,
-    ) -> None:
-        self._open: _core.Session | None = _core.Session(
-            {"backend": backend, "device": device, "require_gpu": require_gpu, "threads": threads}
-        )
+    def __init__(self, **options: Unpack[SessionOptions]) -> None:
+        check_names(options, SessionOptions.__annotations__)
+        self._open: _core.Session | None = _core.Session(dict(options))
 
     @property
     def backend(self) -> str:

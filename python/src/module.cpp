@@ -6,7 +6,6 @@
 #include "asdf_vk/asdf_vk.h"
 #include "bindings.h"
 #include "core/error_kind.h"
-#include "describe/option.h"
 #include "gil.h"
 #include "interruptible.h"
 #include "options.h"
@@ -69,7 +68,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("error_kinds") = errorKinds();
   py::register_local_exception_translator(translate);
   module.def("option_names", optionNames);
-  module.def("similar_names", similarNames);
+  module.def("similar_keywords", similarKeywords);
   module.def("session_key", [](const py::dict& values) {
     const SessionSettings session = sessionOf(values);
     return py::make_tuple(session.backend, session.device, session.requireGpu, session.threadCount);

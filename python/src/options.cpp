@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -77,6 +78,15 @@ std::vector<std::string> optionNames() {
   for (const OptionRow& row : computationRows())
     if (std::string name = spelled(row, kSpelling); !name.empty()) names.push_back(std::move(name));
   return names;
+}
+
+std::string similarKeywords(std::string_view name, const std::vector<std::string>& keywords) {
+  std::string flag(name);
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  const OptionRow* const row = findOption(computationRows(), flag);
+  const std::string keyword = row == nullptr ? "" : spelled(*row, kSpelling);
+  const bool isAllowed = std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
+  return isAllowed ? keyword : similarNames(name, keywords);
 }
 
 Options optionsOf(const py::dict& values) {

@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 import asdf_vk
@@ -53,7 +55,27 @@ def test_what_options_imply(reference: asdf_vk.Session) -> None:
 
 
 def test_an_unknown_option_has_a_hint() -> None:
-    for name, hint in (("seed", "; did you mean seeds or random_seed?"), ("bogus", "")):
+    hints = {
+        "seed": "; did you mean seeds or random_seed?",
+        "rng_seed": "; did you mean random_seed?",
+        "cgal_expansion": "; did you mean expansion?",
+        "bogus": "",
+    }
+    for name, hint in hints.items():
         with pytest.raises(asdf_vk.UsageError) as error:
             asdf_vk.shape_diameter(*cube(), **{name: 3})  # type: ignore[arg-type]
         assert str(error.value) == f"there is no option '{name}'{hint}"
+    for name, hint in (("thread", "; did you mean threads?"), ("rng_seed", "")):
+        with pytest.raises(asdf_vk.UsageError) as error:
+            asdf_vk.Session(**{name: 3})  # type: ignore[arg-type]
+        assert str(error.value) == f"there is no option '{name}'{hint}"
+
+
+def test_a_number_of_parts_in_the_wrong_place_has_a_hint(reference: asdf_vk.Session) -> None:
+    with pytest.raises(asdf_vk.UsageError) as error:
+        asdf_vk.segment(*cube(), session=reference, segment=5)  # type: ignore[arg-type]
+    assert str(error.value) == "segment=5 contradicts this function: parts=N sets the number of parts"
+    for count in (5, np.int32(5)):
+        with pytest.raises(asdf_vk.ArrayTypeError) as wrong:
+            asdf_vk.segment(SimpleNamespace(vertices=cube()[0], faces=cube()[1]), count)  # type: ignore[arg-type]
+        assert str(wrong.value) == "faces=5 is a number, not an array; parts=5 sets the number of parts"

@@ -11,7 +11,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -197,7 +197,7 @@ def test_an_interrupt_ends_the_wait_for_another_thread() -> None:
 
 
 @pytest.mark.parametrize("backend", ["vulkan", "cpu", "reference"])
-def test_daemon_threads_end_with_the_script(backend: str) -> None:
+def test_daemon_threads_end_with_the_script(backend: Literal["vulkan", "cpu", "reference"]) -> None:
     try:
         asdf_vk.Session(backend=backend)
     except asdf_vk.DeviceError as error:
