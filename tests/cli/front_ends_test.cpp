@@ -35,20 +35,26 @@ std::string withoutSpelling(std::string text) {
 
 std::string textOf(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
+bool isOfSession(const std::string& name) { return findOption(sessionRows(), name) != nullptr; }
+
+const OptionRow& rowOf(const std::string& name) {
+  return *findOption(isOfSession(name) ? sessionRows() : computationRows(), name);
+}
+
 std::vector<std::string> argumentsOf(const Json& options) {
   std::vector<std::string> arguments{"a.ply"};
   for (const auto& [name, value] : options.items()) {
-    const std::string flag = spelled(*findOption(computationRows(), name), OptionSpelling::Flag);
+    const std::string flag = spelled(rowOf(name), OptionSpelling::Flag);
     arguments.push_back(value.is_boolean() ? flag : flag + "=" + textOf(value));
   }
   return arguments;
 }
 
 /// Sets a member as a caller of the library does: out of its range, too. False where its type has no such value.
-bool setMember(const OptionRow& row, ComputationSettings& computation, const Json& value) {
+bool setMember(const OptionRow& row, void* target, const Json& value) {
   if (row.access.member == nullptr || row.access.kind == OptionKind::Choice) {
     try {
-      setOptionText(row, &computation, textOf(value));
+      setOptionText(row, target, textOf(value));
     } catch (const Error&) {
       return false;
     }
@@ -66,12 +72,13 @@ bool setMember(const OptionRow& row, ComputationSettings& computation, const Jso
     }
     return true;
   };
-  return std::visit(set, row.access.member(&computation));
+  return std::visit(set, row.access.member(target));
 }
 
-std::string refusalOfLibrary(const ComputationSettings& computation) {
+std::string refusalOfLibrary(const ComputationSettings& computation, const SessionSettings& session) {
   try {
     (void)completed(computation.options);
+    requireValid(session, OptionSpelling::CamelCase);
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::Usage);
     CHECK_FALSE(error.details().empty());
@@ -80,7 +87,8 @@ std::string refusalOfLibrary(const ComputationSettings& computation) {
   return "accepted";
 }
 
-/// "accepted", or the message of the interface in C, where the option is set or where the mesh is computed.
+/// "accepted", or the message of the interface in C, where the option is set, where the session is opened, or where the
+/// mesh is computed.
 std::string refusalInC(asdf_vk_scene* scene, const Json& options) {
   const test::Owned<asdf_vk_options> own = test::optionsOfC({});
   asdf_vk_status status = ASDF_VK_OK;
@@ -88,8 +96,13 @@ std::string refusalInC(asdf_vk_scene* scene, const Json& options) {
     const std::string text = textOf(item.value());
     if (status == ASDF_VK_OK) status = asdf_vk_options_set(own.get(), item.key().c_str(), text.c_str());
   }
+  asdf_vk_session* session = nullptr;
   asdf_vk_result* result = nullptr;
-  if (status == ASDF_VK_OK) status = asdf_vk_compute(scene, own.get(), nullptr, nullptr, &result);
+  if (status == ASDF_VK_OK && isOfSession(options.begin().key()))
+    status = asdf_vk_session_create(own.get(), &session);
+  else if (status == ASDF_VK_OK)
+    status = asdf_vk_compute(scene, own.get(), nullptr, nullptr, &result);
+  asdf_vk_session_destroy(session);
   asdf_vk_result_destroy(result);
   CHECK((status == ASDF_VK_OK || status == ASDF_VK_USAGE));
   return status == ASDF_VK_OK ? "accepted" : asdf_vk_last_error();
@@ -141,21 +154,27 @@ TEST_CASE("the command line and the library refuse the same options with the sam
     CAPTURE(options.dump());
     CHECK_EQ(refusal(argumentsOf(options)), example.at("refusal").get<std::string>());
     ComputationSettings computation;
+    SessionSettings session;
     bool isSet = options.value("measure", "") != "sdf";
-    for (const OptionRow& row : computationRows()) {
-      if (!options.contains(row.name)) continue;
-      names.insert(row.name);
-      isSet = isSet && !ofNames.contains(row.name) && setMember(row, computation, options.at(row.name));
-      if (isSet && row.apply != nullptr) row.apply(&computation);
-    }
+    for (const auto& [rows, target] :
+         {std::pair<OptionRows, void*>{computationRows(), &computation}, {sessionRows(), &session}})
+      for (const OptionRow& row : rows) {
+        if (!options.contains(row.name)) continue;
+        names.insert(row.name);
+        isSet = isSet && !ofNames.contains(row.name) && setMember(row, target, options.at(row.name));
+        if (isSet && row.apply != nullptr) row.apply(target);
+      }
     if (!isSet) continue;
-    CHECK_EQ(withoutSpelling(refusalOfLibrary(computation)), withoutSpelling(example.at("refusal").get<std::string>()));
+    CHECK_EQ(withoutSpelling(refusalOfLibrary(computation, session)),
+             withoutSpelling(example.at("refusal").get<std::string>()));
     ++comparedCount;
   }
   CHECK(comparedCount >= 30);
   for (const OptionRow& row : computationRows())
     if (row.access.kind != OptionKind::Flag && std::string_view(row.name) != "max-relative-error")
       CHECK_MESSAGE(names.contains(row.name), row.name);
+  for (const OptionRow& row : sessionRows())
+    if (!isOfProgram(row)) CHECK_MESSAGE(names.contains(row.name), row.name);
 }
 
 TEST_CASE("the library implies what the command line implies") {
