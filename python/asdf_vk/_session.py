@@ -132,13 +132,10 @@ def close_default_sessions() -> None:
         _default_sessions.clear()
 
 
-_BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
-
-
 def session_of(options: dict[str, Any]) -> Session:
     """Returns the session that the options name (`session`) or describe (`backend`, ...). Removes these options."""
     session = options.pop("session", None)
-    given = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
+    given = {name: options.pop(name) for name in SessionOptions.__annotations__ if name in options}
     described = {name: value for name, value in given.items() if value is not None}
     if session is None:
         return default_session(**described)
