@@ -52,7 +52,7 @@ Options checkOptions(double limit, bool allowsSharpEdges = false) {
 /// GreatestSection of the solid of each face.
 struct Truth {
   struct Section {
-    double diameter, bound;  // As in GreatestSection.
+    double diameter, bound;  // The members of GreatestSection with these names.
   };
   std::vector<uint32_t> faces;
   std::vector<Section> sections;

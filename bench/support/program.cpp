@@ -141,7 +141,7 @@ int Program::run(int argc, char** argv, const std::function<void(const RunContro
   } catch (const CLI::ParseError& error) {
     return app_->exit(error) == 0 ? 0 : exitCodeOf(ErrorKind::Usage);
   }
-  configureHeap();  // As the program: benchmarks measure what its users wait for.
+  configureHeap();  // The program does this too. Benchmarks measure what users of the program wait for.
   int exitCode = kFailureExitCode;
   try {
     const SignalWaiter signals;

@@ -13,7 +13,7 @@ import subprocess
 from packages import PackageSources, Unavailable, is_newer
 
 LAYER = "VK_LAYER_KHRONOS_validation"
-SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "diagnose", "cli")  # As in scripts/test-devices.
+SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "diagnose", "cli")  # the list of scripts/test-devices
 KERNEL_SUITES = ("vk", "trace", "poisson", "predict")
 FAKE_SUITES = (*KERNEL_SUITES, "pipeline", "diagnose")
 QUICK_SUITES = ("vk", "poisson", "predict")

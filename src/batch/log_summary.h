@@ -47,7 +47,7 @@ struct LogSummary {
   /// Total times of the computed meshes, and their estimated average errors divided by the range of the values.
   Spread seconds, averageErrors;
   uint64_t peakMemoryBytes = 0;                              ///< Maximum over all meshes.
-  std::vector<std::pair<std::string, double>> stageSeconds;  ///< Sum of the seconds of each stage, descending.
+  std::vector<std::pair<std::string, double>> stageSeconds;  ///< Seconds of each stage; the longest stage first.
   std::vector<FailureGroup> failures;                        ///< By descending count.
   std::vector<WarningGroup> warnings;                        ///< By descending count.
   std::vector<std::pair<std::string, uint64_t>> devices;     ///< Devices, and their numbers of meshes.

@@ -17,8 +17,8 @@ struct ProcessEnd {
 };
 [[nodiscard]] std::string textOf(const ProcessEnd& end);
 
-/// A child process that exchanges messages with this process. One socket is its standard input and its standard output.
-/// Its standard error is that of this process. The destructor kills the child process.
+/// A child process that exchanges messages with this process. One socket is the standard input and the standard output
+/// of the child. Both processes have the same standard error. The destructor kills the child.
 class WorkerProcess {
  public:
   /// arguments: the first one is argv[0]. Throws std::system_error.

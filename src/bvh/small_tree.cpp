@@ -27,8 +27,8 @@ struct Clusters {
   }
 };
 
-// Of pairs with equal distances, the first by (smaller index, greater index) counts. Therefore the first of the nearest
-// pairs is mutual.
+// If pairs have equal distances, the first pair by (smaller index, greater index) counts. Therefore the first of the
+// nearest pairs is mutual.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline void findNearest(const Clusters& clusters, Nearest& nearest) {
   using Ints = IntsOf<Floats>;

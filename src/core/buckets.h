@@ -27,7 +27,8 @@ struct Buckets {
 /// Groups entries by bucket number, for callers that read each bucket once and keep no bucket. A radix sort in two
 /// steps. In the second step, each run of buckets fits into a cache. The sort avoids atomic operations, which wait for
 /// memory. Time: linear for small buckets, n log n in the worst case. The result does not depend on the number of
-/// threads. Entry has operator<. Its default constructor should leave the entry uninitialised.
+/// threads. Entry has operator<. The default constructor of Entry should leave the entry uninitialised, because all
+/// entries are overwritten.
 template <typename Entry>
 class StagedEntries {
  public:

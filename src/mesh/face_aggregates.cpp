@@ -67,7 +67,7 @@ class AggregateGrower {
   const double minCosine_ = std::cos(inRadians(kMaxAngleDegrees));
   FaceAggregates& aggregates_;
   Buckets<uint32_t> members_{{0}, {}};
-  double maxLength_ = 0;  // Of the current aggregate.
+  double maxLength_ = 0;  // Greatest distance of a face from the centre of the current aggregate.
 };
 
 /// Sets aggregates.graph.
@@ -121,7 +121,7 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
   std::vector<double> next(values.size());
   const auto relax = [&](uint32_t face, uint32_t begin, uint32_t end) {
     const double own = values[face];
-    double sum = 0, weightSum = 0;  // Of differences, so that equal values remain equal.
+    double sum = 0, weightSum = 0;  // Differences are summed instead of values, so that equal values remain equal.
     double least = 0, greatest = 0;
     for (const uint32_t neighbour : graph.neighboursOf(face)) {
       const double difference = (neighbour >= begin && neighbour < end ? next : values)[neighbour] - own;

@@ -17,7 +17,7 @@ inline constexpr double kDegenerateHeightRatio = 1e-10;
 
 /// Geometry of the faces, #F entries each, in the unit of the mesh.
 struct FaceGeometry {
-  std::vector<Vec3d> barycentres;  ///< Not finite if a corner is not finite.
+  std::vector<Vec3d> barycentres;  ///< A barycentre is finite only if all corners are finite.
   /// Unit vectors by the right-hand rule over the order of the corners; zero for a degenerate face.
   std::vector<Vec3d> normals;
   std::vector<double> areas;  ///< 0 for a degenerate face.

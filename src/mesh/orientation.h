@@ -30,7 +30,8 @@ struct OrientationReport {
 /// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the winding of each input face that
 /// contains such a triangle. The first corner of each face stays the first.
 void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped);
-/// Also reverses the normals of the flipped triangles.
+/// Reverses the windings that flipFaces(mesh, isFlipped) reverses, and the normals of the triangles f with
+/// isFlipped[f] != 0.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
 /// Reverses all triangles of the given input faces. Precondition: the indices ascend.
 void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);

@@ -16,7 +16,7 @@ namespace asdfvk {
 /// Values of all faces, interpolated from the values of the seeds.
 struct Interpolated {
   std::vector<double> values;  ///< #F; NaN outside of the domain and in components without any value.
-  SolverReport solver;         ///< Its name is "none" where there was nothing to solve.
+  SolverReport solver;         ///< The name of the solver is "none" if there was nothing to solve.
   uint64_t clampedCount = 0;   ///< Faces whose solution was limited to the range of the values of the seeds.
 };
 

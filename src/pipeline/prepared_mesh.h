@@ -42,7 +42,7 @@ struct PreparedMesh {
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock,
                                        const RunControl& control);
 
-/// As above, without times and cancellation.
+/// Prepares a mesh without measuring times. Cannot be cancelled.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation);
 
 }  // namespace asdfvk

@@ -15,9 +15,12 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kMinAgreement = 0.9;    // PartsReport::agreement.
-constexpr double kMaxFaceSize = 0.5;     // In shape diameters.
-constexpr double kMaxCoarseShare = 0.1;  // Of the area.
+/// With a lower PartsReport::agreement, the result has a warning.
+constexpr double kMinAgreement = 0.9;
+/// A face is coarse if its size divided by its shape diameter is greater.
+constexpr double kMaxFaceSize = 0.5;
+/// If coarse faces have a greater share of the area, the result has a warning.
+constexpr double kMaxCoarseShare = 0.1;
 
 /// The share of the area that each segment has, from areas of triangles (#F) and segments of input faces.
 std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const double> areas,

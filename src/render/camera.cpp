@@ -41,7 +41,7 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
   const Vec3d up = directionOf(upwards);
   const size_t axis = static_cast<size_t>(upwards) % 3;
-  // As in modelling programs, the front is z if y is up, and -y if z is up.
+  // Modelling programs have the same rule: the front is z if y is up, and -y if z is up.
   const size_t usualFront = axis == 2 ? 1 : 2, otherFront = axis == 0 ? 1 : 0;
   const bool isBroadside = boxSize[otherFront] >= boxSize[usualFront];
   Vec3d front;

@@ -145,7 +145,8 @@ TEST_CASE("a mesh without an object has empty cells in the columns of its member
   CHECK_EQ(diametersOf({closed, open}), Column{"thickness.greatestSection.diameter", "2", ""});
   std::swap(closed.input, open.input);
   CHECK_EQ(diametersOf({closed, open}), Column{"thickness.greatestSection.diameter", "", "2"});
-  open.thickness["greatestSection"]["diameter"]["further"] = 3;  // Of another version: no column of both.
+  // Records of other versions may have another type of value under this key. No column has values of both types.
+  open.thickness["greatestSection"]["diameter"]["further"] = 3;
   CHECK_EQ(diametersOf({closed, open}).size(), 3);
 }
 

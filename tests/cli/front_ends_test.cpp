@@ -114,7 +114,7 @@ TEST_CASE("the command line and C refuse the same options with the same sentence
   std::ifstream in(ASDFVK_TEST_DIR "/describe/option_cases.json");
   for (const Json& example : Json::parse(in)) {
     const Json& options = example.at("options");
-    if (options.contains("fail-if-thinner")) continue;  // Of the program.
+    if (options.contains("fail-if-thinner")) continue;  // Only the program has this option.
     CAPTURE(options.dump());
     CHECK_EQ(withoutSpelling(refusalInC(scene.get(), options)),
              withoutSpelling(example.at("refusal").get<std::string>()));

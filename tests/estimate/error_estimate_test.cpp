@@ -257,7 +257,7 @@ struct Accuracy {
   double ratio = 0;      ///< Mean of estimate / real error.
   double deviation = 0;  ///< Root mean square of the error of the estimate, in standard errors.
   double median = 0, percentile90 = 0, robust = 0;  ///< Means of estimate / real error.
-  double medianDeviation = 0;                       ///< As `deviation`, of the median.
+  double medianDeviation = 0;                       ///< The same value as `deviation`, for the estimated median.
 };
 
 Accuracy accuracyOf(const std::string& shape, Options options) {

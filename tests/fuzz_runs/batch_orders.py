@@ -12,7 +12,7 @@ from program import RESULT_CODES, Ended, Program, random_signals
 _SUFFIXES = (".off", ".obj", ".ply", ".stl")
 _MESHES = 40
 _ORDERS = 10
-_MOST_BYTES = 500_000  # Of a mesh: the batch is computed eleven times and more.
+_MOST_BYTES = 500_000  # Larger meshes are left out, because the batch is computed eleven times and more.
 
 
 def _meshes_of(folder: pathlib.Path) -> list[pathlib.Path]:

@@ -68,7 +68,7 @@ def killed(case: Case) -> None:
         case.note(oracles.no_partial_files(case.folder, ended), ended)
         result = path.read_bytes() if path.exists() else None
         case.note(oracles.old_or_new(result, old, new), ended)
-        for part in case.folder.glob(".asdf-vk-*"):  # Of SIGKILL.
+        for part in case.folder.glob(".asdf-vk-*"):  # SIGKILL leaves such files.
             part.unlink()
 
 

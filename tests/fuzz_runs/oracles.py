@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from program import DOCUMENTED_CODES, Ended
 
 RELATIVE_TOLERANCE = 1e-3
-SHARE_OF_OTHERS = 0.002  # Of the faces that may differ by more.
+SHARE_OF_OTHERS = 0.002  # Share of the faces that may differ by more.
 # Shares of the diagonal: what --check accepts between backends, and what is rounding.
 CHECKED_DIFFERENCE = 1e-4
 ROUNDING = 1e-7
-# Of the thickness at sharp edges: a multiple of its resolution (docs/thickness.md).
+# Rounding of the thickness at sharp edges: a multiple of its resolution (docs/thickness.md).
 THICKNESS_ROUNDING = 1e-5
 
 

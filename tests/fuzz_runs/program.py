@@ -11,7 +11,7 @@ import subprocess
 import time
 
 LIMIT_SECONDS = 120  # Far beyond what any case takes.
-# As in docs/options.md, without 70, the internal error.
+# The exit codes of docs/options.md, without 70, the internal error.
 DOCUMENTED_CODES = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 130})
 RANDOM_SOLIDS = ("assembly", "doubled")
 # Codes of one mesh that has a result.

@@ -15,7 +15,7 @@ from program import RESULT_CODES, Ended
 
 FORMATS = (*VALUE_FORMATS, "vtu", "html")
 UNITS = (0.001, 25.4, 1000.0)
-FLOAT_ROUNDING = 6e-8  # Of coordinates, in diagonals.
+FLOAT_ROUNDING = 6e-8  # Rounding of coordinates, in diagonals.
 # Options with which the backends are compared.
 _COMPARABLE = options.only(
     options.COMPUTATION,

@@ -71,9 +71,10 @@ double commonArea(const Mesh& mesh, const Face& face, const Mesh& otherMesh, con
   return sum;
 }
 
-/// Of a part with the others, and how much of it is between triangles that have the same corners.
+/// The contact of a part with the other parts.
 struct Contact {
-  double area = 0, sameTriangleArea = 0;
+  double area = 0;
+  double sameTriangleArea = 0;  ///< Area of the contact between triangles that have the same corners.
 };
 
 Contact contactOf(const std::vector<AssemblyPart>& parts, size_t part) {

@@ -46,7 +46,7 @@ def main():
     document.recompute()
     view = FreeCADGui.activeDocument().activeView()
     FreeCADGui.Selection.addSelection(obj)
-    names = runpy.run_path(macro, run_name="__main__")  # As FreeCAD runs a macro.
+    names = runpy.run_path(macro, run_name="__main__")  # FreeCAD runs macros in the same way.
     checks.that("the macro shows its panel", FreeCADGui.Control.activeDialog())
     FreeCADGui.Control.closeDialog()
     read = asdf_vk.read_mesh("big.ply")

@@ -23,7 +23,7 @@ struct AssemblyExpectation {
   std::string_view reason;
 };
 
-constexpr double kVolume = 1 / 6.0;  // Of the tetrahedron that most files have.
+constexpr double kVolume = 1 / 6.0;  // The volume of the tetrahedron that most files have.
 
 AssemblyExpectation part(size_t vertexCount, size_t faceCount, std::string_view unit, double volume,
                          std::string_view skipped = {}) {

@@ -29,7 +29,7 @@ struct ExpectedCavity {
 
 Mesh bodyAt(const Vec3d& size, const Vec3d& centre) { return joined(Mesh{}, shapes::box(size), centre); }
 
-/// Of the cells between planes.
+/// The surface of the filled cells between the planes.
 Mesh cells(const std::vector<double>& xs, const std::vector<double>& ys, const std::vector<double>& zs,
            const IsFilled& isFilled) {
   const auto count = [](const std::vector<double>& planes) { return static_cast<uint32_t>(planes.size() - 1); };

@@ -2,7 +2,7 @@
 
 import numpy
 
-# As in src/io/colour_map.cpp; the other maps at their ends and in the middle, from matplotlib.
+# The map of src/io/colour_map.cpp. MAPS has the ends and the middle of the other maps, from matplotlib.
 VIRIDIS = [(68, 1, 84), (71, 45, 123), (59, 82, 139), (44, 114, 142), (33, 145, 140), (40, 174, 128), (94, 201, 98),
            (173, 220, 48), (253, 231, 37)]
 MAPS = {"cividis": [(0, 34, 78), (124, 123, 120), (254, 232, 56)], "turbo": [(48, 18, 59), (164, 252, 60), (122, 4, 3)],

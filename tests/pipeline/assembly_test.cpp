@@ -55,7 +55,7 @@ TEST_CASE("each component of an assembly is divided as if it were alone, and sma
     for (size_t i = 0; i < count; ++i) pairs.emplace(alone[i], together[first + i]);
     CHECK(pairs.size() == aloneCount);
   }
-  assembly.statedPartCount = 0;  // As in a format without parts: the bolt takes the part that is nearest.
+  assembly.statedPartCount = 0;  // Meshes of a format without parts have this value. The bolt takes the nearest part.
   const std::vector<uint32_t> joint = labelsOfParts(assembly);
   CHECK(std::count(joint.begin(), joint.end(), joint.back()) > static_cast<ptrdiff_t>(bolt.faces.size()));
 }

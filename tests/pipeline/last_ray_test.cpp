@@ -83,7 +83,7 @@ struct Outcome {
   Events events;
   uint32_t roundCount = 0;
   uint64_t seedCount = 0, faceCount = 0;
-  size_t nodeCount = 0;  ///< Of the hierarchy after the rounds.
+  size_t nodeCount = 0;  ///< Nodes of the hierarchy after the rounds.
 
   [[nodiscard]] auto count(Event event) const { return std::count(events.begin(), events.end(), event); }
   [[nodiscard]] auto release() const { return std::find(events.begin(), events.end(), Event::Release); }

@@ -111,7 +111,7 @@ TEST_CASE("polygons as arrays have one value per input face, in double and in fl
 
   const PreparedMesh prepared = prepareMesh(cube.polygons(), Orientation::Keep);
   CHECK(static_cast<const void*>(prepared.mesh.vertices.data()) == cube.positions.data());
-  Mesh mesh;  // As a reader returns it.
+  Mesh mesh;  // A reader returns such a mesh.
   mesh.vertices.assign(prepared.mesh.vertices.begin(), prepared.mesh.vertices.end());
   mesh.faces.assign(prepared.mesh.faces.begin(), prepared.mesh.faces.end());
   const PolygonsView& polygons = prepared.mesh.polygons;

@@ -59,7 +59,7 @@ double valueInBox(const Vec3d& size, const Cone& cone, const Vec3d& point, const
   return coneValue(lengths, weights, cone.outliers);
 }
 
-/// Of two arrays, relative to `scale`; a value on one side only counts as infinite.
+/// The number of values of two arrays that differ by more than the tolerance. A value in only one array also counts.
 size_t differingCount(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
   REQUIRE(a.size() == b.size());
   size_t count = 0;

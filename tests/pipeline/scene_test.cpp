@@ -239,7 +239,7 @@ TEST_CASE("a share of a region is seeds in it, and the rest of it is interpolate
       if (region[f] == 0) CHECK(result.seed()[f] == 0);
       if (region[f] != 0) sum += std::abs(result.sdf()[f] - exact[f]);
     }
-    CHECK(sum / static_cast<double>(inside) < 0.02);  // Of values near 1.
+    CHECK(sum / static_cast<double>(inside) < 0.02);  // The values are near 1.
   }
 }
 

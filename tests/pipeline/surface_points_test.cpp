@@ -156,7 +156,7 @@ TEST_CASE("the nearest faces are input faces, also of polygons, the first of equ
   Scene scene(referenceSession(), torus);
   const std::vector<uint32_t> own = scene.nearestFaces(barycentresOf(torus).points);
   for (uint32_t face = 0; face < own.size(); ++face) CHECK(own[face] == face);
-  // Of a degenerate face and one that coincides with another only the first counts.
+  // A degenerate face is never the nearest one. If faces coincide, only the first of them counts.
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 1, 2}, {2, 1, 0}}, {}};
   Scene copies(referenceSession(), mesh);
   CHECK(copies.nearestFaces(std::vector<double>{0.1, 0, 0, 0.1, 0.1, -5}) == std::vector<uint32_t>{1, 1});

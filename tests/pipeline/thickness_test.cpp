@@ -144,7 +144,7 @@ TEST_CASE("the dent of a slab and the face above it are one region") {
 }
 
 TEST_CASE("percentiles are by area") {
-  // Of the area of a wedge that is 0.2 to 0.4 thick, half is beyond its middle; its ends count up to its section.
+  // A wedge is 0.2 to 0.4 thick. Half of its area is beyond its middle; its ends count up to its section.
   const Mesh wedge = [] {
     Mesh mesh = makeSlab(20000, 2, 0.4).mesh;
     for (Vec3d& v : mesh.vertices) v.z *= 0.75 + 0.25 * v.x;

@@ -75,7 +75,8 @@ double meanAround(const std::vector<VisibleHit>& visible, double median, double 
 /// With medians and bounds sampled within the tolerance of the kernel.
 TwinValue cgalTwin(const std::vector<VisibleHit>& visible, double median, double deviation, double mass) {
   constexpr int kSampleCount = 60;
-  constexpr double kSpreadSlack = 1.01 / 32;  // As kMedianSlack; the kernel bisects once more.
+  // Tolerance of the spread over the deviation: an interval of two deviations bisected six times, plus rounding.
+  constexpr double kSpreadSlack = 1.01 / 32;
   const auto spreadAbout = [&](double centre) {
     std::vector<VisibleHit> differences = visible;
     for (VisibleHit& hit : differences) hit.length = std::abs(hit.length - centre);

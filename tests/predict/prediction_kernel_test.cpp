@@ -24,7 +24,7 @@ namespace {
 struct TestInput {
   std::vector<PointGroup> groups;
   std::vector<WeightedRange> ranges;
-  float medianLength = 0;  ///< Of the first seed.
+  float medianLength = 0;  ///< Median length of the hits of the first seed.
 
   TestInput(const SeededMesh& seeded, const std::vector<uint32_t>& seeds) {
     const TraceScene scene = seeded.scene();

@@ -15,7 +15,7 @@ using namespace asdfvk;
 namespace {
 
 constexpr uint32_t kFar = UINT32_MAX;
-constexpr double kTie = 1 - 1e-7;  // Of distances; see comparableSquare().
+constexpr double kTie = 1 - 1e-7;  // Distances whose ratio is greater may count as equal; see comparableSquare().
 
 std::vector<uint32_t> stepsFrom(const DualGraph& graph, uint32_t start) {
   std::vector<uint32_t> steps(graph.faceCount(), kFar);

@@ -32,11 +32,11 @@ std::vector<double> predictOn(const SeededMesh& seeded, const PredictionOptions&
   return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options, {}, device).values;
 }
 
-/// Of the device from the CPU, in units of the diagonal of the bounding box.
+/// Differences between the values of the device and of the CPU, in units of the diagonal of the bounding box.
 struct DeviceDifference {
-  double mean = 0, worst = 0;      ///< mean: of those that are not far.
-  size_t count = 0, farCount = 0;  ///< farCount: of differences above 1e-4.
-  size_t missingCount = 0;         ///< Faces with a value from one of the two only.
+  double mean = 0, worst = 0;      ///< mean: without differences above 1e-4.
+  size_t count = 0, farCount = 0;  ///< farCount: number of differences above 1e-4.
+  size_t missingCount = 0;         ///< Faces with a value from either the device or the CPU only.
 };
 
 DeviceDifference differenceOf(const SeededMesh& seeded, const std::vector<double>& values,

@@ -23,7 +23,7 @@ Image gradient(int width, int height) {
   return image;
 }
 
-/// As libpng reads it.
+/// Reads a picture with libpng.
 Image decode(const std::vector<char>& bytes) {
   png_image description{};
   description.version = PNG_IMAGE_VERSION;

@@ -115,7 +115,7 @@ TEST_CASE("parts are connected and not smaller than a share of the area") {
     for (const double area : areas) CHECK(area > 0.7 * kMinPartArea * sum);
   }
   const Parts& parts = animalParts();
-  // As many pieces as parts.
+  // There are as many connected pieces as parts.
   Labels pieces(parts.partOf.size(), 0);
   uint32_t pieceCount = 0;
   for (uint32_t first = 0; first < pieces.size(); ++first) {

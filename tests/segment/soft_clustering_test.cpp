@@ -32,7 +32,7 @@ Values numbersAround(const Values& means, double deviation, uint32_t perCluster)
 }  // namespace
 
 TEST_CASE("the first seed is drawn by the second number of rand48") {
-  // As many clusters as different values: every value becomes a centre that never moves.
+  // There are as many clusters as different values. Every value becomes a centre that never moves.
   Values values(20);
   std::iota(values.begin(), values.end(), 0.0);
   const HardClustering clustering = clusterByMeans(values, 20);

@@ -76,7 +76,7 @@ class BruteForceThickness {
     return diameter;
   }
 
-  /// Of the base, shifted, and the wall.
+  /// The nearest points of the shifted base and of the wall.
   static Pair nearestPair(std::span<const Vec3d> base, const Vec3d& shift, const Corners& wall) {
     Pair best{base[0] + shift, nearestPoint(wall, base[0] + shift)};
     const auto offer = [&](const Vec3d& p, const Vec3d& q) {

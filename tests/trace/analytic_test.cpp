@@ -64,8 +64,8 @@ TEST_CASE("a sphere's mean value converges to the exact one" * doctest::test_sui
 }
 
 TEST_CASE("on a sphere the rays beyond 45 degrees are dropped") {
-  // Of the dropped rays the nearest is 0.7 degrees from that edge, about the angle between the normals of a facet and
-  // of the sphere.
+  // The nearest dropped ray is 0.7 degrees from that edge, about the angle between the normals of a facet and of the
+  // sphere.
   const std::vector<double> values = TracedMesh(shapes::icosphere(5)).values(kWideCone);
   const auto isExact = [](double value) { return std::abs(value - kUnitSphereInWideCone) < 1e-3; };
   CHECK(std::count_if(values.begin(), values.end(), isExact) >= 0.99 * static_cast<double>(values.size()));

@@ -19,7 +19,8 @@ using namespace asdfvk;
 
 namespace {
 
-/// Of a mesh that is one solid, in the unit of the mesh. Checks that the ball is inside, and that the bound is close.
+/// The greatest section of a mesh that is one solid, in the unit of the mesh. Checks that the ball is inside, and that
+/// the bound is close.
 double sectionOf(const TracedMesh& traced) {
   const std::vector<uint32_t> solidOf(traced.mesh.faceCount());
   const std::vector<uint8_t> isWanted{1};

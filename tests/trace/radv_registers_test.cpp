@@ -67,7 +67,7 @@ class RadvCompiler {
 
   [[nodiscard]] bool isUsable() const { return device_ != VK_NULL_HANDLE; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
-  /// Of Mesa; 0 where the driver reports none.
+  /// Major version of Mesa; 0 if the driver reports none.
   [[nodiscard]] int majorVersion() const {
     int major = 0;
     return std::sscanf(facts_.driver.c_str(), "radv Mesa %d", &major) == 1 ? major : 0;

@@ -73,7 +73,7 @@ TEST_CASE("components wound inwards, inconsistently, or outwards in a cavity are
   std::swap(mixed.faces[7][0], mixed.faces[7][1]);
   CHECK(solidsOf(mixed).isMisoriented == Flags{1});
   CHECK(solidsOf(mixed).isClosed == Flags{0});
-  // As a cavity, the inner ball faces the wrong way.
+  // The inner ball is a cavity that faces the wrong way.
   const Mesh nested = shapes::joined(ball(2), ball(1));
   CHECK(solidsOf(nested).isMisoriented == Flags{0, 1});
   CHECK(solidsOf(nested).isClosed == Flags{1, 0});

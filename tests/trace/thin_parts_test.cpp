@@ -45,7 +45,7 @@ struct ThinMesh {
     return 0.5 * length(cross(b - a, c - a)) / unit / unit;
   }
 
-  /// Of the parts that are thin at their middle.
+  /// Area of the parts that are thin at their middle.
   [[nodiscard]] double thinArea() const {
     double area = 0;
     for (const ThinPart& part : parts) area += part.isThinAtMiddle ? areaOf(part) : 0;

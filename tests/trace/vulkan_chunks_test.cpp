@@ -101,7 +101,7 @@ TEST_CASE("copies of faces with the opposite normal have the reference's values"
   const size_t count = mesh.faces.size();
   for (size_t f = 0; f < count; f += 3) mesh.faces.push_back({mesh.faces[f][1], mesh.faces[f][0], mesh.faces[f][2]});
   const TracedMesh traced(shapes::joined(mesh, shapes::scaledAndShifted(shapes::icosphere(2), 3, {0, 0, 0})));
-  // Of each face one copy at most: many seeds without repeated triangles.
+  // Each face has at most one copy among the seeds, so that there are many seeds without repeated triangles.
   std::vector<uint32_t> distinct(count);
   for (uint32_t f = 0; f < count; ++f) distinct[f] = f % 3 == 0 ? static_cast<uint32_t>(count) + f / 3 : f;
   for (const ConeRotation rotation : {ConeRotation::Fixed, ConeRotation::Hashed}) {

@@ -35,8 +35,8 @@ struct VulkanGraph {
   uint32_t faceCount;
   double weightScale;  ///< Factor of the weights on the device.
   Buffer arcOffsets, weights;
-  VulkanMatrix matrix;  ///< Its tailColumns are the neighbours of the graph. Each VulkanEquation sets the residual
-                        ///< weights of the matrix.
+  VulkanMatrix matrix;  ///< The tailColumns of the matrix are the neighbours of the graph. Each VulkanEquation sets the
+                        ///< residual weights of the matrix.
 };
 
 /// One equation and its solution. The solution is stored in float32 as differences from a base: from the guide or,
