@@ -15,8 +15,8 @@ struct ComparisonRequest {
   std::vector<std::string> seeds{"all", "10%"};  ///< In the syntax of parseSeedCount().
   std::string device;
   uint32_t roundCount = 5;
-  uint32_t cgalRunCount =
-      3;  ///< Number of runs of CGAL, at most one per round. CGAL is about a hundred times slower than asdf-vk.
+  /// Number of runs of CGAL, at most one per round. CGAL is about a hundred times slower than asdf-vk.
+  uint32_t cgalRunCount = 3;
 };
 
 /// One entry per round: entry i of every task is from round i.

@@ -55,8 +55,8 @@ struct MeshRow {
   double boundedRelativeError = 0;  ///< Balanced with --max-error 5%rel: median relative error.
   double boundedRelativeShare = 0;  ///< Balanced with --max-error 5%rel: seeds divided by faces.
   double iterations = 0;            ///< Solver iterations with 10 % seeds: recipe balanced / recipe paper.
-  double overTrace =
-      0;  ///< Balanced with 10 % seeds: time of the stages sample, predict and solve / time of the stage trace.
+  /// Balanced with 10 % seeds: time of the stages sample, predict and solve / time of the stage trace.
+  double overTrace = 0;
 };
 
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,

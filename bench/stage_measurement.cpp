@@ -87,8 +87,8 @@ std::optional<Dispersion> StageMeasurement::overFullTrace(const StageRow& row) c
 }
 
 StageBench::StageBench(StageRequest request) : request_(std::move(request)) {
-  for (const std::string& seeds : request_.seeds)
-    static_cast<void>(parseSeedCount(seeds));  // Invalid requests fail here, before the first measurement.
+  // Invalid requests fail here, before the first measurement.
+  for (const std::string& seeds : request_.seeds) static_cast<void>(parseSeedCount(seeds));
   for (const std::string& backend : request_.backends)
     sessions_.emplace(backend, std::make_unique<Session>(sessionOptionsOf(backend, request_.device)));
 }

@@ -26,8 +26,8 @@ struct StageRow {
   std::string seeds, backend;
   bool runsOnCpu = false;
   std::vector<FileRun> runs = {};
-  std::vector<ProcessUsage> processes =
-      {};  ///< Time of the process asdf-vk, including opening the device, reading and writing.
+  /// Time of the process asdf-vk, including opening the device, reading and writing.
+  std::vector<ProcessUsage> processes = {};
 
   [[nodiscard]] Dispersion seconds(Stage stage) const;
   [[nodiscard]] Dispersion share(Stage stage) const;  ///< Time of the stage / total time.

@@ -29,8 +29,8 @@ struct NamedMesh {
 [[nodiscard]] std::vector<NamedMesh> generateMeshes(uint64_t faceCount);
 
 struct EvaluationOptions {
-  uint32_t seedSetCount =
-      3;  ///< Number of random seed sets. Unless a comment states otherwise, figures are medians over the sets.
+  /// Number of random seed sets. Unless a comment states otherwise, figures are medians over the sets.
+  uint32_t seedSetCount = 3;
   uint32_t truthRayCount = 600;  ///< Rays per face for the truth (see evaluate()).
 };
 

@@ -7,8 +7,9 @@
 namespace asdfvk::bench {
 
 // Shares of the faces in the figures of the ASDF paper, in percent.
-inline constexpr double kFigurePercent =
-    10;  ///< Share for Figures 1, 4 and 8. The paper states this share for Figure 4.
+
+/// Share for Figures 1, 4 and 8. The paper states this share for Figure 4.
+inline constexpr double kFigurePercent = 10;
 inline constexpr double kSparsePercent = 5;   ///< Share for Figure 3.
 inline constexpr double kSamplerPercent = 7;  ///< Share for Figure 7.
 

@@ -37,8 +37,8 @@ struct FileRun {
 struct FieldErrors {
   double average = 0, maximum = 0;
   double robustAverage = 0;  ///< Average error, divided by the 99th minus the 1st percentile of the first field.
-  double relativeMedian = 0,
-         relativePercentile90 = 0;  ///< Percentiles of difference / value, with the values of the first field.
+  /// Percentiles of difference / value, with the values of the first field.
+  double relativeMedian = 0, relativePercentile90 = 0;
 };
 
 /// full, approximate: #I, NaN for no value. All errors are 0 if the range is empty.

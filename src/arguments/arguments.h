@@ -13,8 +13,8 @@ struct Argument {
   using Values = std::vector<std::string>;
 
   std::string names;  ///< "--rays" or "-o,--output"; a name without dashes is a positional argument.
-  std::string placeholder =
-      {};  ///< Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
+  /// Stands for the value in the help; empty: a flag. "[=N]": an optional value after an equals sign.
+  std::string placeholder = {};
   std::string text = {};  ///< Text of the help.
   /// Called with the values of each occurrence, or once with all values of a list. The values are empty for a flag and
   /// for an omitted optional value.

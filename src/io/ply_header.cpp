@@ -202,8 +202,8 @@ class HeaderParser {
 }  // namespace
 
 uint64_t PlyElement::minRowSize(PlyEncoding encoding) const {
-  if (encoding == PlyEncoding::Ascii)
-    return 2 * properties.size();  // A number or a list length has at least a digit and a blank.
+  // A number or a list length has at least a digit and a blank.
+  if (encoding == PlyEncoding::Ascii) return 2 * properties.size();
   uint64_t size = 0;
   for (const PlyProperty& property : properties) size += sizeOf(property.list.value_or(property.type));
   return size;

@@ -69,8 +69,8 @@ void requireIndices(const MeshView& view) {
       failIndex(count, mesh->polygons.isEmpty() ? "face" : "triangle", vertexCount);
   }
   constexpr size_t kBlockSize = 1 << 16;
-  const size_t blockCount = (corners.size() + kBlockSize - 1) /
-                            kBlockSize;  // The number of blocks fits into 32 bits; the number of corners may not.
+  // The number of blocks fits into 32 bits; the number of corners may not.
+  const size_t blockCount = (corners.size() + kBlockSize - 1) / kBlockSize;
   const auto isBad = [&](uint32_t corner) { return corner >= vertexCount; };
   if (countInParallel(blockCount, [&](size_t block) {
         const auto part =

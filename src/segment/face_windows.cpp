@@ -10,8 +10,8 @@ std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blo
   const auto faceCount = static_cast<uint32_t>(neighbours.size());
   std::vector<uint32_t> order, frontier, queue;
   order.reserve(faceCount);
-  std::vector<uint32_t> queuedIn(
-      faceCount);  // Number of the block that queued the face (numbered from 1), or kOrdered.
+  // Number of the block that queued the face (numbered from 1), or kOrdered.
+  std::vector<uint32_t> queuedIn(faceCount);
   uint32_t blockCount = 0, nextFace = 0;
   size_t nextOfFrontier = 0;
   const auto nextStart = [&] {

@@ -11,8 +11,8 @@ namespace asdfvk {
 
 /// Weights of the cost of merging two regions (docs/segmentation.md has the formula).
 struct MergeWeights {
-  double localSight,
-      sight;  ///< Weights of the shares of blocked lines of sight, between near patches and between all patches.
+  /// Weights of the shares of blocked lines of sight, between near patches and between all patches.
+  double localSight, sight;
   double step, borderStep;  ///< Weights of differences of log values: between the means of the regions, and between
                             ///< patches at the border.
   double concave, bend, convex;  ///< Weights of angles at the border: at concave edges, and between patches that form a

@@ -81,8 +81,8 @@ TEST_CASE("a cavity in a cage that crosses its body is of its body") {
 
 TEST_CASE("a cavity that a bar crosses is a cavity") {
   const Mesh bar = shapes::box({1, 1, 20});
-  check(joined(hollowBlock(), turned(bar, 0.785, 0.955)),
-        {{0, 1, 0}, {0, 0, 2}});  // Through two corners of the cavity.
+  // The bar goes through two corners of the cavity.
+  check(joined(hollowBlock(), turned(bar, 0.785, 0.955)), {{0, 1, 0}, {0, 0, 2}});
   check(joined(hollowBlock(), bar, {1.2, 1.3, 0}), {{0, 1, 0}, {0, 0, 2}});
 }
 

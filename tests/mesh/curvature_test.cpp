@@ -99,8 +99,8 @@ TEST_CASE("repeated vertices, non-finite corners and lone vertices leave finite 
   const std::vector<double> defects = vertexAngleDefects(mesh);
   CHECK(defects[0] == doctest::Approx(std::numbers::pi / 2));
   CHECK(defects[8] == 0);
-  CHECK(defects[9] ==
-        doctest::Approx(std::numbers::pi - std::numbers::pi / 3));  // One finite face is left around it: its border.
+  // Vertex 9 is a border vertex of one finite face.
+  CHECK(defects[9] == doctest::Approx(std::numbers::pi - std::numbers::pi / 3));
   CHECK(defects[12] == 0);
   for (const double curvature : faceCurvature(mesh)) CHECK(std::isfinite(curvature));
 }

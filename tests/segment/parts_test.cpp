@@ -196,10 +196,10 @@ TEST_CASE("missing values, zero values and holes change little") {
 TEST_CASE("a part does not extend over components, unless they are small") {
   Mesh mesh = makeSphere(320).mesh;
   mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(80).mesh, 0.5), {4, 0, 0});
-  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.05),
-                        {0, 0, 1.1});  // A thousandth of the area, near the first one.
-  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.05),
-                        {4, 0, -0.6});  // The same near the second one.
+  // This sphere has a thousandth of the area, and is near the first one.
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.05), {0, 0, 1.1});
+  // An equal sphere is near the second one.
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.05), {4, 0, -0.6});
   const Parts parts = segment(mesh);
   checkParts(parts, mesh.faces.size());
   CHECK(parts.partCount == 2);
@@ -216,8 +216,8 @@ TEST_CASE("equal objects are a part each, though one of them is a little larger"
   for (int i = 0; i < 121; ++i)
     mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(tetrahedron, i == 60 ? 1.2 : 1),
                           {2.0 * (i % 11), 2.0 * (i / 11), 0});
-  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(tetrahedron, 0.01),
-                        {-0.1, 0, 0});  // Far below 1 % of the largest one.
+  // This tetrahedron is far below 1 % of the largest one.
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(tetrahedron, 0.01), {-0.1, 0, 0});
   const Parts parts = segment(mesh);
   checkParts(parts, mesh.faces.size());
   CHECK(parts.partCount == 121);

@@ -153,8 +153,8 @@ TEST_CASE("a stop ends a trace while chunks are in flight, and the tracer serves
                              }
                            }};
   CHECK_THROWS_AS((void)tracer->trace(seeds, {values}, control), Error);
-  CHECK(std::chrono::duration<double>(Clock::now() - requested).count() <
-        2);  // On a busy machine; 0.1 s on an idle one.
+  // On an idle machine this takes 0.1 s. The limit is for a busy machine.
+  CHECK(std::chrono::duration<double>(Clock::now() - requested).count() < 2);
   tracer->trace(std::span(seeds).first(100), {again}, {});
   makeReferenceTracer(traced.scene(), cone)->trace(std::span(seeds).first(100), {expected}, {});
   CHECK(differingCount(again, expected, traced.geometry.bounds.diagonal()) == 0);
