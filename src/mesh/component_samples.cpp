@@ -13,8 +13,9 @@ using Triangle = std::array<Vec3d, 3>;
 /// face. If the face touches another component, one of the two samples is outside of that component.
 constexpr double kSampleDepth = 2;
 /// Number of points of a component that are spread by area; further points are at its ends along the axes. The number
-/// is lower if all components together would have more than kMaxPointCount points.
-constexpr size_t kLeastPointCount = 4, kGreatestPointCount = 64, kMaxPointCount = size_t{1} << 18;
+/// is kMaxPointCount. It is lower, but at least kMinPointCount, if all components together would have more than
+/// kMaxTotalPointCount points.
+constexpr size_t kMinPointCount = 4, kMaxPointCount = 64, kMaxTotalPointCount = size_t{1} << 18;
 /// Position of a point at an end: this share of the way from the corner, which may be sharp, to the barycentre.
 constexpr double kEndShare = 0.25;
 
@@ -34,7 +35,7 @@ class Sampler {
   Sampler(const ClosedComponents& closed, std::span<const uint8_t> isWanted)
       : closed_(closed), isWanted_(isWanted), states_(isWanted.size()) {
     const auto wantedCount = static_cast<size_t>(isWanted.size() - std::count(isWanted.begin(), isWanted.end(), 0));
-    pointCount_ = std::clamp(kMaxPointCount / std::max(wantedCount, size_t{1}), kLeastPointCount, kGreatestPointCount);
+    pointCount_ = std::clamp(kMaxTotalPointCount / std::max(wantedCount, size_t{1}), kMinPointCount, kMaxPointCount);
   }
 
   /// The samples, grouped by component, ascending.

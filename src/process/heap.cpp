@@ -33,13 +33,13 @@ void configureHeap() {
 namespace asdfvk {
 namespace {
 
-constexpr size_t kHugePageBytes = 2 << 20, kLeastAdvisedBytes = 128 << 10;
+constexpr size_t kHugePageBytes = 2 << 20, kMinAdvisedBytes = 128 << 10;
 
 /// Requests huge pages for the memory, and for the rest of its first and last huge page. With huge pages there is a
 /// page fault for each 2 MiB instead of each 4 KiB, and the processor finds addresses faster. Failures are ignored,
 /// because they cost only speed.
 void adviseHugePages(void* memory, size_t byteCount) {
-  if (byteCount < kLeastAdvisedBytes) return;
+  if (byteCount < kMinAdvisedBytes) return;
   constexpr uintptr_t kMask = kHugePageBytes - 1;
   const auto address = reinterpret_cast<uintptr_t>(memory);
   const uintptr_t begin = address & ~kMask, end = (address + byteCount + kMask) & ~kMask;

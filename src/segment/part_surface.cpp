@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kLeastShareOfMaximum = 1e-4;
+constexpr double kMinShareOfMaximum = 1e-4;
 constexpr double kConcaveFactor = 3;
 
 /// The logarithms of the values. A missing value is replaced by the value of the nearest face with a value.
@@ -24,7 +24,7 @@ std::vector<float> fillLogValues(const DualGraph& graph, std::span<const double>
   if (largest < 0) throw Error(ErrorCode::NoValues, "no face has a value, so there is nothing to segment");
   std::vector<float> logs(values.size(), 0);
   if (!(largest > 0)) return logs;
-  const double least = std::max(kLeastShareOfMaximum * largest, std::numeric_limits<double>::min());
+  const double least = std::max(kMinShareOfMaximum * largest, std::numeric_limits<double>::min());
   std::vector<uint32_t> queue;
   std::vector<uint8_t> isSet(values.size(), 0);
   double sum = 0;
