@@ -41,7 +41,7 @@ class Engine {
     for (const JobPhase& phase : planJobs(jobs_, std::move(pending), options_.requestedAtOnce, options_.threadCount)) {
       if (stop_.stop_requested()) return;
       if (phase.atOnce > 1 || options_.isolates) {
-        runOnWorkers(phase);
+        runInWorkerPool(phase);
       } else {
         runHere(phase);
       }
@@ -79,7 +79,7 @@ class Engine {
     }
   }
 
-  void runOnWorkers(const JobPhase& phase) {
+  void runInWorkerPool(const JobPhase& phase) {
     const bool isRequested = options_.requestedAtOnce > 0;
     const uint32_t onGpu = isRequested ? phase.atOnce : std::min(phase.atOnce, kMaxWorkersOnGpu);
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
@@ -107,7 +107,7 @@ class Engine {
                                         ++endedCount;
                                         return takeOutcome(phase.jobs[outcome.job], outcome);
                                       }};
-    const std::string reason = asdfvk::runOnWorkers(phase.jobs.size(), pool, client, stop_);
+    const std::string reason = runOnWorkers(phase.jobs.size(), pool, client, stop_);
     if (!reason.empty()) failure = OpenFailure(kInternalCode, "internal", "a worker process cannot start: " + reason);
     if (!failure || stop_.stop_requested()) return;
     if (endedCount < phase.jobs.size()) throw OpenFailure(*failure);
