@@ -28,7 +28,7 @@
 
 namespace asdfvk {
 
-void (*beforeMesh)(const std::string& input) = nullptr;
+[[gnu::weak]] void beforeMesh(const std::string&) {}
 
 namespace {
 
@@ -248,7 +248,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
 
   const Interrupt::Listening listening;
   try {
-    if (beforeMesh != nullptr) beforeMesh(input);
+    beforeMesh(input);
     if (loaded.failure) std::rethrow_exception(loaded.failure);
     files.requireWritable();
     compute();

@@ -75,7 +75,8 @@ struct SharedPage {
 /// reader; a stop request ends this wait with Error{Cancelled}. Throws Error{OutputNotWritable}.
 void finishPage(const Page& page, const std::string& output, bool opensBrowser, const std::stop_token& stop);
 
-/// Function of tests that simulate faults. Called with the input before a mesh is computed; null in the program.
-extern void (*beforeMesh)(const std::string& input);
+/// Called before a mesh is computed. Does nothing. The definition is weak, so that a test program with another
+/// definition can simulate faults.
+void beforeMesh(const std::string& input);
 
 }  // namespace asdfvk

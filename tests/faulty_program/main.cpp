@@ -9,17 +9,14 @@
 #include "cli/one_mesh.h"
 #include "cli/program.h"
 
-namespace {
-
-void injectFault(const std::string& input) {
+void asdfvk::beforeMesh(const std::string& input) {
   if (input.find("crash") != std::string::npos) std::raise(SIGSEGV);
   while (input.find("hang") != std::string::npos) std::this_thread::sleep_for(std::chrono::seconds(1));
   if (input.find("terminate") != std::string::npos) {
     std::raise(SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // Another thread requests the stop.
   }
-  if (input.find("lose") != std::string::npos)
-    throw asdfvk::Error(asdfvk::ErrorCode::DeviceLost, "the device was lost");
+  if (input.find("lose") != std::string::npos) throw Error(ErrorCode::DeviceLost, "the device was lost");
   if (input.find("slow") != std::string::npos) std::this_thread::sleep_for(std::chrono::milliseconds(300));
   if (input.find("grow") == std::string::npos) return;
   constexpr size_t kPiece = size_t{64} << 20, kPieceCount = 160;
@@ -27,9 +24,4 @@ void injectFault(const std::string& input) {
   for (size_t i = 0; i < kPieceCount; ++i) pieces.emplace_back(kPiece, static_cast<char>(i + 1));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  asdfvk::beforeMesh = injectFault;
-  return static_cast<int>(asdfvk::runProgram({argv + 1, argv + argc}));
-}
+int main(int argc, char** argv) { return static_cast<int>(asdfvk::runProgram({argv + 1, argv + argc})); }
