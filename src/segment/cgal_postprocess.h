@@ -29,9 +29,9 @@ struct CgalValues {
 /// least value. Throws the errors of postprocessLikeCgal().
 [[nodiscard]] std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::span<const double> values);
 
-/// The second step of the post-processing. Let R = 1 + floor(sqrt(#F / 2000)). The value v_f of a face f becomes a
-/// weighted mean of the values v_g of the faces g in the rings 0 to R around f; ring 0 is f itself. A face g in ring r
-/// has the weight
+/// The second step of the post-processing; smooth/bilateral.h has its differences from smoothBilaterally(). Let
+/// R = 1 + floor(sqrt(#F / 2000)). The value v_f of a face f becomes a weighted mean of the values v_g of the faces g
+/// in the rings 0 to R around f; ring 0 is f itself. A face g in ring r has the weight
 ///   exp(-(r / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
 /// with a real division R / 2. sigma_f is 1.5 times the root mean square of v_g - v_f over the same faces g. If sigma_f
 /// is 0, v_f does not change. Precondition: the values and their squares are finite. Polls `control` every 256 faces.

@@ -16,9 +16,12 @@
 /// with the weights
 ///   exp(-ring(g)^2 / (2 (R / 2)^2)) exp(-(v_g - v_f)^2 / (2 sigma_f^2)),
 /// where sigma_f is the root mean square of the differences v_g - v_f in the window, f included. The default filter of
-/// CGAL's sdf_values() (Bilateral_filtering in Surface_mesh_segmentation/internal/Filters.h) has three differences: the
+/// CGAL's sdf_values() (Bilateral_filtering in Surface_mesh_segmentation/internal/Filters.h) has four differences: the
 /// width of the range Gaussian is 1.5 sigma_f; the window has 1 + floor(sqrt(faceCount / 2000)) rings (3 for 10,000
-/// faces, 8 for 100,000); missing values are filled before the filter.
+/// faces, 8 for 100,000); missing values are filled before the filter; faces are neighbours only across edges of two
+/// faces with consistent winding. filterLikeCgal() (segment/cgal_postprocess.h) has these differences, because its
+/// values must agree with those of CGAL to 1e-12. The windows of smoothBilaterally() are those with the least error
+/// (docs/accuracy.md).
 namespace asdfvk {
 
 inline constexpr uint32_t kMaxBilateralWindow = 4;  ///< Greatest number of rings.
