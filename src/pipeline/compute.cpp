@@ -10,6 +10,7 @@
 #include "asdf_vk/error.h"
 #include "core/length_unit.h"
 #include "core/parallel.h"
+#include "describe/computation_options.h"
 #include "describe/fields.h"
 #include "estimate/reference_check.h"
 #include "pipeline/aggregated_mesh.h"
@@ -20,9 +21,9 @@
 #include "pipeline/segments.h"
 #include "pipeline/skeleton_points.h"
 #include "pipeline/thickness.h"
-#include "pipeline/valid_options.h"
 #include "pipeline/value_report.h"
 #include "pipeline/vertex_fields.h"
+#include "poisson/poisson_solver.h"
 #include "smooth/bilateral.h"
 #include "trace/scene_data.h"
 
@@ -222,8 +223,11 @@ Options withAllSeeds(Options options, const FaceDomain& domain) {
 
 }  // namespace
 
-Options completed(const SessionState& session, const Options& options) {
-  return completed(options, session.named.backend->device() != nullptr);
+Options completedFor(const SessionState& session, const Options& options) {
+  Options result = completed(options);
+  if (result.solver != kAutomaticSolver)
+    requireUsable(findSolver(result.solver), session.named.backend->device() != nullptr);
+  return result;
 }
 
 void computeOn(const ComputationInput& input, const Options& requested, StageClock& clock, const RunControl& control,
@@ -232,7 +236,8 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const auto& [session, sharedScene, domain, tracers, isLast] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
-  if (session.named.backend->device() == nullptr) (void)completed(session, requested);  // The backend may have changed.
+  // The backend may have changed.
+  if (session.named.backend->device() == nullptr) (void)completedFor(session, requested);
   Options options = withAllSeeds(requested, domain);
   options.thickness = inUnitOfMesh(options.thickness, prepared.unit);
   const Cone cone = makeCone(options.cone);

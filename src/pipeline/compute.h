@@ -21,11 +21,13 @@ struct ComputationInput {
 };
 
 /// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. options: of
-/// completed(). The clock refers to result.report.stageSeconds. Throws the errors of Session::compute().
+/// completedFor(). The clock refers to result.report.stageSeconds. Throws the errors of Session::compute().
 void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
                Result& result);
 
-/// The options together with the settings that they imply. Throws if they are invalid on this session.
-[[nodiscard]] Options completed(const SessionState& session, const Options& options);
+/// The options together with the settings that they imply. Throws the errors of completed()
+/// (describe/computation_options.h), and Error{NoDeviceForKernel} if the solver needs a device and the session has
+/// none.
+[[nodiscard]] Options completedFor(const SessionState& session, const Options& options);
 
 }  // namespace asdfvk

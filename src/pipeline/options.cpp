@@ -1,6 +1,5 @@
 #include "asdf_vk/options.h"
 
-#include "describe/computation_options.h"
 #include "pipeline/valid_options.h"
 #include "poisson/poisson_solver.h"
 #include "seeds/samplers.h"
@@ -19,12 +18,6 @@ std::vector<std::string> samplerNames() {
   std::vector<std::string> names;
   for (const Sampler& sampler : kSamplers) names.emplace_back(sampler.name);
   return names;
-}
-
-Options completed(const Options& options, bool hasDevice) {
-  Options result = completed(options);
-  if (result.solver != kAutomaticSolver) requireUsable(findSolver(result.solver), hasDevice);
-  return result;
 }
 
 }  // namespace asdfvk

@@ -146,7 +146,7 @@ const StageSeconds& Scene::preparationSeconds() const { return state_->preparati
 
 Result Scene::compute(const Options& given, std::span<const uint8_t> region, const RunControl& control) {
   requireNoConflict(given, state_->orientation, !region.empty());
-  const Options options = completed(state_->session, given);
+  const Options options = completedFor(state_->session, given);
   control.checkpoint(0);
   return state_->session.compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;

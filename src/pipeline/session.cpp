@@ -17,7 +17,7 @@ const std::string& Session::backend() const { return state_->named.name; }
 bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
 Result Session::compute(const MeshView& mesh, const Options& given, const RunControl& control) {
-  const Options options = completed(*state_, given);  // Invalid options fail before the mesh is prepared.
+  const Options options = completedFor(*state_, given);  // Invalid options fail before the mesh is prepared.
   return state_->compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);
