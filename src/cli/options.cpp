@@ -15,7 +15,7 @@
 #include "cli/outputs.h"
 #include "core/text.h"
 #include "describe/fields.h"
-#include "pipeline/valid_options.h"
+#include "pipeline/backend.h"
 
 namespace asdfvk {
 namespace {

@@ -76,8 +76,8 @@ bool readMaxError(void* target, const OptionValue& value) {
   const auto* number = std::get_if<double>(&value);
   const std::optional<double> share = number != nullptr ? std::optional(*number) : shareIn(text);
   if (!share || !(*share > 0 && *share < 1)) return false;
-  constexpr double kLeastPercentage = 0.1;  // "0.5" without % more likely means 0.5 % than 50 %.
-  if (number == nullptr && !text.ends_with('%') && *share >= kLeastPercentage) {
+  constexpr double kMinPercentage = 0.1;  // "0.5" without % more likely means 0.5 % than 50 %.
+  if (number == nullptr && !text.ends_with('%') && *share >= kMinPercentage) {
     const char* const suffix = isRelative ? kRelative.data() : "";
     throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("'{0}{2}' has no %; write {0}%{2} or {1:g}%{2}", text, 100 * *share, suffix));

@@ -75,6 +75,9 @@ struct NamedBackend {
 /// (docs/speed.md).
 [[nodiscard]] const Solver& automaticSolver(const Backend& backend);
 
+/// Whether a solver of solverNames() needs a Vulkan device; false for "auto". Throws Error{UnknownName}.
+[[nodiscard]] bool solverNeedsDevice(const std::string& name);
+
 /// Throws Error of kind Device.
 [[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);
 

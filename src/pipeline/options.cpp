@@ -1,6 +1,6 @@
 #include "asdf_vk/options.h"
 
-#include "pipeline/valid_options.h"
+#include "pipeline/backend.h"
 #include "poisson/poisson_solver.h"
 #include "seeds/samplers.h"
 

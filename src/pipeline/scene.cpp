@@ -12,9 +12,9 @@
 #include "core/parallel.h"
 #include "core/vec3.h"
 #include "describe/computation_options.h"
+#include "pipeline/backend.h"
 #include "pipeline/compute.h"
 #include "pipeline/surface_points.h"
-#include "pipeline/valid_options.h"
 
 namespace asdfvk {
 namespace {

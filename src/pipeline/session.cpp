@@ -1,8 +1,8 @@
 #include "asdf_vk/session.h"
 
 #include "describe/computation_options.h"
+#include "pipeline/backend.h"
 #include "pipeline/compute.h"
-#include "pipeline/valid_options.h"
 
 namespace asdfvk {
 
