@@ -109,8 +109,8 @@ struct WorstFace {
 /// Estimate of the error of the result, compared with a result for which all faces are traced. The held-out faces are a
 /// random sample of the faces. Held-out faces cast rays, but a separate interpolation does not use their values. The
 /// errors of this interpolation at the held-out faces are extrapolated to all faces. Faces with larger expected errors
-/// are sampled with a higher probability. In the result, the held-out faces are seeds; the estimate corrects for this
-/// difference.
+/// are sampled with a higher probability. The result has smaller errors than this interpolation, because it uses the
+/// values of the held-out faces. Therefore the estimate is reduced by a factor.
 struct ErrorEstimate {
   /// Mean error over all faces, seeds included, divided by the range of the values (ASDF paper, Table 1).
   double average = 0;

@@ -58,11 +58,12 @@ struct Result {
   /// Geometry and hierarchy of the mesh (opaque); null without Options::keepsScene.
   std::shared_ptr<const struct SceneData> scene;
 
-  /// #I shape diameters; NaN: no value. Throws Error{UnknownField} without Options::measuresDiameter().
+  /// The shape diameter of each input face; NaN: no value. Throws Error{UnknownField} without
+  /// Options::measuresDiameter().
   [[nodiscard]] const std::vector<double>& sdf() const {
     return std::get<std::vector<double>>(requireField(fields, "sdf").values);
   }
-  /// #I flags: 1 for faces that cast rays. Throws as sdf() does.
+  /// A flag for each input face: 1 if the face cast rays. Throws as sdf() does.
   [[nodiscard]] const std::vector<uint8_t>& seed() const {
     return std::get<std::vector<uint8_t>>(requireField(fields, "seed").values);
   }

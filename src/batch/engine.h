@@ -32,9 +32,9 @@ inline constexpr uint32_t kMaxWorkersOnGpu = 4;
 
 /// Assigns each pending job to one phase. pending: indices of the jobs. requested: number of concurrent jobs; 0: the
 /// sizes of the meshes decide. With 0, the first phase has the large meshes, one after another with all threads. The
-/// second phase has the small meshes, with one worker per thread, or with fewer workers so that each has
-/// kMinMeshesPerWorker and kMinBytesPerWorker. If this rule leaves only one worker, all meshes are computed one after
-/// another in their order. While a stream (Job::isStream) is computed, no other job is computed.
+/// second phase has the small meshes, with one worker per thread, or with fewer workers so that each has on
+/// average at least kMinMeshesPerWorker and kMinBytesPerWorker. If this rule leaves only one worker, all meshes are
+/// computed one after another in their order. While a stream (Job::isStream) is computed, no other job is computed.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t> pending,
                                              uint32_t requested, uint32_t threadCount);
 

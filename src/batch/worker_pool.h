@@ -60,8 +60,9 @@ struct WorkerPoolClient {
 /// before, all workers are given up.
 ///
 /// After a stop request no job begins, and workers with a job receive SIGTERM. Returns when all jobs have ended, when
-/// all workers are given up, or, after a stop request, when the current jobs have ended. The result is the reason why
-/// the last worker could not start, or an empty text. Throws std::system_error if the system cannot start any worker.
+/// all workers are given up, or, after a stop request, when the current jobs have ended. Returns the reason of the
+/// latest failed start after which a worker was given up, or an empty text. Throws std::system_error if the system
+/// cannot start any worker.
 std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop);
 

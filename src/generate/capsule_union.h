@@ -39,7 +39,7 @@ class CapsuleUnion {
 
   struct Dominating {
     uint32_t part = 0;
-    double diameter = 0;  ///< Diameter of the ball nearest to p.
+    double diameter = 0;  ///< Diameter of the ball of the capsule that is nearest to p.
   };
   /// Part and diameter of the capsule nearest to p. Among equally near capsules the first one counts.
   [[nodiscard]] Dominating dominating(const Vec3d& p, Selection selection = kAll) const;

@@ -16,8 +16,8 @@ struct OrientationReport {
   std::vector<uint8_t> isCavity;             ///< #components; see findCavities().
   std::vector<uint32_t> invertedComponents;  ///< Ascending indices.
 
-  /// One sentence that names each inverted component by its lowest input face and the number of faces connected to it;
-  /// empty if there is no inverted component.
+  /// One sentence that counts the inverted components. It names the first five, each by its lowest input face and the
+  /// number of faces connected to this face. Empty if there is no inverted component.
   [[nodiscard]] std::string sentence(const TriangleMesh& mesh, const Components& components) const;
 };
 
