@@ -32,7 +32,7 @@ set(description
 diameter function or the wall thickness. The first serves to segment,
 skeletonise and retrieve shapes, the second to check walls. For the shape
 diameter function, rays from a tenth of the faces are traced by Vulkan
-compute, on a GPU or a CPU, and the values of the other faces are
+compute or on the CPU, and the values of the other faces are
 interpolated. The error is estimated. Parts are computed from these values.
 The wall thickness is exact and needs no rays.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from numbers import Integral
 from typing import Any, Callable, Collection
 
 import numpy as np
@@ -31,7 +32,10 @@ def method_of(method: Any) -> str:
 def _merged(options: dict[str, Any], implied: dict[str, Any]) -> dict[str, Any]:
     for name, value in implied.items():
         if options.get(name) is not None and not (isinstance(options[name], type(value)) and options[name] == value):
-            hint = "parts=N sets the number of parts" if name == "segment" else "use compute()"
+            hint = "use compute()"
+            if name == "segment":
+                is_count = isinstance(options[name], Integral)
+                hint = "parts=N sets the number of parts" if is_count else "method= selects the method"
             raise error_of("optionConflict", f"{name}={options[name]!r} contradicts this function: {hint}")
     return {**options, **implied}
 

@@ -96,7 +96,7 @@ def segment(
     Returns int32 (m,) per face, or (n,) per vertex: labels 0 to k - 1, ascending by mean value. A face without a
     triangle has the label -1. Raises and warns like compute().
     """
-    if isinstance(faces, Integral):
+    if isinstance(faces, Integral) and not isinstance(faces, bool):
         raise error_of("arrayType", f"faces={faces} is a number, not an array; parts={faces} sets the number of parts")
     given = dict(options)
     return values_of(_computed(vertices, faces, given, segment=method_of(method)), "segment", given)

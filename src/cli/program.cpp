@@ -45,6 +45,7 @@ constexpr const char* kSummarize = "summarize";
 
 /// Throws Error{UnknownName} if the first argument is no file and looks like a misspelt command.
 void requireNoMisspeltCommand(const std::string& first) {
+  if (first.find_first_of("./") != std::string::npos) return;  // The name of a file.
   std::error_code ignored;
   if (similarNames(first, {kSummarize}).empty() || std::filesystem::exists(first, ignored)) return;
   throw Error(ErrorCode::UnknownName,

@@ -4,7 +4,7 @@
 
 namespace asdfvk {
 
-/// Fetches an object of up to 65 bytes into the cache, also if the object lies in two cache lines. The assembly
+/// Fetches an object of up to 64 bytes into the cache, also if the object lies in two cache lines. The assembly
 /// statement counts as a side effect. Without a side effect, GCC removes calls of a function that only prefetches.
 template <typename Object>
 inline void prefetchMemory(const Object* object) {

@@ -17,7 +17,7 @@ struct FieldRow {
   FieldType type = FieldType::Real;
   uint32_t componentCount = 1;
   const char* needs = nullptr;                   ///< The option that computes the field; null: no option is needed.
-  bool (*isComputed)(const Options&) = nullptr;  ///< Whether the options compute the field; null: always.
+  bool (*isComputed)(const Options&) = nullptr;  ///< Whether the options compute the field; null: always, after request().
   void (*request)(Options&) = nullptr;           ///< Sets what a user implies who asks for the field; null: nothing.
   const char* meaning;                           ///< Meaning of the entry of a face.
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/prefetch.h"
 #include "mesh/arc_values.h"
 
 namespace asdfvk {
@@ -21,8 +22,13 @@ double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g)
 std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, size_t{graph.faceCount()});
   std::vector<float> angles(graph.neighbours.size());
-  setForEachPair(graph, geometry, std::span(angles), [&](uint32_t face, uint32_t neighbour) {
+  const auto angleOf = [&](uint32_t face, uint32_t neighbour) {
     return static_cast<float>(signedDihedralAngle(geometry, face, neighbour));
+  };
+  setForEachPair(graph, std::span(angles), angleOf, [&](uint32_t neighbour) {
+    prefetchMemory(&geometry.areas[neighbour]);
+    prefetchMemory(&geometry.normals[neighbour]);
+    prefetchMemory(&geometry.barycentres[neighbour]);
   });
   return angles;
 }

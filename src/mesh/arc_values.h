@@ -5,25 +5,18 @@
 #include <span>
 
 #include "core/parallel.h"
-#include "core/prefetch.h"
 #include "mesh/dual_graph.h"
-#include "mesh/face_geometry.h"
 
 namespace asdfvk {
 
-/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g and each arc from g to f, where f <= g. Prefetches the
-/// geometry of the faces. Runs in parallel.
-template <typename Value, typename ValueOf>
-void setForEachPair(const DualGraph& graph, const FaceGeometry& geometry, std::span<Value> perArc,
-                    const ValueOf& valueOf) {
+/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g and each arc from g to f, where f <= g. Runs in parallel.
+/// prefetch(g): prefetches the memory that valueOf(f, g) will read of g.
+template <typename Value, typename ValueOf, typename Prefetch>
+void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const ValueOf& valueOf, const Prefetch& prefetch) {
   constexpr uint32_t kPrefetchDistance = 32;  // Unit: faces.
   forEachInParallel(graph.faceCount(), [&](uint32_t face) {
     if (face + kPrefetchDistance < graph.faceCount())
-      for (const uint32_t neighbour : graph.neighboursOf(face + kPrefetchDistance)) {
-        prefetchMemory(&geometry.areas[neighbour]);
-        prefetchMemory(&geometry.barycentres[neighbour]);
-        prefetchMemory(&geometry.normals[neighbour]);
-      }
+      for (const uint32_t neighbour : graph.neighboursOf(face + kPrefetchDistance)) prefetch(neighbour);
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
       const uint32_t neighbour = graph.neighbours[arc];
       if (neighbour < face) continue;

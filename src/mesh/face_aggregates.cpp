@@ -19,6 +19,7 @@ constexpr double kBentAngleDegrees = 5;  // At this angle between two faces the 
 constexpr int kSweepCount = 2;
 constexpr double kRelaxation = 1.2;
 constexpr size_t kSweepBlockSize = 4096;  // A sweep reads the new values of faces of the same block only.
+constexpr size_t kPrefetchDistance = 16;  // Unit: faces.
 constexpr uint32_t kNoAggregate = 0xffffffff;
 
 double inRadians(double degrees) { return degrees * (std::numbers::pi / 180); }
@@ -140,7 +141,7 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
       const size_t begin = block * kSweepBlockSize, end = std::min(begin + kSweepBlockSize, values.size());
       std::copy_n(&values[begin], end - begin, &next[begin]);
       for (size_t face = begin; face < end; ++face) {
-        if (const size_t later = face + 16; later < end)
+        if (const size_t later = face + kPrefetchDistance; later < end)
           for (const uint32_t neighbour : graph.neighboursOf(static_cast<uint32_t>(later)))
             prefetchMemory(&geometry.normals[neighbour]);
         if (!aggregates.isCentre(static_cast<uint32_t>(face)) && std::isfinite(values[face]))

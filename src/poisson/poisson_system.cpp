@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "mesh/arc_values.h"
 
 namespace asdfvk {
@@ -98,11 +99,13 @@ std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   std::vector<double> weights(graph.neighbours.size());
   const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
-  setForEachPair(graph, geometry, std::span(weights), [&](uint32_t face, uint32_t neighbour) {
+  const auto weightOf = [&](uint32_t face, uint32_t neighbour) {
     // The difference of the halves does not overflow.
     const Vec3d half = geometry.barycentres[neighbour] * 0.5 - geometry.barycentres[face] * 0.5;
     return std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
-  });
+  };
+  setForEachPair(graph, std::span(weights), weightOf,
+                 [&](uint32_t neighbour) { prefetchMemory(&geometry.barycentres[neighbour]); });
   return weights;
 }
 

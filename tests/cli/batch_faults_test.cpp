@@ -45,7 +45,7 @@ TEST_CASE("meshes that crash, hang or grow fail alone in worker processes") {
   MeshTree tree(false);
   for (const char* name : {"in/a-crash.off", "in/deep/hang.off", "in/grow.off"}) tree.add(name, sphereOff(5));
   const ChildOutcome outcome = runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--isolate",
-                                         "--timeout", "8", "--memory-limit", "1G"},
+                                         "--timeout", "8", "--memory-limit", "300M"},
                                         ASDFVK_FAULTY_PROGRAM);
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 7);

@@ -38,6 +38,7 @@ LayerTable readLayers() {
     columns >> name >> bar;
     REQUIRE_MESSAGE(bar == "|", row);
     std::getline(columns, owner, '|');
+    REQUIRE_MESSAGE((owner == " library " || owner == " C library " || owner == " programs "), row);
     std::getline(columns, names, '|');
     std::istringstream words(names);
     layers[name] = Names(std::istream_iterator<std::string>(words), {});
