@@ -83,7 +83,8 @@ def test_a_number_of_parts_in_the_wrong_place_has_a_hint(reference: asdf_vk.Sess
     with pytest.raises(asdf_vk.UsageError) as error:
         asdf_vk.segment(*cube(), session=reference, segment="cgal")
     assert str(error.value) == "segment='cgal' contradicts this function: method= selects the method"
-    for count in (5, np.int32(5)):
+    counts: list[Any] = [5, np.int32(5)]
+    for count in counts:
         with pytest.raises(asdf_vk.ArrayTypeError) as wrong:
-            asdf_vk.segment(SimpleNamespace(vertices=cube()[0], faces=cube()[1]), count)  # type: ignore[arg-type]
+            asdf_vk.segment(SimpleNamespace(vertices=cube()[0], faces=cube()[1]), count)
         assert str(wrong.value) == "faces=5 is a number, not an array; parts=5 sets the number of parts"
