@@ -95,7 +95,7 @@ const std::array kComputationRows{
               .placeholder = "SECONDS"},
     OptionRow{.name = "estimate",
               .access = COMPUTATION_MEMBER(options.estimatesError),
-              .text = "Do not estimate the error. This saves about 3 to 15 % of the time, and up to 25 % with 1 % seeds",
+              .text = "Do not estimate the error. This saves 3 to 15 % of the time, with 1 % seeds up to 25 %",
               .more = "The sampler then selects all seeds. No seed is placed at large expected errors or extreme "
                       "values, so that the result is a little less accurate.",
               .flags = "--no-estimate"},

@@ -16,10 +16,12 @@ struct FieldRow {
   const char* unit = "";  ///< See Field::unit.
   FieldType type = FieldType::Real;
   uint32_t componentCount = 1;
-  const char* needs = nullptr;                   ///< The option that computes the field; null: no option is needed.
-  bool (*isComputed)(const Options&) = nullptr;  ///< Whether the options compute the field; null: always, after request().
-  void (*request)(Options&) = nullptr;           ///< Sets what a user implies who asks for the field; null: nothing.
-  const char* meaning;                           ///< Meaning of the entry of a face.
+  const char* needs = nullptr;  ///< The option that computes the field; null: no option is needed.
+  /// Whether the options compute the field; null: always, after request().
+  bool (*isComputed)(const Options&) = nullptr;
+  /// Sets the options that a user implies who asks for the field; null: none.
+  void (*request)(Options&) = nullptr;
+  const char* meaning;  ///< Meaning of the entry of a face.
 };
 
 /// All fields, in the order of a result.
