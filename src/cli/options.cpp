@@ -147,13 +147,10 @@ void completeFields(CommandLine& line) {
   for (const std::string& name : outputs.fields) shown.emplace_back("--fields", name);
   if (!outputs.pictureOf.empty()) shown.emplace_back("--picture-of", outputs.pictureOf);
   if (!outputs.points.empty()) options.computesCentres = true;
-  const auto rowOf = [](std::string_view name) {
-    return std::find_if(fieldRows().begin(), fieldRows().end(), [&](const FieldRow& row) { return row.name == name; });
-  };
   for (const auto& field : shown)
-    if (const auto request = rowOf(field.second)->request; request != nullptr) request(options);
+    if (const auto request = fieldRow(field.second).request; request != nullptr) request(options);
   for (const auto& field : shown) {
-    const FieldRow& row = *rowOf(field.second);
+    const FieldRow& row = fieldRow(field.second);
     if (row.isComputed != nullptr && !row.isComputed(options))
       refuseOptions(fmt::format("{} {} needs --{}", field.first, row.name, row.needs));
     if (field.second == "error" && !estimates(options))

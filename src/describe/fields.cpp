@@ -85,13 +85,19 @@ constexpr std::array kFields{
 
 std::span<const FieldRow> fieldRows() { return kFields; }
 
-Field makeField(std::string_view name, Field::Values values) {
+const FieldRow& fieldRow(std::string_view name) {
   const auto row = std::find_if(kFields.begin(), kFields.end(), [&](const FieldRow& r) { return r.name == name; });
-  ASDFVK_CHECK(row != kFields.end() && static_cast<size_t>(row->type) == values.index());
-  return {.name = row->name,
-          .label = row->label,
-          .unit = row->unit,
-          .componentCount = row->componentCount,
+  ASDFVK_CHECK(row != kFields.end());
+  return *row;
+}
+
+Field makeField(std::string_view name, Field::Values values) {
+  const FieldRow& row = fieldRow(name);
+  ASDFVK_CHECK_OP(static_cast<size_t>(row.type), ==, values.index());
+  return {.name = row.name,
+          .label = row.label,
+          .unit = row.unit,
+          .componentCount = row.componentCount,
           .values = std::move(values)};
 }
 

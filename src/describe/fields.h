@@ -27,6 +27,9 @@ struct FieldRow {
 /// All fields, in the order of a result.
 [[nodiscard]] std::span<const FieldRow> fieldRows();
 
+/// Precondition: fieldRows() has a row with the name.
+[[nodiscard]] const FieldRow& fieldRow(std::string_view name);
+
 /// Preconditions: fieldRows() has a row with the name, and `values` has the type of the row.
 [[nodiscard]] Field makeField(std::string_view name, Field::Values values);
 
