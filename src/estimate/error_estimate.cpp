@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "core/median.h"
@@ -30,9 +29,7 @@ double tracedRange(const EstimateInput& input) {
 
 /// The 99th minus the 1st percentile of the values. Precondition: a face has a value.
 double robustRange(std::span<const double> values) {
-  std::vector<double> present;
-  present.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
+  std::vector<double> present = withoutNaN(values);
   const double low = percentileOf(present, 0.01);
   return percentileOf(present, 0.99) - low;
 }

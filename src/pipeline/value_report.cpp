@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -36,9 +35,7 @@ Warning describeMissing(const Report& report, const PreparedMesh& prepared, cons
 }
 
 ValueRange rangeOf(const std::vector<double>& values) {
-  std::vector<double> present;
-  present.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
+  std::vector<double> present = withoutNaN(values);
   if (present.empty()) return {};
   const auto [low, high] = std::minmax_element(present.begin(), present.end());
   ValueRange range{.min = *low, .max = *high};
