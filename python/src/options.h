@@ -16,8 +16,8 @@ namespace asdfvk::python {
 [[nodiscard]] SessionSettings sessionOf(const pybind11::dict& values);
 
 [[nodiscard]] std::vector<std::string> optionNames();
-/// The keyword of the option with this name on the command line, such as "random_seed" for "rng_seed", else
-/// similarNames().
+/// If an option has this name on the command line, returns its keyword, such as "random_seed" for "rng_seed". Otherwise
+/// returns the result of similarNames().
 [[nodiscard]] std::string similarKeywords(std::string_view name, const std::vector<std::string>& keywords);
 
 }  // namespace asdfvk::python

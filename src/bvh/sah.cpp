@@ -12,7 +12,7 @@ constexpr uint32_t kMaxBinCount = 32;
 // good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
-// The bounding box and the count of the triangles in the sample, per axis and bin.
+// For each axis and bin: the bounding box and the number of those triangles of the sample that are in the bin.
 struct Bins {
   std::array<std::array<Float8, kMaxBinCount>, 3> boxes;
   std::array<std::array<uint32_t, kMaxBinCount>, 3> counts{};
@@ -45,7 +45,7 @@ struct Binning {
     // Slightly less than the bin count: then rounding moves no centre beyond the last bin.
     const Float4 f = static_cast<float>(count) * (1 - 0x1p-20f) / centres.extents();
     const IntsOf<Float4> isFinite = f - f == 0;
-    factor = select(isFinite & IntsOf<Float4>{-1, -1, -1, 0}, f);  // The last lane may hold a face.
+    factor = select(isFinite & IntsOf<Float4>{-1, -1, -1, 0}, f);  // In lane 3, a box may have a face.
   }
   [[nodiscard]] ASDFVK_ALWAYS_INLINE IntsOf<Float4> binsOf(const SplitBox& box) const {
     return __builtin_convertvector((box.doubledCentre() - origin) * factor, IntsOf<Float4>);

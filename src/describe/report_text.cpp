@@ -201,7 +201,7 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
   }
   if (hasDiameter) rows.emplace_back("diameter", shortValueRow(report));
   if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));
-  // Without room for the result of a check, the error message still reports a failed check.
+  // If there is no room for the result of a check, the error message still reports a failed check.
   if (((report.estimatedError && hasDiameter) || report.check) && rows.size() < kMaxRows)
     rows.emplace_back("error", shortErrorRow(report));
   return rows;

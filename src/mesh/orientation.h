@@ -30,8 +30,7 @@ struct OrientationReport {
 /// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the winding of each input face that
 /// contains such a triangle. The first corner of each face stays the first.
 void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped);
-/// Reverses the windings that flipFaces(mesh, isFlipped) reverses, and the normals of the triangles f with
-/// isFlipped[f] != 0.
+/// Like flipFaces(mesh, isFlipped). In addition, reverses the normal of each triangle f with isFlipped[f] != 0.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
 /// Reverses all triangles of the given input faces. Precondition: the indices ascend.
 void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);

@@ -20,8 +20,8 @@ struct ComputationInput {
   bool isLast;  ///< Whether the scene is not used again, so that the computation may release its data early.
 };
 
-/// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. options: of
-/// completedFor(). The clock refers to result.report.stageSeconds. Throws the errors of Session::compute().
+/// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. options: the
+/// result of completedFor(). The clock writes to result.report.stageSeconds. Throws the errors of Session::compute().
 void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
                Result& result);
 

@@ -15,11 +15,11 @@
 namespace asdfvk {
 namespace {
 
-/// With a lower PartsReport::agreement, the result has a warning.
+/// If PartsReport::agreement is lower than this, the result has a warning.
 constexpr double kMinAgreement = 0.9;
-/// A face is coarse if its size divided by its shape diameter is greater.
+/// A face is coarse if its size divided by its shape diameter is greater than this.
 constexpr double kMaxFaceSize = 0.5;
-/// If coarse faces have a greater share of the area, the result has a warning.
+/// If coarse faces have a greater share of the area than this, the result has a warning.
 constexpr double kMaxCoarseShare = 0.1;
 
 /// The share of the area that each segment has, from areas of triangles (#F) and segments of input faces.

@@ -20,7 +20,7 @@ struct CpuSeed {
   ConeStart start;
   uint32_t primitive = kNoFace;  ///< The primitive that contains the origin; kNoFace: no primitive.
   bool fitsFloat = true;         ///< False: no ray is cast, and isDoubtful() is true.
-  std::span<ConeHit> hits;       ///< One per ray, or empty, for all cones of a group alike.
+  std::span<ConeHit> hits;       ///< One per ray, or empty. All cones of a group have hits, or none.
 };
 
 /// Traces up to eight neighbouring cones together: the first ray of all cones, then the second, and so on. Lengths are
