@@ -9,6 +9,7 @@
 #include "bvh/sah.h"
 #include "bvh/small_tree.h"
 #include "core/check.h"
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "core/unset_vector.h"
 
@@ -238,7 +239,7 @@ Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry, std::span<c
   if (triangles.empty()) return bvh;
   bvh.primitiveFaces.resize(triangles.size());
   const std::unique_ptr<Subtree> root = buildSubtree(triangles, bvh.primitiveFaces, 0, 0, options);
-  triangles = {};
+  freeMemory(triangles);
   bvh.depth = root->depth;
   bvh.nodes = assemble(*root);
   return bvh;

@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "core/text.h"
 
@@ -90,7 +91,7 @@ void InputFaces::beginPolygons() {
     polygons_.corners.insert(polygons_.corners.end(), face.begin(), face.end());
     polygons_.firstCorner.push_back(polygons_.corners.size());
   }
-  triangles_ = {};
+  freeMemory(triangles_);
 }
 
 void InputFaces::moveTo(std::span<const Vec3d> vertices, Mesh& mesh) {

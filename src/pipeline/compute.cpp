@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/free_memory.h"
 #include "core/length_unit.h"
 #include "core/parallel.h"
 #include "describe/computation_options.h"
@@ -195,7 +196,7 @@ std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>&
     PreparedMesh& prepared = scene->prepared;
     prepared.graph = {};
     prepared.components = {};
-    prepared.traceableFaces = {};
+    freeMemory(prepared.traceableFaces);
   }
   return std::make_shared<SceneData>(SceneData{scene, scene->view()});
 }

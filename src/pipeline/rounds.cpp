@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/background_task.h"
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
@@ -170,7 +171,7 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double>
     else
       prediction_.predict({traced_.faces, traced_.hits}, predicting);
   }
-  if (!tracing_) traced_.hits = {};  // Releases memory for the equation, because no further round follows.
+  if (!tracing_) freeMemory(traced_.hits);  // No further round follows.
   control.checkpoint(kPredictedProgress);
   {
     const auto scope = clock_.time(Stage::Solve);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/free_memory.h"
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
@@ -15,7 +16,7 @@ SeedTracing::SeedTracing(const Computation& computation, KeptTracers& tracers, B
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));
   tracer_.reset();
-  if (released_ != nullptr) released_->nodes = {};
+  if (released_ != nullptr) freeMemory(released_->nodes);
 }
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {

@@ -7,6 +7,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "segment/face_windows.h"
 #include "segment/soft_clustering.h"
@@ -89,7 +90,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
     labels[i] = static_cast<uint32_t>(std::max_element(row.begin(), row.end()) - row.begin());
     for (uint32_t c = 0; c < clusterCount; ++c) orderedCosts[size_t{i} * clusterCount + c] = costOf(row[c]);
   });
-  costs = {};
+  freeMemory(costs);
   stopOnly.checkpoint(0);
   const std::vector<LabelEdge> edges = reordered(cgalEdgeCosts(geometry, mesh, neighbours, options.smoothness), order);
   const bool isFirstOnly = options.expansion == CgalExpansion::First;
