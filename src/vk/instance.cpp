@@ -1,6 +1,7 @@
 #include "vk/instance.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 
@@ -136,7 +137,10 @@ Instance::Instance(const InstanceOptions& options) {
 
 Instance::~Instance() {
   if (messenger_) destroyMessenger_(instance_, messenger_, nullptr);
-  vkDestroyInstance(instance_, nullptr);
+  // One instance remains until the end of the process, so that the loader does not unload the drivers. A process cannot
+  // load the driver of NVIDIA (580) again after it unloaded the driver about twenty times.
+  static std::atomic<bool> oneRemains = false;
+  if (oneRemains.exchange(true)) vkDestroyInstance(instance_, nullptr);
 }
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
