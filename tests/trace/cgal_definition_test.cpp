@@ -30,13 +30,17 @@ struct CgalReference {
 }  // namespace
 
 TEST_CASE("the kernels give the reference's values by CGAL's definition" * doctest::test_suite("slow")) {
+  // CGAL's bound of outliers has no slack. With 22 rays, every length of these shapes differs from its bound by at
+  // least 5e-6 of the median. With 25 rays, 38 faces of the slab have a length at 1.4e-7 from the bound, where the
+  // rounding of float32 decides.
+  constexpr uint32_t kRayCount = 22;
   const test::ValidatedDevice device;
   std::vector<CgalReference> references;
-  for (const std::string_view name : shapeNames()) references.emplace_back(generateShape(name, 2000).mesh, 25);
+  for (const std::string_view name : shapeNames()) references.emplace_back(generateShape(name, 2000).mesh, kRayCount);
   for (const Mesh& mesh : {shapes::openBox({1, 2, 3}, 8), shapes::soup(2000, 5), shapes::shell(2, 1)})
-    references.emplace_back(shapes::jittered(mesh, 1e-3, 1), 25);
+    references.emplace_back(shapes::jittered(mesh, 1e-3, 1), kRayCount);
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
-    const VulkanConeKernel kernel(*device, {25, false, choice, Definition::Cgal});
+    const VulkanConeKernel kernel(*device, {kRayCount, false, choice, Definition::Cgal});
     for (size_t i = 0; i < references.size(); ++i) {
       CAPTURE(i);
       references[i].check(kernel);
