@@ -165,7 +165,9 @@ class HeaderParser {
 
   void parseProperty() {
     if (header_.elements.empty()) failAtLine(text_.line(), "a property before the first element");
-    PlyProperty& property = header_.elements.back().properties.emplace_back();
+    PlyElement& element = header_.elements.back();
+    PlyProperty& property = element.properties.emplace_back();
+    property.offset = element.rowSize;
     std::string_view type = wordOnLine("the type of the property");
     if (type == "list") {
       property.list = typeOf(wordOnLine("the type of the list length"), text_.line());
@@ -174,6 +176,8 @@ class HeaderParser {
     }
     property.type = typeOf(type, text_.line());
     property.name = wordOnLine("the name of the property");
+    element.rowSize += sizeOf(property.list.value_or(property.type));
+    element.listCount += property.list ? 1 : 0;
   }
 
   void finish() {
@@ -200,14 +204,6 @@ class HeaderParser {
 };
 
 }  // namespace
-
-uint64_t PlyElement::minRowSize(PlyEncoding encoding) const {
-  // A number or a list length has at least a digit and a blank.
-  if (encoding == PlyEncoding::Ascii) return 2 * properties.size();
-  uint64_t size = 0;
-  for (const PlyProperty& property : properties) size += sizeOf(property.list.value_or(property.type));
-  return size;
-}
 
 PlyHeader parsePlyHeader(std::span<const char> bytes) { return HeaderParser(bytes).parse(); }
 

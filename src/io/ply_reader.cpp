@@ -68,9 +68,17 @@ class PlyBody {
           fmt::format("{} of element {} do not fit into the remaining {}; the file is truncated or the count "
                       "is wrong",
                       counted(element.count, "row"), quoted(element.name), counted(source_.remaining(), "byte")));
-    if (element.role == PlyRole::Vertices) mesh_.vertices.resize(element.count);
-    if (element.role == PlyRole::Faces) faces_.reserve(element.count);
-    for (uint64_t row = 0; row < element.count; ++row) readRow(element, row);
+    uint64_t row = 0;
+    if (element.role == PlyRole::Vertices) {
+      mesh_.vertices.resize(element.count);
+      row = source_.takePoints(element, mesh_.vertices);
+    } else if (element.role == PlyRole::Faces) {
+      std::vector<Face> triangles;
+      row = source_.takeTriangles(element, header_.vertexCount, triangles);
+      faces_.addTriangles(std::move(triangles));
+      faces_.reserve(element.count - row);
+    }
+    for (; row < element.count; ++row) readRow(element, row);
   }
 
   void readRow(const PlyElement& element, uint64_t row) {

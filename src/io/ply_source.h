@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <utility>
+#include <vector>
 
+#include "asdf_vk/mesh.h"
 #include "core/text.h"
 #include "io/input_failure.h"
 #include "io/ply_header.h"
@@ -50,7 +53,9 @@ template <typename Out, bool kIsSwapped>
 }
 
 // PlyAsciiSource and PlyBinarySource read the numbers after a PLY header through the same functions. expected: name of
-// the number in the error message of a truncated file. fail() reports the position of the last number.
+// the number in the error message of a truncated file. fail() reports the position of the last number. takePoints() and
+// takeTriangles() quickly read the first rows of an element, until a row is invalid or has another form, and return the
+// number of these rows.
 
 /// Rows of text. A row may continue on further lines, but must begin on a new line. If a row has too many values, the
 /// error message therefore has the line of this row.
@@ -76,6 +81,8 @@ class PlyAsciiSource {
       fail(fmt::format("row {} of element {} has more numbers than the header lists", row, quoted(element.name)));
   }
   void requireEnd() { text_.requireEnd("the last row"); }
+  uint64_t takePoints(const PlyElement&, std::vector<Vec3d>&) { return 0; }
+  uint64_t takeTriangles(const PlyElement&, uint64_t, std::vector<Face>&) { return 0; }
 
   [[noreturn]] void fail(std::string_view reason) const { failAtLine(text_.line(), reason); }
 
@@ -105,6 +112,35 @@ class PlyBinarySource {
     if (remaining() != 0) failAtByte(at_, "unexpected " + counted(remaining(), "byte") + " after the last row");
   }
 
+  /// Sets the points of rows without lists. points: an entry per row.
+  uint64_t takePoints(const PlyElement& element, std::vector<Vec3d>& points) {
+    if (element.listCount != 0) return 0;
+    return takeRows(element, 0, [&](uint64_t index, const char* row) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const PlyProperty& property = element.properties[element.coordinates[axis]];
+        points[index][axis] = loadPly<double, kIsSwapped>(row + property.offset, property.type);
+      }
+      return true;
+    });
+  }
+  /// Appends the triangles of rows whose only list has a length of one byte and three indices of four bytes, all below
+  /// vertexCount.
+  uint64_t takeTriangles(const PlyElement& element, uint64_t vertexCount, std::vector<Face>& triangles) {
+    const PlyProperty& list = element.properties[element.indices];
+    if (element.listCount != 1 || sizeOf(*list.list) != 1 || sizeOf(list.type) != 4) return 0;
+    triangles.reserve(element.count);
+    // Above this limit, an index may be negative.
+    const uint64_t end = std::min(vertexCount, uint64_t{1} << 31);
+    return takeRows(element, sizeof(Face), [&](uint64_t, const char* row) {
+      const char* const length = row + list.offset;
+      Face face;
+      for (size_t i = 0; i < 3; ++i) face[i] = loadScalar<uint32_t, kIsSwapped>(length + 1 + i * sizeof(uint32_t));
+      if (*length != 3 || face[0] >= end || face[1] >= end || face[2] >= end) return false;
+      triangles.push_back(face);
+      return true;
+    });
+  }
+
   [[noreturn]] void fail(std::string_view reason) const { failAtByte(last_, reason); }
 
  private:
@@ -116,6 +152,18 @@ class PlyBinarySource {
     const Out value = loadPly<Out, kIsSwapped>(bytes_.data() + at_, type);
     at_ += sizeOf(type);
     return value;
+  }
+
+  /// Reads rows, each with the same number of bytes in lists, as long as read(index, row) returns true.
+  template <typename Read>
+  uint64_t takeRows(const PlyElement& element, uint64_t listBytes, const Read& read) {
+    const uint64_t rowSize = element.rowSize + listBytes;
+    const uint64_t maxCount = std::min(element.count, remaining() / rowSize);
+    uint64_t count = 0;
+    for (const char* row = bytes_.data() + at_; count < maxCount && read(count, row); row += rowSize) ++count;
+    at_ += count * rowSize;
+    if (count > 0) last_ = at_ - sizeOf(element.properties.back().type);
+    return count;
   }
 
   std::span<const char> bytes_;
