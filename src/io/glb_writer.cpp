@@ -33,12 +33,7 @@ class ResultTriangles {
  public:
   explicit ResultTriangles(const ResultView& result) {
     vertices_.reserve(result.vertexCount());
-    std::array<double, 3> point{};
-    uint64_t numberCount = 0;
-    result.putCoordinates<double>([&](double coordinate) {
-      point[numberCount++ % 3] = coordinate;
-      if (numberCount % 3 == 0) vertices_.push_back({point[0], point[1], point[2]});
-    });
+    result.putPoints<double>([&](uint64_t, const auto& p) { vertices_.push_back({p[0], p[1], p[2]}); });
     bool hasTriangles = false;
     for (uint64_t face = 0; face < result.faceCount(); ++face)
       hasTriangles = hasTriangles || result.cornersOf(face).size() >= 3;

@@ -23,16 +23,16 @@ void putColour(AtomicFile& file, const Rgba& colour) {
 }
 
 void writeVertices(AtomicFile& file, const ResultView& result, const std::vector<Rgba>& colours) {
-  uint64_t numberCount = 0;
-  const auto put = [&](auto coordinate) {
-    if (numberCount % 3 == 0) file.put('v');
-    file.put(' ');
-    file.putNumber(coordinate);
-    if (++numberCount % 3 != 0) return;
-    if (!colours.empty()) putColour(file, colours[numberCount / 3 - 1]);
+  const auto put = [&](uint64_t vertex, const auto& point) {
+    file.put('v');
+    for (const auto coordinate : point) {
+      file.put(' ');
+      file.putNumber(coordinate);
+    }
+    if (!colours.empty()) putColour(file, colours[vertex]);
     file.put('\n');
   };
-  result.hasFloatVertices() ? result.putCoordinates<float>(put) : result.putCoordinates<double>(put);
+  result.hasFloatVertices() ? result.putPoints<float>(put) : result.putPoints<double>(put);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <string>
@@ -20,32 +22,6 @@
 
 namespace asdfvk {
 namespace {
-
-/// Writes numbers as bytes, or as words separated by blanks.
-class RowWriter {
- public:
-  RowWriter(AtomicFile& file, bool isAscii) : file_(file), isAscii_(isAscii) {}
-
-  template <typename T>
-  void put(T value) {
-    if (!isAscii_) return file_.put(value);
-    if (!isFirst_) file_.put(' ');
-    file_.putNumber(value);
-    isFirst_ = false;
-  }
-  void put(const FieldColumn& column, uint64_t item) {
-    column.putEntry(item, [&](auto entry) { put(withoutNan(entry)); });
-  }
-  void endRow() {
-    if (isAscii_) file_.put('\n');
-    isFirst_ = true;
-  }
-
- private:
-  AtomicFile& file_;
-  bool isAscii_;
-  bool isFirst_ = true;
-};
 
 /// Columns of an element: the main field as `quality`, the colours of the shown field, the other fields by name.
 class ElementFields {
@@ -81,12 +57,17 @@ class ElementFields {
       file.write(fmt::format("property {} {}\n", kPlyTypes[column.field->values.index()], column.name));
   }
 
-  void put(RowWriter& row, uint64_t item) const {
-    if (main_ != nullptr) row.put(withoutNan((*main_->reals())[item]));
+  /// Calls put(number) for each column.
+  template <typename Put>
+  void putRow(uint64_t item, const Put& put) const {
+    if (main_ != nullptr) put(withoutNan((*main_->reals())[item]));
     if (!colours_.empty())
-      for (const uint8_t channel : colours_[item]) row.put(channel);
-    for (const FieldColumn& column : columns_) row.put(column, item);
+      for (const uint8_t channel : colours_[item]) put(channel);
+    for (const FieldColumn& column : columns_) column.putEntry(item, [&](auto entry) { put(withoutNan(entry)); });
   }
+
+  /// Upper limit of the number of bytes of a row.
+  [[nodiscard]] size_t maxRowSize() const { return sizeof(float) + sizeof(Rgba) + columns_.size() * sizeof(float); }
 
  private:
   const Field* main_;  ///< Null if the element has no main field.
@@ -98,7 +79,6 @@ class PlyWriter {
  public:
   PlyWriter(AtomicFile& file, const ResultView& result)
       : file_(file),
-        row_(file, result.isAscii()),
         result_(result),
         vertexFields_(result, FieldLocation::PerVertex, {"x", "y", "z", "quality", "red", "green", "blue", "alpha"}),
         faceFields_(result, FieldLocation::PerFace,
@@ -132,12 +112,11 @@ class PlyWriter {
 
   template <typename T>
   void writeVertices() {
-    uint64_t numberCount = 0;
-    result_.putCoordinates<T>([&](T coordinate) {
-      row_.put(coordinate);
-      if (++numberCount % 3 != 0) return;
-      vertexFields_.put(row_, numberCount / 3 - 1);
-      row_.endRow();
+    result_.putPoints<T>([&](uint64_t vertex, const std::array<T, 3>& point) {
+      writeRow(sizeof(point) + vertexFields_.maxRowSize(), [&](const auto& put) {
+        for (const T coordinate : point) put(coordinate);
+        vertexFields_.putRow(vertex, put);
+      });
     });
   }
 
@@ -145,15 +124,39 @@ class PlyWriter {
   void writeFaces() {
     for (uint64_t face = 0; face < result_.faceCount(); ++face) {
       const std::span<const uint32_t> corners = result_.cornersOf(face);
-      row_.put(static_cast<Length>(corners.size()));
-      for (const uint32_t corner : corners) row_.put(static_cast<int32_t>(corner));
-      faceFields_.put(row_, face);
-      row_.endRow();
+      writeRow(sizeof(Length) + corners.size_bytes() + faceFields_.maxRowSize(), [&](const auto& put) {
+        put(static_cast<Length>(corners.size()));
+        for (const uint32_t corner : corners) put(corner);
+        faceFields_.putRow(face, put);
+      });
+    }
+  }
+
+  /// Writes the numbers for which putAll(put) calls put(number), as bytes or as words separated by blanks.
+  template <typename PutAll>
+  void writeRow(size_t maxSize, const PutAll& putAll) {
+    if (result_.isAscii()) {
+      bool isFirst = true;
+      putAll([&](auto number) {
+        if (!isFirst) file_.put(' ');
+        file_.putNumber(number);
+        isFirst = false;
+      });
+      file_.put('\n');
+    } else if (maxSize > AtomicFile::kMaxReserve) {
+      putAll([&](auto number) { file_.put(number); });
+    } else {
+      char* const row = file_.reserve(maxSize);
+      char* next = row;
+      putAll([&](auto number) {
+        std::memcpy(next, &number, sizeof(number));
+        next += sizeof(number);
+      });
+      file_.advance(static_cast<size_t>(next - row));
     }
   }
 
   AtomicFile& file_;
-  RowWriter row_;
   const ResultView& result_;
   ElementFields vertexFields_, faceFields_;
   bool hasByteLengths_ = true;

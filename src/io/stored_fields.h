@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -80,11 +81,16 @@ class ResultView {
 
   /// Whether float represents every finite coordinate exactly.
   [[nodiscard]] bool hasFloatVertices() const;
-  /// Calls put(T) for x, y and z of each vertex.
+  /// Calls put(vertex, std::array<T, 3>) for each vertex.
   template <typename T, typename Put>
-  void putCoordinates(Put put) const {
-    for (const double coordinate : mesh_.doubles()) put(static_cast<T>(coordinate));
-    for (const float coordinate : mesh_.floats()) put(static_cast<T>(coordinate));
+  void putPoints(const Put& put) const {
+    const auto putAll = [&](auto numbers) {
+      for (size_t i = 0; i < numbers.size(); i += 3)
+        put(i / 3,
+            std::array{static_cast<T>(numbers[i]), static_cast<T>(numbers[i + 1]), static_cast<T>(numbers[i + 2])});
+    };
+    putAll(mesh_.doubles());
+    putAll(mesh_.floats());
   }
 
   /// The field that viewers show by default: the first field at `location` with real values and one component.

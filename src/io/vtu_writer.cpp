@@ -75,8 +75,9 @@ class VtuWriter {
 
   template <typename T>
   void writePoints() {
-    writeArray<T>("Name=\"Points\" NumberOfComponents=\"3\"", 3 * result_.vertexCount(),
-                  [&](auto put) { result_.putCoordinates<T>(put); });
+    writeArray<T>("Name=\"Points\" NumberOfComponents=\"3\"", 3 * result_.vertexCount(), [&](auto put) {
+      result_.putPoints<T>([&](uint64_t, const auto& point) { std::for_each(point.begin(), point.end(), put); });
+    });
   }
 
   template <typename T>
