@@ -17,9 +17,6 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine some rows of a small mesh.
-// Number of rows that are multiplied at a time. The first-level cache still has the products when the products are
-// summed.
-constexpr size_t kChunkRowCount = 256;
 constexpr size_t kLaneCount = 8;
 constexpr uint32_t kIterationsPerCheckpoint = 8;
 
@@ -144,8 +141,8 @@ typename CpuCg<System>::Rules::CgSums CpuCg<System>::multiply() {
   };
   forEachBlock([&](size_t block, size_t begin, size_t end) {
     BlockSums sums{};
-    for (size_t chunk = begin; chunk < end; chunk += kChunkRowCount) {
-      const size_t chunkEnd = std::min(chunk + kChunkRowCount, end);
+    for (size_t chunk = begin; chunk < end; chunk += kRowsAtOnce) {
+      const size_t chunkEnd = std::min(chunk + kRowsAtOnce, end);
       system_.multiplyRows(direction_.data(), product_.data(), chunk, chunkEnd);
       addTo(sums, sumRows(chunk, chunkEnd));
     }

@@ -59,6 +59,7 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
   }
   tailColumns_.resize(tailSize);
   tailCouplings_.resize(tailSize);
+  tailRows_.resize(tailSize);
   const UnsetVector<double> roots = inverseRoots(system);
   forEachInParallel(rowCount, [&](size_t row) {
     const auto coupling = [&](uint32_t i) {
@@ -78,21 +79,24 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
     for (uint32_t k = 0; k < entries.tailCount; ++k) {
       tailColumns_[entries.tailBegin + k] = system.columns[begin + kPoissonRowHeadLength + k];
       tailCouplings_[entries.tailBegin + k] = coupling(begin + kPoissonRowHeadLength + k);
+      tailRows_[entries.tailBegin + k] = static_cast<uint8_t>(row % kRowsAtOnce);
     }
   });
 }
 
 void ScaledSystem::multiplyRows(const float* p, float* product, size_t begin, size_t end) const {
   const PoissonRow* rows = rows_.data();
-  const uint32_t* tailColumns = tailColumns_.data();
-  const float* tailCouplings = tailCouplings_.data();
+  std::array<float, kRowsAtOnce> coupled;
   for (size_t i = begin; i < end; ++i) {
     const PoissonRow& row = rows[i];
-    float coupled = row.coupling0 * p[row.column0] + row.coupling1 * p[row.column1] + row.coupling2 * p[row.column2];
-    for (uint32_t k = row.tailBegin; k < row.tailBegin + row.tailCount; ++k)
-      coupled += tailCouplings[k] * p[tailColumns[k]];
-    product[i] = p[i] - coupled;
+    coupled[i - begin] =
+        row.coupling0 * p[row.column0] + row.coupling1 * p[row.column1] + row.coupling2 * p[row.column2];
   }
+  // One loop over the tails of all rows, because processors cannot predict the ends of one short loop per row.
+  const uint32_t tailEnd = rows[end - 1].tailBegin + rows[end - 1].tailCount;
+  for (uint32_t k = rows[begin].tailBegin; k < tailEnd; ++k)
+    coupled[tailRows_[k]] += tailCouplings_[k] * p[tailColumns_[k]];
+  for (size_t i = begin; i < end; ++i) product[i] = p[i] - coupled[i - begin];
 }
 
 }  // namespace asdfvk

@@ -10,6 +10,10 @@
 
 namespace asdfvk {
 
+/// Number of rows that are multiplied at a time. The first-level cache still has the products when the products are
+/// summed.
+inline constexpr size_t kRowsAtOnce = 256;
+
 /// Scaling of a Poisson system by its diagonal D: A e = residual becomes (I - S) y = b with S = I - D^-1/2 A D^-1/2,
 /// see shaders/shared/poisson_layout.h.
 template <typename Real>
@@ -51,13 +55,15 @@ class ScaledSystem : public DiagonalScaling<float> {
   [[nodiscard]] const UnsetVector<uint32_t>& tailColumns() const { return tailColumns_; }
   [[nodiscard]] const UnsetVector<float>& tailCouplings() const { return tailCouplings_; }
 
-  /// product = (I - S) p for the rows [begin, end). p: #U.
+  /// product = (I - S) p for the rows [begin, end). p: #U. begin: a multiple of kRowsAtOnce; end: at most kRowsAtOnce
+  /// more.
   void multiplyRows(const float* p, float* product, size_t begin, size_t end) const;
 
  private:
   UnsetVector<PoissonRow> rows_;
   UnsetVector<uint32_t> tailColumns_;
   UnsetVector<float> tailCouplings_;
+  UnsetVector<uint8_t> tailRows_;  // The row of each entry of a tail, modulo kRowsAtOnce.
 };
 
 }  // namespace asdfvk
