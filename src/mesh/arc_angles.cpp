@@ -7,23 +7,49 @@
 #include "mesh/arc_values.h"
 
 namespace asdfvk {
+namespace {
 
-double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
-  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
+/// signedDihedralAngle(), where angleOf(sine, cosine) is the angle between the normals.
+template <typename AngleOf>
+auto signedAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g, const AngleOf& angleOf) {
+  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return decltype(angleOf(0.0, 0.0)){0};
   const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
-  // The arc tangent is accurate for small angles, unlike the arc cosine.
-  const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
+  const auto angle = angleOf(length(cross(ofF, ofG)), dot(ofF, ofG));
   // The barycentres are halved, so that their difference does not overflow.
   const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;
   const bool isConcave = dot(ofF, between) > 0 && dot(ofG, between) < 0;
   return isConcave ? angle : -angle;
 }
 
+// The arc tangent is accurate for small angles, unlike the arc cosine.
+double exactAngle(double sine, double cosine) { return std::atan2(sine, cosine); }
+
+/// exactAngle() rounded to float. For small angles by a power series, which is faster, unless its error could change
+/// the rounding.
+float roundedAngle(double sine, double cosine) {
+  constexpr double kMaxTangent = 0.25, kMaxError = 1e-11;  // The first omitted term is below 1e-12 of the angle.
+  if (sine < kMaxTangent * cosine) {
+    const double t = sine / cosine, s = t * t;
+    double series = 0;
+    for (int k = 17; k > 1; k -= 2) series = s * (1.0 / k - series);
+    const double angle = t - t * series;
+    const auto low = static_cast<float>(angle * (1 - kMaxError)), high = static_cast<float>(angle * (1 + kMaxError));
+    if (low == high) return low;
+  }
+  return static_cast<float>(exactAngle(sine, cosine));
+}
+
+}  // namespace
+
+double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
+  return signedAngle(geometry, f, g, exactAngle);
+}
+
 std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, size_t{graph.faceCount()});
   std::vector<float> angles(graph.neighbours.size());
   const auto angleOf = [&](uint32_t face, uint32_t neighbour) {
-    return static_cast<float>(signedDihedralAngle(geometry, face, neighbour));
+    return signedAngle(geometry, face, neighbour, roundedAngle);
   };
   setForEachPair(graph, std::span(angles), angleOf, [&](uint32_t neighbour) {
     prefetchMemory(&geometry.areas[neighbour]);
