@@ -51,9 +51,7 @@ AggregatedMesh::AggregatedMesh(const PreparedMesh& prepared)
     : prepared_(prepared),
       aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry,
                                       {kMaxArcCount, lengthLimits(prepared), prepared.components.componentOf})),
-      graph_(onCentres(aggregates_)),
-      componentOf_(prepared.mesh.faces.size(), static_cast<uint32_t>(prepared.components.components.size())) {
-  for (const uint32_t centre : aggregates_.centres) componentOf_[centre] = prepared.components.componentOf[centre];
+      graph_(onCentres(aggregates_)) {
   std::copy_if(prepared.traceableFaces.begin(), prepared.traceableFaces.end(), std::back_inserter(traceableFaces_),
                [&](uint32_t face) { return aggregates_.isCentre(face); });
 }
@@ -68,7 +66,7 @@ std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared
 }
 
 std::vector<uint32_t> AggregatedMesh::representedCounts() const {
-  std::vector<uint32_t> counts(componentOf_.size(), 0);
+  std::vector<uint32_t> counts(aggregates_.aggregateOf.size(), 0);
   for (size_t i = 0; i < aggregates_.centres.size(); ++i) counts[aggregates_.centres[i]] = aggregates_.sizes[i];
   return counts;
 }

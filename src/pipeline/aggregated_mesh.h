@@ -15,7 +15,8 @@ class AggregatedMesh {
   explicit AggregatedMesh(const PreparedMesh& prepared);
 
   [[nodiscard]] FaceDomain domain() const {
-    return {graph_, componentOf_, prepared_.components.components.size() + 1, traceableFaces_, {}, this};
+    const auto& [componentOf, components] = prepared_.components;
+    return {graph_, componentOf, components.size(), traceableFaces_, {}, this};
   }
   [[nodiscard]] const FaceAggregates& aggregates() const { return aggregates_; }
   /// #F: the number of faces that a centre represents; 0 for other faces.
@@ -28,7 +29,7 @@ class AggregatedMesh {
   const PreparedMesh& prepared_;
   FaceAggregates aggregates_;
   DualGraph graph_;  // The graph of the aggregates, with their centres as nodes.
-  std::vector<uint32_t> componentOf_, traceableFaces_;
+  std::vector<uint32_t> traceableFaces_;
 };
 
 /// The aggregates for an interpolation from this number of seeds. None if they would not save time, or if the mesh is
