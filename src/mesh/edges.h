@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -16,7 +15,9 @@ struct EdgeEntry {
   uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to its next corner.
 
   [[nodiscard]] uint32_t face() const { return corner / 3; }
-  auto operator<=>(const EdgeEntry&) const = default;
+  /// Both numbers in one, so that a comparison has no branch.
+  [[nodiscard]] uint64_t key() const { return uint64_t{upperVertex} << 32 | corner; }
+  bool operator<(const EdgeEntry& other) const { return key() < other.key(); }
 };
 
 /// The faces around every edge, in buckets by the lower vertex of the edge. Memory: 36 bytes per face.
