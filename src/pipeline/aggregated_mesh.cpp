@@ -52,8 +52,8 @@ AggregatedMesh::AggregatedMesh(const PreparedMesh& prepared)
       aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry,
                                       {kMaxArcCount, lengthLimits(prepared), prepared.components.componentOf})),
       graph_(onCentres(aggregates_)) {
-  std::copy_if(prepared.traceableFaces.begin(), prepared.traceableFaces.end(), std::back_inserter(traceableFaces_),
-               [&](uint32_t face) { return aggregates_.isCentre(face); });
+  std::copy_if(aggregates_.centres.begin(), aggregates_.centres.end(), std::back_inserter(traceableFaces_),
+               [&](uint32_t centre) { return !prepared.geometry.isDegenerate(centre); });
 }
 
 std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount) {
