@@ -54,25 +54,11 @@ void HitPoints::prefetchHits(uint32_t seed) const {
 }
 
 void HitPoints::prefetchNormals(uint32_t seed) const {
-  for (const ConeHit& hit : hits_.of(seed))
-    if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
+  for (const ConeHit& hit : hits_.of(seed)) prefetchNormal(hit);
 }
 
-/// Whether a hit is neither a miss nor a false hit.
-bool HitPoints::isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit& hit) const {
-  return hit.face != kNoFace &&
-         !isFalseHit(cone_, scene_.geometry.normals[seedFace], direction, scene_.geometry.normals[hit.face]);
-}
-
-/// The window of the lengths that the outlier rule keeps in the cone of the seed. In normalised units.
-LengthWindow HitPoints::inlierWindow(uint32_t seed, const ConeFrame& frame) const {
-  const std::span<const ConeHit> hits = hits_.of(seed);
-  std::array<double, kMaxRayCount> lengths;
-  size_t count = 0;
-  for (size_t ray = 0; ray < hits.size(); ++ray)
-    if (isValid(hits_.seeds[seed], frame.toWorld(cone_.directions[ray]), hits[ray]))
-      lengths[count++] = static_cast<double>(hits[ray].distance);
-  return count > 0 ? keptWindow({lengths.data(), count}, cone_.outliers) : LengthWindow{};
+void HitPoints::prefetchNormal(const ConeHit& hit) const {
+  if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
 }
 
 HitRange HitPoints::appendEmpty(size_t pointCount) {
@@ -83,24 +69,37 @@ HitRange HitPoints::appendEmpty(size_t pointCount) {
   return range;
 }
 
-HitRange HitPoints::append(uint32_t seed) {
-  const std::span<const ConeHit> hits = hits_.of(seed);
+// One prefetch per ray, because prefetches that immediately follow each other fill the queue of the cache.
+HitRange HitPoints::append(uint32_t seed, uint32_t later) {
+  const std::span<const ConeHit> hits = hits_.of(seed), laterHits = hits_.of(later);
   const uint32_t seedFace = hits_.seeds[seed];
+  const Vec3d& seedNormal = scene_.geometry.normals[seedFace];
   const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);
-  const LengthWindow window = inlierWindow(seed, frame);
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);
   HitRange range = appendEmpty(hits.size());
-  range.medianLength = static_cast<float>(window.median);
+  PointGroup* const groups = &groups_[range.firstGroup];
+  std::array<double, kMaxRayCount> lengths;  // Without misses and false hits.
+  size_t validCount = 0;
   for (size_t ray = 0; ray < hits.size(); ++ray) {
+    prefetchNormal(laterHits[ray]);
     const ConeHit& hit = hits[ray];
     if (hit.face == kNoFace) continue;
     const Vec3d direction = frame.toWorld(cone_.directions[ray]);
+    const Vec3d& normal = scene_.geometry.normals[hit.face];
     const auto length = static_cast<double>(hit.distance);
-    put(groups_[range.firstGroup + ray / kPointGroupSize], ray % kPointGroupSize,
-        {origin + length * direction, scene_.geometry.normals[hit.face],
-         hit.distance * hit.distance * static_cast<float>(cone_.solidAngles[ray]),
-         isValid(seedFace, direction, hit) && window.keeps(length), hit.face});
+    const bool isValid = !isFalseHit(cone_, seedNormal, direction, normal);
+    put(groups[ray / kPointGroupSize], ray % kPointGroupSize,
+        {origin + length * direction, normal, hit.distance * hit.distance * static_cast<float>(cone_.solidAngles[ray]),
+         isValid, hit.face});
+    lengths[validCount] = length;
+    validCount += isValid ? 1 : 0;
   }
+  if (validCount == 0) return range;
+  const LengthWindow window = keptWindow({lengths.data(), validCount}, cone_.outliers);
+  range.medianLength = static_cast<float>(window.median);
+  for (size_t ray = 0; ray < hits.size(); ++ray)
+    if (!window.keeps(static_cast<double>(hits[ray].distance)))
+      groups[ray / kPointGroupSize].isInlier[ray % kPointGroupSize] = 0;
   return range;
 }
 

@@ -22,14 +22,14 @@ class HitPoints {
   /// Prefetches the normals of the hit faces, for append(). Reads the hits.
   void prefetchNormals(uint32_t seed) const;
 
-  /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates.
-  HitRange append(uint32_t seed);
+  /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates. Meanwhile does the same as
+  /// prefetchNormals() for another seed.
+  HitRange append(uint32_t seed, uint32_t later);
 
   [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
 
  private:
-  [[nodiscard]] bool isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit& hit) const;
-  [[nodiscard]] LengthWindow inlierWindow(uint32_t seed, const ConeFrame& frame) const;
+  void prefetchNormal(const ConeHit& hit) const;
   [[nodiscard]] HitRange appendEmpty(size_t pointCount);
 
   const TraceScene& scene_;

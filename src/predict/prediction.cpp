@@ -120,12 +120,18 @@ void CellPredictor::appendHits(std::span<const uint32_t> cells) {
       newHits_.push_back(&cached);
     }
   }
-  for (size_t i = 0; i < newHits_.size() + 2 * kDistance; ++i) {
-    if (i < newHits_.size()) points_.prefetchHits(newHits_[i]->seed);
-    if (i >= kDistance && i - kDistance < newHits_.size()) points_.prefetchNormals(newHits_[i - kDistance]->seed);
-    if (i < 2 * kDistance) continue;
-    CachedHits& cached = *newHits_[i - 2 * kDistance];
-    cached.range = points_.append(cached.seed);
+  const size_t count = newHits_.size();
+  if (count == 0) return;
+  for (size_t i = 0; i < count + 2 * kDistance; ++i) {
+    if (i < count) points_.prefetchHits(newHits_[i]->seed);
+    if (i < kDistance) continue;
+    const uint32_t later = newHits_[std::min(i - kDistance, count - 1)]->seed;
+    if (i < 2 * kDistance) {
+      points_.prefetchNormals(later);
+    } else {
+      CachedHits& cached = *newHits_[i - 2 * kDistance];
+      cached.range = points_.append(cached.seed, later);
+    }
   }
 }
 
@@ -134,7 +140,7 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
   CachedHits& cached = placeOf(seed);
   if (cached.seed == kNoCell) {
     points_.prefetchNormals(seed);
-    cached = {seed, points_.append(seed)};
+    cached = {seed, points_.append(seed, seed)};
   }
   return cached.range;
 }
