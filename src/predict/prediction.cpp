@@ -34,7 +34,8 @@ class CellPredictor {
     cached_.assign(std::bit_ceil(2 * cells.size() * (1 + input_.options.neighbourCount)), {});
     appendHits(cells);
     for (size_t i = 0; i < cells.size(); ++i) {
-      if (i + 1 < cells.size()) prefetchFaces(cells[i + 1]);
+      nextFaces_ = {};
+      if (i + 1 < cells.size()) nextFaces_ = input_.cells.faces[cells[i + 1]];
       runCell(cells[i], values);
     }
   }
@@ -46,7 +47,7 @@ class CellPredictor {
   };
 
   void runCell(uint32_t cell, std::vector<double>& values);
-  void prefetchFaces(uint32_t cell) const;
+  void prefetchNextFace();
   [[nodiscard]] CachedHits& placeOf(uint32_t seed);
   void appendHits(std::span<const uint32_t> cells);
   [[nodiscard]] HitRange hitsOf(uint32_t seed);
@@ -58,8 +59,9 @@ class CellPredictor {
   const PredictionInput& input_;
   HitPoints points_;
   PredictionKernel kernel_;
-  std::vector<CachedHits> cached_;    // Hash table by seed, with open addressing. Its size is a power of two.
-  std::vector<CachedHits*> newHits_;  // Entries of cached_ that appendHits() fills.
+  std::vector<CachedHits> cached_;       // Hash table by seed, with open addressing. Its size is a power of two.
+  std::vector<CachedHits*> newHits_;     // Entries of cached_ that appendHits() fills.
+  std::span<const uint32_t> nextFaces_;  // Faces of the next cell that are not yet prefetched.
 
   // For the current cell:
   std::vector<uint32_t> remainingFaces_;
@@ -76,6 +78,7 @@ void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
   if (remainingFaces_.empty()) return;
   gatherNeighbours(input_.nearest.of(cell));
   for (const uint32_t face : remainingFaces_) {
+    prefetchNextFace();
     const Vec3d& normal = scene.geometry.normals[face];
     if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // The face is degenerate.
     const VirtualCone at{scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]), normal,
@@ -85,16 +88,18 @@ void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
     if (std::isnan(value)) value = valueAt(at, 0);
     values[face] = scene.bvh.normalization.toMeshLength(value);
   }
+  while (!nextFaces_.empty()) prefetchNextFace();
 }
 
-/// The faces of a cell are neighbours on the surface but not in memory.
-void CellPredictor::prefetchFaces(uint32_t cell) const {
+/// The faces of a cell are neighbours on the surface but not in memory. One face at a time, as in HitPoints::append().
+void CellPredictor::prefetchNextFace() {
+  if (nextFaces_.empty()) return;
   const FaceGeometry& geometry = input_.scene.geometry;
-  for (const uint32_t face : input_.cells.faces[cell]) {
-    prefetchMemory(&geometry.barycentres[face]);
-    prefetchMemory(&geometry.normals[face]);
-    prefetchMemory(&input_.scene.representatives[face]);
-  }
+  const uint32_t face = nextFaces_.front();
+  nextFaces_ = nextFaces_.subspan(1);
+  prefetchMemory(&geometry.barycentres[face]);
+  prefetchMemory(&geometry.normals[face]);
+  prefetchMemory(&input_.scene.representatives[face]);
 }
 
 /// The entry of the seed, or the empty entry for the seed.
@@ -161,7 +166,8 @@ void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
 void CellPredictor::gatherNeighbours(std::span<const uint32_t> neighbourSeeds) {
   const TraceScene& scene = input_.scene;
   neighbourHits_.clear();
-  neighbourSeeds_.assign((neighbourSeeds.size() + kPointGroupSize - 1) / kPointGroupSize, {});
+  // Lanes without a seed keep earlier numbers, whose weights are ignored.
+  neighbourSeeds_.resize((neighbourSeeds.size() + kPointGroupSize - 1) / kPointGroupSize);
   Vec3d centre;
   double sum = 0;
   for (size_t i = 0; i < neighbourSeeds.size(); ++i) {
