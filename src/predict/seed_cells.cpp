@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "shared/cone_hit.h"
 
 namespace asdfvk {
@@ -36,12 +37,15 @@ std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uin
   }
   PerThread<std::vector<uint32_t>> claimed;
   while (!front.empty()) {
-    constexpr size_t kGrain = 1024;
+    constexpr size_t kGrain = 1024, kAhead = 8;
     forEachRange(front.size(), kGrain, [&](size_t begin, size_t end) {
       std::vector<uint32_t>& own = claimed.local();
-      for (size_t i = begin; i < end; ++i)
+      for (size_t i = begin; i < end; ++i) {
+        if (i + 2 * kAhead < end) prefetchMemory(&graph.offsets[front[i + 2 * kAhead]]);
+        if (i + kAhead < end) prefetchMemory(graph.neighbours.data() + graph.offsets[front[i + kAhead]]);
         for (const uint32_t neighbour : graph.neighboursOf(front[i]))
           if (claim(cellOf[neighbour], cellOf[front[i]])) own.push_back(neighbour);
+      }
     });
     front.clear();
     claimed.forEach([&](std::vector<uint32_t>& own) {
