@@ -25,6 +25,7 @@ class HitPoints {
   /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates. Meanwhile does the same as
   /// prefetchNormals() for another seed.
   HitRange append(uint32_t seed, uint32_t later);
+  HitRange append(uint32_t seed) { return append(seed, seed); }  ///< Prefetches nothing for other seeds.
 
   [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
 

@@ -145,7 +145,7 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
   CachedHits& cached = placeOf(seed);
   if (cached.seed == kNoCell) {
     points_.prefetchNormals(seed);
-    cached = {seed, points_.append(seed, seed)};
+    cached = {seed, points_.append(seed)};
   }
   return cached.range;
 }
