@@ -1,5 +1,6 @@
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "shared/cone_hit.h"
@@ -52,16 +53,26 @@ ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b,
   return a * b + c;
 }
 
+/// What the steps of the walk read, an entry per ray. A step has only about 60 instructions, so each entry is what a
+/// single load needs.
 struct RayRows {
   using Floats = RayGroup::Floats;
+  using Indices = RayGroup::Indices;
 
   // The distance to a near plane is plane * inverse + near; to a far plane, plane * inverse + far. nears and fars
   // include the margin of the boxes.
   alignas(32) std::array<Floats, 3> inverses, nears, fars;
-  // Shear along mainAxes, the axis of the longest component of the direction (Woop, Benthin and Wald 2013).
+  // Shear along mainAxes, the axis of the longest component of the direction (Woop, Benthin and Wald 2013). The main
+  // axis becomes z; x and y are the next two axes.
   alignas(32) Floats shearsX, shearsY, mainDirections;
-  alignas(32) std::array<int32_t, RayGroup::kWidth> signs, mainAxes;  // Bit 0 of the signs: x is negative.
-  alignas(32) Floats limits;                                          // RayHitDistance::compared of the nearest hit.
+  alignas(32) Floats originsX, originsY, originsZ;
+  // Bit i of a flip is set if the direction is positive along axis i. The ray enters slot j ^ flip before slot i ^ flip
+  // if i < j.
+  alignas(32) std::array<int32_t, RayGroup::kWidth> flips, mainAxes;
+  // Offsets in bytes of rows of LaneNode::planes: near x, far x, near y, far y, near z, far z.
+  alignas(32) std::array<Indices, 6> planeOffsets;
+  alignas(32) Floats zeros;
+  alignas(32) Floats limits;  // RayHitDistance::compared of the nearest hit.
 };
 
 ASDFVK_ALWAYS_INLINE inline Float8 absolute(const Float8& x) {
@@ -75,10 +86,11 @@ ASDFVK_ALWAYS_INLINE inline Float8 choose(const Ints8& isZ, const Ints8& isY, co
 }
 
 ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
-  Float8 d[3];
+  Float8 d[3], o[3];
   Ints8 signs{};
   for (size_t axis = 0; axis < 3; ++axis) {
     const Float8 origin = load<Float8>(rays.origins[axis].data());
+    o[axis] = origin;
     d[axis] = load<Float8>(rays.directions[axis].data());
     const Ints8 sign = reinterpret_cast<Ints8>(d[axis]) & kSignBit;
     const Float8 tiny = reinterpret_cast<Float8>(sign | std::bit_cast<int32_t>(kTinyDirection));
@@ -87,6 +99,11 @@ ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
     store(rows.inverses[axis].data(), inverse);
     store(rows.nears[axis].data(), sign != 0 ? upper : lower);
     store(rows.fars[axis].data(), sign != 0 ? lower : upper);
+    constexpr int32_t kRowSize = sizeof(LaneNode::planes[0][0]);
+    const auto lowerOffset = static_cast<int32_t>(offsetof(LaneNode, planes) + 2 * axis * kRowSize);
+    const Ints8 change = Ints8{sign != 0} & kRowSize;
+    store(rows.planeOffsets[2 * axis].data(), lowerOffset + change);
+    store(rows.planeOffsets[2 * axis + 1].data(), lowerOffset + kRowSize - change);
     signs |= sign != 0 ? broadcast<Ints8>(1 << axis) : Ints8{};
   }
   const Ints8 isZ = absolute(d[2]) >= max(absolute(d[0]), absolute(d[1])), isY = absolute(d[1]) > absolute(d[0]);
@@ -94,37 +111,42 @@ ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
   store(rows.shearsX.data(), choose(isZ, isY, d[0], d[2], d[1]) / main);
   store(rows.shearsY.data(), choose(isZ, isY, d[1], d[0], d[2]) / main);
   store(rows.mainDirections.data(), main);
-  store(rows.signs.data(), signs);
+  store(rows.flips.data(), signs ^ 7);
   store(rows.mainAxes.data(), isZ ? broadcast<Ints8>(2) : isY ? broadcast<Ints8>(1) : Ints8{});
+  store(rows.originsX.data(), choose(isZ, isY, o[0], o[2], o[1]));
+  store(rows.originsY.data(), choose(isZ, isY, o[1], o[0], o[2]));
+  store(rows.originsZ.data(), choose(isZ, isY, o[2], o[1], o[0]));
+  rows.zeros = {};
   rows.limits = rays.ends;
 }
 
 /// Writes the children that the ray enters, the farthest first, and returns their number. Needs room for kBvhLaneCount
-/// entries. The order is approximate, by slot ^ signs (chooseSlots()).
+/// entries. The order is approximate (chooseSlots()).
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline uint32_t enterChildren(const LaneNode& node, const RayRows& rows, size_t ray,
                                                    float* distances, uint32_t* references) {
-  const int32_t signs = rows.signs[ray];
-  Float8 enter{}, leave = broadcast<Float8>(rows.limits[ray]);
+  // `number - Float8{}` has the number in all lanes and is one instruction. broadcast() is three, and so is the maximum
+  // with a constant 0.
+  Float8 enter = load<Float8>(rows.zeros.data()), leave = rows.limits[ray] - Float8{};
+  const auto planes = [&](size_t row) ASDFVK_ALWAYS_INLINE {
+    return load<Float8>(
+        reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(&node) + rows.planeOffsets[row][ray]));
+  };
   for (size_t axis = 0; axis < 3; ++axis) {
-    const size_t isNegative = static_cast<size_t>(signs) >> axis & 1;
-    const Float8 inverse = broadcast<Float8>(rows.inverses[axis][ray]);
-    const Float8 near = multiplyAdd<Floats>(load<Float8>(node.planes[axis][isNegative].data()), inverse,
-                                            broadcast<Float8>(rows.nears[axis][ray]));
-    const Float8 far = multiplyAdd<Floats>(load<Float8>(node.planes[axis][1 - isNegative].data()), inverse,
-                                           broadcast<Float8>(rows.fars[axis][ray]));
+    const Float8 inverse = rows.inverses[axis][ray] - Float8{};
+    const Float8 near = multiplyAdd<Floats>(planes(2 * axis), inverse, rows.nears[axis][ray] - Float8{});
+    const Float8 far = multiplyAdd<Floats>(planes(2 * axis + 1), inverse, rows.fars[axis][ray] - Float8{});
     enter = max(near, enter);
     leave = min(far, leave);
   }
   static_assert(kBvhLaneCount == kLaneCount<Float8>);
 #if defined(__x86_64__) && !defined(__clang__)
   if constexpr (kHasShuffles<Floats>) {
-    const Ints8 order = Ints8{7, 6, 5, 4, 3, 2, 1, 0} ^ signs;
-    const Float8 ordered = __builtin_shuffle(enter, order);
-    const uint32_t bits = maskBits<Floats>(ordered <= __builtin_shuffle(leave, order));
-    const Ints8 compaction = load<Ints8>(kCompaction.lanes[bits].data());
-    store(distances, __builtin_shuffle(ordered, compaction));
-    store(references, __builtin_shuffle(__builtin_shuffle(load<Ints8>(node.children.data()), order), compaction));
+    const Ints8 flip = rows.flips[ray] - Ints8{};
+    const uint32_t bits = maskBits<Floats>(__builtin_shuffle(enter <= leave, Ints8{0, 1, 2, 3, 4, 5, 6, 7} ^ flip));
+    const Ints8 slots = load<Ints8>(kCompaction.lanes[bits].data()) ^ flip;
+    store(distances, __builtin_shuffle(enter, slots));
+    store(references, __builtin_shuffle(load<Ints8>(node.children.data()), slots));
     return static_cast<uint32_t>(std::popcount(bits));
   }
 #endif
@@ -132,8 +154,8 @@ ASDFVK_ALWAYS_INLINE inline uint32_t enterChildren(const LaneNode& node, const R
   std::array<float, kBvhLaneCount> enters;
   store(enters.data(), enter);
   uint32_t count = 0;
-  for (uint32_t i = kBvhLaneCount; i-- > 0;) {
-    const uint32_t slot = i ^ static_cast<uint32_t>(signs);
+  for (uint32_t i = 0; i < kBvhLaneCount; ++i) {
+    const uint32_t slot = i ^ static_cast<uint32_t>(rows.flips[ray]);
     if ((bits >> slot & 1) == 0) continue;
     distances[count] = enters[slot];
     references[count++] = node.children[slot];
@@ -163,8 +185,9 @@ RayHitDistance distanceToPlane(const TrianglePlane& plane, const RayGroup& rays,
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<const TrianglePlane> planes, RayRows& rows,
                                            size_t ray, RayGroup& rays) {
-  const auto z = static_cast<size_t>(rows.mainAxes[ray]), x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
-  const float originX = rays.origins[x][ray], originY = rays.origins[y][ray], originZ = rays.origins[z][ray];
+  static constexpr std::array<uint8_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
+  const auto z = static_cast<size_t>(rows.mainAxes[ray]), x = size_t{kNext[z]}, y = size_t{kPrevious[z]};
+  const float originX = rows.originsX[ray], originY = rows.originsY[ray], originZ = rows.originsZ[ray];
   const float shearX = rows.shearsX[ray], shearY = rows.shearsY[ray];
   struct Corner {
     Float8 x, y, z;  // x, y: across the ray. z: along the main axis.
@@ -216,40 +239,48 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
   return isChanged;
 }
 
+/// The lowest entry of a stack, which no limit removes.
+constexpr float kEndDistance = -std::numeric_limits<float>::infinity();
+constexpr uint32_t kEnd = ~0U;
+
 template <typename Floats, bool kEndsAtAnyHit>
 ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, std::span<const TrianglePlane> planes, RayGroup& rays,
                                       std::array<RayWalk::Stack, RayGroup::kWidth>& stacks) {
   RayRows rows;
   prepare(rays, rows);
-  std::array<uint32_t, RayGroup::kWidth> running, sizes;
+  std::array<uint32_t, RayGroup::kWidth> running;
+  std::array<float*, RayGroup::kWidth> tops;  // Distances of the entries on the top.
   size_t runningCount = 0;
   for (uint32_t bits = rays.active; bits != 0; bits &= bits - 1) {
     const auto ray = static_cast<uint32_t>(std::countr_zero(bits));
     running[runningCount++] = ray;
-    sizes[ray] = 1;
-    stacks[ray].distances[0] = 0;
-    stacks[ray].references[0] = 0;
+    stacks[ray].distances[0] = kEndDistance;
+    stacks[ray].references[0] = kEnd;
+    stacks[ray].distances[1] = 0;
+    stacks[ray].references[1] = 0;
+    tops[ray] = &stacks[ray].distances[1];
   }
   while (runningCount > 0)
     for (size_t i = 0; i < runningCount;) {
       const uint32_t ray = running[i];
-      RayWalk::Stack& stack = stacks[ray];
-      uint32_t size = sizes[ray];
-      do --size;
-      while (stack.distances[size] > rows.limits[ray] && size > 0);
-      if (stack.distances[size] <= rows.limits[ray]) {
-        const uint32_t reference = stack.references[size];
-        if ((reference & kLaneBlockBit) == 0)
-          size +=
-              enterChildren<Floats>(bvh.nodes[reference], rows, ray, &stack.distances[size], &stack.references[size]);
-        else if (testBlock<Floats>(bvh.blocks[reference & ~kLaneBlockBit], planes, rows, ray, rays) && kEndsAtAnyHit)
-          size = 0;
-      }
-      sizes[ray] = size;
-      if (size > 0)
-        ++i;
-      else
+      float* top = tops[ray];
+      const float limit = rows.limits[ray];
+      while (*top > limit) --top;
+      uint32_t* const references = stacks[ray].referenceOf(top);
+      const uint32_t reference = *references;
+      if ((reference & kLaneBlockBit) == 0) {
+        top += enterChildren<Floats>(bvh.nodes[reference], rows, ray, top, references);
+        --top;
+      } else if (reference != kEnd) {
+        const bool isHit = testBlock<Floats>(bvh.blocks[reference & ~kLaneBlockBit], planes, rows, ray, rays);
+        --top;
+        if (isHit && kEndsAtAnyHit) top = &stacks[ray].distances[0];
+      } else {
         running[i] = running[--runningCount];
+        continue;
+      }
+      tops[ray] = top;
+      ++i;
     }
 }
 

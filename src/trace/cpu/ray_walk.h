@@ -45,10 +45,16 @@ class RayWalk {
   /// Finds any one hit of each active ray.
   void findAny(RayGroup& rays);
 
-  /// The nodes and blocks that are still to be tested, and the distances at which the ray enters them.
+  /// The nodes and blocks that are still to be tested, and the distances at which the ray enters them; below them, an
+  /// entry that marks the end.
   struct Stack {
-    std::array<float, kLaneStackSize> distances;
-    std::array<uint32_t, kLaneStackSize> references;
+    std::array<float, kLaneStackSize + 1> distances;
+    std::array<uint32_t, kLaneStackSize + 1> references;
+
+    /// The reference of the entry with this distance.
+    [[nodiscard]] uint32_t* referenceOf(const float* distance) {
+      return references.data() + (distance - distances.data());
+    }
   };
 
  private:
