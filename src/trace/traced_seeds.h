@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/unset_vector.h"
 #include "mesh/mesh.h"
 #include "trace/cone_tracer.h"
 
@@ -16,7 +17,7 @@ struct TracedSeeds {
   std::vector<double> values;   ///< #F; NaN if no ray was cast or no hit was valid.
   std::vector<uint8_t> isSeed;  ///< #F, 1 if rays were cast.
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
-  std::vector<ConeHit> hits;    ///< #S x hitsPerSeed, see ConeResults::hits.
+  UnsetVector<ConeHit> hits;    ///< #S x hitsPerSeed, see ConeResults::hits.
   size_t hitsPerSeed = 0;
   TraceStatistics statistics;
 };
