@@ -117,7 +117,7 @@ class StagedEntries {
       // memory.
       callIsolated([&] { sortInParallel(entries.begin(), entries.end()); });
     } else {
-      sortFew(entries);
+      sortShortList(entries);
     }
   }
 

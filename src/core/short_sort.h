@@ -8,14 +8,14 @@
 
 namespace asdfvk {
 
-/// Sorts items that are nearly always few. Counts the rank of each item without branches,
-/// because processors cannot predict the branches of std::sort.
+/// Sorts a list that is nearly always short. Up to 16 items are sorted by their ranks, which are counted without
+/// branches, because processors cannot predict the branches of std::sort.
 template <typename T>
-void sortFew(std::span<T> items) {
-  constexpr size_t kFew = 16;
-  if (items.size() > kFew) return std::sort(items.begin(), items.end());
-  std::array<T, kFew> sorted;
-  std::array<uint8_t, kFew> ranks{};
+void sortShortList(std::span<T> items) {
+  constexpr size_t kMaxShort = 16;
+  if (items.size() > kMaxShort) return std::sort(items.begin(), items.end());
+  std::array<T, kMaxShort> sorted;
+  std::array<uint8_t, kMaxShort> ranks{};
   for (size_t i = 1; i < items.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const bool isLess = items[i] < items[j];

@@ -25,7 +25,7 @@ struct PlyProperty {
   std::string_view name;
   PlyType type{};               ///< Type of the number, or of the items of a list.
   std::optional<PlyType> list;  ///< Type of the list length; unset for a number.
-  uint64_t offset = 0;          ///< Byte in a binary row whose lists are empty.
+  uint64_t offset = 0;          ///< In bytes, in a binary row whose lists are empty.
 };
 
 enum class PlyRole { Other, Vertices, Faces, Strips };
@@ -43,7 +43,7 @@ struct PlyElement {
   std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};
   size_t indices = kNoProperty;  ///< Index of the property vertex_indices or vertex_index of Faces and Strips.
 
-  /// A number or a list length of a text has at least a digit and a blank.
+  /// In a text, a number or a list length has at least a digit and a blank.
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const {
     return encoding == PlyEncoding::Ascii ? 2 * properties.size() : rowSize;
   }

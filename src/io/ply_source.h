@@ -54,8 +54,8 @@ template <typename Out, bool kIsSwapped>
 
 // PlyAsciiSource and PlyBinarySource read the numbers after a PLY header through the same functions. expected: name of
 // the number in the error message of a truncated file. fail() reports the position of the last number. takePoints() and
-// takeTriangles() quickly read the first rows of an element, until a row is invalid or has another form, and return the
-// number of these rows.
+// takeTriangles() read the first rows of an element without a check per number. They stop at the first row that is
+// invalid or has another layout, and return the number of rows that they read.
 
 /// Rows of text. A row may continue on further lines, but must begin on a new line. If a row has too many values, the
 /// error message therefore has the line of this row.
@@ -128,8 +128,8 @@ class PlyBinarySource {
   uint64_t takeTriangles(const PlyElement& element, uint64_t vertexCount, std::vector<Face>& triangles) {
     const PlyProperty& list = element.properties[element.indices];
     if (element.listCount != 1 || sizeOf(*list.list) != 1 || sizeOf(list.type) != 4) return 0;
-    triangles.reserve(element.count);
-    // Above this limit, an index may be negative.
+    triangles.reserve(std::min(element.count, remaining() / (element.rowSize + sizeof(Face))));
+    // From 2^31 on, an index of a signed type is negative.
     const uint64_t end = std::min(vertexCount, uint64_t{1} << 31);
     return takeRows(element, sizeof(Face), [&](uint64_t, const char* row) {
       const char* const length = row + list.offset;

@@ -63,10 +63,14 @@ class ElementFields {
     if (main_ != nullptr) put(withoutNan((*main_->reals())[item]));
     if (!colours_.empty())
       for (const uint8_t channel : colours_[item]) put(channel);
-    for (const FieldColumn& column : columns_) column.putEntry(item, [&](auto entry) { put(withoutNan(entry)); });
+    for (const FieldColumn& column : columns_)
+      column.putEntry(item, [&](auto entry) {
+        static_assert(sizeof(withoutNan(entry)) <= sizeof(float));
+        put(withoutNan(entry));
+      });
   }
 
-  /// Upper limit of the number of bytes of a row.
+  /// Upper limit of the number of bytes of putRow() in a binary file.
   [[nodiscard]] size_t maxRowSize() const { return sizeof(float) + sizeof(Rgba) + columns_.size() * sizeof(float); }
 
  private:

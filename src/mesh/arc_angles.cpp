@@ -22,10 +22,10 @@ auto signedAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g, const Ang
 }
 
 // The arc tangent is accurate for small angles, unlike the arc cosine.
-double exactAngle(double sine, double cosine) { return std::atan2(sine, cosine); }
+double arcTangent(double sine, double cosine) { return std::atan2(sine, cosine); }
 
-/// exactAngle() rounded to float. For small angles by a power series, which is faster, unless its error could change
-/// the rounding.
+/// arcTangent() rounded to float. Small angles use a power series, which is faster. Where the error of the series could
+/// change the rounded result, the arc tangent is used.
 float roundedAngle(double sine, double cosine) {
   constexpr double kMaxTangent = 0.25, kMaxError = 1e-11;  // The first omitted term is below 1e-12 of the angle.
   if (sine < kMaxTangent * cosine) {
@@ -36,13 +36,13 @@ float roundedAngle(double sine, double cosine) {
     const auto low = static_cast<float>(angle * (1 - kMaxError)), high = static_cast<float>(angle * (1 + kMaxError));
     if (low == high) return low;
   }
-  return static_cast<float>(exactAngle(sine, cosine));
+  return static_cast<float>(arcTangent(sine, cosine));
 }
 
 }  // namespace
 
 double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
-  return signedAngle(geometry, f, g, exactAngle);
+  return signedAngle(geometry, f, g, arcTangent);
 }
 
 std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry) {

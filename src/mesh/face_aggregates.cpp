@@ -87,7 +87,7 @@ void connect(const DualGraph& graph, const Buckets<uint32_t>& members, FaceAggre
       for (const uint32_t face : members[aggregate])
         for (const uint32_t neighbour : graph.neighboursOf(face))
           if (aggregates.aggregateOf[neighbour] != aggregate) rows.push_back(aggregates.aggregateOf[neighbour]);
-      sortFew(std::span(rows.begin() + begin, rows.end()));
+      sortShortList(std::span(rows.begin() + begin, rows.end()));
       rows.erase(std::unique(rows.begin() + begin, rows.end()), rows.end());
       offsets[aggregate + 1] = static_cast<uint32_t>(rows.size() - static_cast<size_t>(begin));
     }

@@ -17,6 +17,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine some rows of a small mesh.
+static_assert(kBlockRowCount % kRowsAtOnce == 0);
 constexpr size_t kLaneCount = 8;
 constexpr uint32_t kIterationsPerCheckpoint = 8;
 

@@ -11,8 +11,9 @@
 namespace asdfvk {
 
 /// Number of rows that are multiplied at a time. The first-level cache still has the products when the products are
-/// summed.
+/// summed. The number of a row among these rows fits into a byte.
 inline constexpr size_t kRowsAtOnce = 256;
+static_assert(kRowsAtOnce <= 256);
 
 /// Scaling of a Poisson system by its diagonal D: A e = residual becomes (I - S) y = b with S = I - D^-1/2 A D^-1/2,
 /// see shaders/shared/poisson_layout.h.
@@ -55,7 +56,7 @@ class ScaledSystem : public DiagonalScaling<float> {
   [[nodiscard]] const UnsetVector<uint32_t>& tailColumns() const { return tailColumns_; }
   [[nodiscard]] const UnsetVector<float>& tailCouplings() const { return tailCouplings_; }
 
-  /// product = (I - S) p for the rows [begin, end). p: #U. begin: a multiple of kRowsAtOnce; end: at most kRowsAtOnce
+  /// product = (I - S) p for the rows [begin, end). p: #U. begin: a multiple of kRowsAtOnce; end: 1 to kRowsAtOnce
   /// more.
   void multiplyRows(const float* p, float* product, size_t begin, size_t end) const;
 

@@ -69,7 +69,7 @@ HitRange HitPoints::appendEmpty(size_t pointCount) {
   return range;
 }
 
-// One prefetch per ray, because prefetches that immediately follow each other fill the queue of the cache.
+// One prefetch per ray, because prefetches that immediately follow each other wait for free line fill buffers.
 HitRange HitPoints::append(uint32_t seed, uint32_t later) {
   const std::span<const ConeHit> hits = hits_.of(seed), laterHits = hits_.of(later);
   const uint32_t seedFace = hits_.seeds[seed];

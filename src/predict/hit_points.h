@@ -22,8 +22,8 @@ class HitPoints {
   /// Prefetches the normals of the hit faces, for append(). Reads the hits.
   void prefetchNormals(uint32_t seed) const;
 
-  /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates. Meanwhile does the same as
-  /// prefetchNormals() for another seed.
+  /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates. Also prefetches the
+  /// normals of the hits of `later`, a seed that is appended later.
   HitRange append(uint32_t seed, uint32_t later);
   HitRange append(uint32_t seed) { return append(seed, seed); }  ///< Prefetches nothing for other seeds.
 

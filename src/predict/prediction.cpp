@@ -143,10 +143,7 @@ void CellPredictor::appendHits(std::span<const uint32_t> cells) {
 /// The hit points of the seed. Appends them if appendHits() has not, because the cell keeps some of its earlier values.
 HitRange CellPredictor::hitsOf(uint32_t seed) {
   CachedHits& cached = placeOf(seed);
-  if (cached.seed == kNoCell) {
-    points_.prefetchNormals(seed);
-    cached = {seed, points_.append(seed)};
-  }
+  if (cached.seed == kNoCell) cached = {seed, points_.append(seed)};
   return cached.range;
 }
 

@@ -37,12 +37,12 @@ std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uin
   }
   PerThread<std::vector<uint32_t>> claimed;
   while (!front.empty()) {
-    constexpr size_t kGrain = 1024, kAhead = 8;
+    constexpr size_t kGrain = 1024, kDistance = 8;  // Neighbours are prefetched 8 faces ahead, offsets 16 faces.
     forEachRange(front.size(), kGrain, [&](size_t begin, size_t end) {
       std::vector<uint32_t>& own = claimed.local();
       for (size_t i = begin; i < end; ++i) {
-        if (i + 2 * kAhead < end) prefetchMemory(&graph.offsets[front[i + 2 * kAhead]]);
-        if (i + kAhead < end) prefetchMemory(graph.neighbours.data() + graph.offsets[front[i + kAhead]]);
+        if (i + 2 * kDistance < end) prefetchMemory(&graph.offsets[front[i + 2 * kDistance]]);
+        if (i + kDistance < end) prefetchMemory(graph.neighbours.data() + graph.offsets[front[i + kDistance]]);
         for (const uint32_t neighbour : graph.neighboursOf(front[i]))
           if (claim(cellOf[neighbour], cellOf[front[i]])) own.push_back(neighbour);
       }

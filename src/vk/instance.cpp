@@ -140,7 +140,11 @@ Instance::~Instance() {
   // One instance remains until the end of the process, so that the loader does not unload the drivers. A process cannot
   // load the driver of NVIDIA (580) again after it unloaded the driver about twenty times.
   static std::atomic<bool> oneRemains = false;
-  if (oneRemains.exchange(true)) vkDestroyInstance(instance_, nullptr);
+  static std::shared_ptr<ValidationLog> logOfRemaining;
+  if (oneRemains.exchange(true))
+    vkDestroyInstance(instance_, nullptr);
+  else
+    logOfRemaining = log_;
 }
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {

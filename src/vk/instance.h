@@ -25,8 +25,9 @@ struct InstanceOptions {
   bool validation = false;
 };
 
-/// A Vulkan 1.2 instance. Also lists devices of incomplete implementations (VK_KHR_portability_subset). Throws
-/// Error{Device} with the reason if there is no loader or no driver.
+/// A Vulkan 1.2 instance. The first one that is destroyed remains until the end of the process. Also lists devices of
+/// incomplete implementations (VK_KHR_portability_subset). Throws Error{Device} with the reason if there is no loader
+/// or no driver.
 class Instance {
  public:
   explicit Instance(const InstanceOptions& options = {});

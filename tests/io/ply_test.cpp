@@ -60,7 +60,37 @@ void requireTriangleAndQuad(std::string_view coordinateType, std::string_view in
   }
 }
 
+/// Two triangles around a quad, with further properties. lengthType: the type Length of the list lengths.
+template <typename Length>
+std::string plyWithFurtherProperties(std::string_view lengthType, bool isBig) {
+  std::string text = std::string("ply\nformat binary_") + (isBig ? "big" : "little") + "_endian 1.0\n" +
+                     "element vertex 4\nproperty uchar tag\nproperty float z\nproperty double y\nproperty float x\n" +
+                     "element face 3\nproperty float quality\nproperty list " + std::string(lengthType) +
+                     " int vertex_indices\nproperty uchar seed\nend_header\n";
+  for (int i = 0; i < 4; ++i)
+    text += packed(uint8_t{7}, isBig) + packed(0.5F + static_cast<float>(i), isBig) +
+            packed(static_cast<double>(i * i), isBig) + packed(static_cast<float>(i), isBig);
+  for (const std::vector<int>& corners : {std::vector{0, 1, 2}, std::vector{0, 1, 2, 3}, std::vector{3, 2, 1}}) {
+    text += packed(0.25F, isBig) + packed(static_cast<Length>(corners.size()), isBig);
+    for (const int corner : corners) text += packed(corner, isBig);
+    text += packed(uint8_t{1}, isBig);
+  }
+  return text;
+}
+
 }  // namespace
+
+TEST_CASE("binary PLY rows of triangles, and other rows, may have further properties") {
+  for (const bool isBig : {false, true})
+    for (const std::string& text :
+         {plyWithFurtherProperties<uint8_t>("uchar", isBig), plyWithFurtherProperties<int32_t>("int", isBig)}) {
+      CAPTURE(isBig);
+      const Mesh mesh = parse("ply", text);
+      CHECK(mesh.vertices == std::vector<Vec3d>{{0, 0, 0.5}, {1, 1, 1.5}, {2, 4, 2.5}, {3, 9, 3.5}});
+      CHECK(mesh.polygons.corners == std::vector<uint32_t>{0, 1, 2, 0, 1, 2, 3, 3, 2, 1});
+      CHECK(mesh.polygons.inputFaceOf == std::vector<uint32_t>{0, 1, 1, 2});
+    }
+}
 
 TEST_CASE("PLY numbers of every type are read in both byte orders") {
   requireTriangleAndQuad<int8_t, uint8_t>("char", "uchar");
@@ -128,7 +158,7 @@ TEST_CASE("PLY properties, lists and elements outside of the mesh are ignored in
 TEST_CASE("every truncation of a PLY file is an error") {
   for (const std::string& whole :
        {binaryPly<float, int32_t>("float", "int", false), binaryPly<double, uint8_t>("double", "uchar", true),
-        asciiPly("0 0 0\n1 0 0\n0 1 0\n3 0 1 2")})
+        plyWithFurtherProperties<uint8_t>("uchar", true), asciiPly("0 0 0\n1 0 0\n0 1 0\n3 0 1 2")})
     for (size_t size = 0; size < whole.size(); ++size) {
       CAPTURE(size);
       CHECK(errorOf("ply", std::string_view(whole).substr(0, size)) != "no error");
@@ -238,7 +268,8 @@ TEST_CASE("an index out of range in a binary PLY of triangles is an error") {
       bytes += '\3';
       for (const int corner : face) bytes += packed(corner, false);
     }
-    CHECK(holds(errorOf("ply", bytes), "vertex index " + std::to_string(index) + " is out of range"));
+    CHECK(errorOf("ply", bytes) == "byte " + std::to_string(bytes.size() - 2 * sizeof(int)) + ": vertex index " +
+                                       std::to_string(index) + " is out of range; the mesh has 3 vertices");
   }
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/random.h"
+#include "generate/shapes.h"
 #include "mesh/arc_angles.h"
 #include "seeds/surface.h"
 #include "seeds/surface_distances.h"
@@ -42,6 +44,28 @@ TEST_CASE("the dihedral angle is 0 when flat, positive when concave, negative wh
       CHECK(signedDihedralAngle(surface.geometry, 1, 0) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
     }
   }
+}
+
+TEST_CASE("angles of arcs are the dihedral angles rounded to float") {
+  const auto differingCount = [](const Mesh& mesh) {
+    const Surface surface(mesh);
+    const std::vector<float> angles = arcAngles(surface.graph, surface.geometry);
+    size_t count = 0, arc = 0;
+    for (uint32_t face = 0; face < surface.graph.faceCount(); ++face)
+      for (const uint32_t neighbour : surface.graph.neighboursOf(face))
+        count += angles[arc++] != static_cast<float>(signedDihedralAngle(surface.geometry, face, neighbour));
+    CHECK(arc > 0);
+    return count;
+  };
+  size_t count = 0;
+  Random random(1);
+  for (int i = 0; i < 3000; ++i) {
+    const double degrees = i < 1000 ? 14 + 0.0001 * i : 16 * static_cast<double>(random.next() >> 32) * 0x1p-32;
+    count += differingCount(book(degrees));
+  }
+  for (const std::string_view name : {"animal", "sphere", "cylinder", "cube"})
+    count += differingCount(generateShape(name, 20'000).mesh);
+  CHECK(count == 0);
 }
 
 TEST_CASE("an arc is 1 when flat, and sqrt 2 at 10 degrees concave and 20 convex, at any scale") {

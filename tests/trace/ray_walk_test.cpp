@@ -60,6 +60,15 @@ TEST_CASE("the walk of the CPU finds the nearest hits of the reference, with the
       RayWalk walk(bvh, {}, instructionSet);
       std::vector<RayGroup>& own = results[instructionSet == InstructionSet::Baseline ? 0 : 1] = groups;
       for (RayGroup& group : own) walk.findNearest(group);
+      size_t wrongCount = 0;
+      for (const RayGroup& nearest : own) {
+        RayGroup any = nearest;
+        walk.findAny(any);
+        for (size_t ray = 0; ray < RayGroup::kWidth; ++ray)
+          wrongCount += (any.primitives[ray] == kNoFace) != (nearest.primitives[ray] == kNoFace) ||
+                        any.distances[ray] < nearest.distances[ray];
+      }
+      CHECK(wrongCount == 0);
     }
     size_t differing = 0, hitCount = 0;
     for (size_t i = 0; i < groups.size(); ++i)

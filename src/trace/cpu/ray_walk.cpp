@@ -53,8 +53,7 @@ ASDFVK_ALWAYS_INLINE inline Float8 multiplyAdd(const Float8& a, const Float8& b,
   return a * b + c;
 }
 
-/// What the steps of the walk read, an entry per ray. A step has only about 60 instructions, so each entry is what a
-/// single load needs.
+/// Data of each ray that the steps of the walk read, prepared so that each value is a single load.
 struct RayRows {
   using Floats = RayGroup::Floats;
   using Indices = RayGroup::Indices;
@@ -66,8 +65,8 @@ struct RayRows {
   // axis becomes z; x and y are the next two axes.
   alignas(32) Floats shearsX, shearsY, mainDirections;
   alignas(32) Floats originsX, originsY, originsZ;
-  // Bit i of a flip is set if the direction is positive along axis i. The ray enters slot j ^ flip before slot i ^ flip
-  // if i < j.
+  // Bit `axis` of a flip is set if the direction is positive along the axis. The ray enters slot j ^ flip before slot
+  // i ^ flip if i < j.
   alignas(32) std::array<int32_t, RayGroup::kWidth> flips, mainAxes;
   // Offsets in bytes of rows of LaneNode::planes: near x, far x, near y, far y, near z, far z.
   alignas(32) std::array<Indices, 6> planeOffsets;
@@ -125,8 +124,8 @@ ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline uint32_t enterChildren(const LaneNode& node, const RayRows& rows, size_t ray,
                                                    float* distances, uint32_t* references) {
-  // `number - Float8{}` has the number in all lanes and is one instruction. broadcast() is three, and so is the maximum
-  // with a constant 0.
+  // `number - Float8{}` has the number in all lanes and is one instruction of AVX; broadcast() is three. The maximum
+  // with a constant 0 is three, too; with zeros from memory it is one.
   Float8 enter = load<Float8>(rows.zeros.data()), leave = rows.limits[ray] - Float8{};
   const auto planes = [&](size_t row) ASDFVK_ALWAYS_INLINE {
     return load<Float8>(
@@ -239,9 +238,10 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
   return isChanged;
 }
 
-/// The lowest entry of a stack, which no limit removes.
+/// The entry at the bottom of a stack. Its distance is below every limit.
 constexpr float kEndDistance = -std::numeric_limits<float>::infinity();
 constexpr uint32_t kEnd = ~0U;
+static_assert((kEnd & kLaneBlockBit) != 0);
 
 template <typename Floats, bool kEndsAtAnyHit>
 ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, std::span<const TrianglePlane> planes, RayGroup& rays,
