@@ -9,7 +9,6 @@
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
-#include "core/short_sort.h"
 
 namespace asdfvk {
 
@@ -116,8 +115,8 @@ class StagedEntries {
       // Isolated, because the thread must not start another run during the sort: that run would overwrite the scratch
       // memory.
       callIsolated([&] { sortInParallel(entries.begin(), entries.end()); });
-    } else {
-      sortShortList(entries);
+    } else if (entries.size() > 1) {
+      std::sort(entries.begin(), entries.end());
     }
   }
 

@@ -12,9 +12,7 @@ namespace {
 struct Fingerprint {
   uint32_t hash;
   uint32_t vertex;
-  /// Both numbers in one, so that a comparison has no branch.
-  [[nodiscard]] uint64_t key() const { return uint64_t{hash} << 32 | vertex; }
-  bool operator<(const Fingerprint& other) const { return key() < other.key(); }
+  auto operator<=>(const Fingerprint&) const = default;
 };
 
 /// A face in the bucket of its lowest vertex. otherVertices: its other two vertices, in the order of the winding.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -15,9 +16,7 @@ struct EdgeEntry {
   uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to its next corner.
 
   [[nodiscard]] uint32_t face() const { return corner / 3; }
-  /// Both numbers in one, so that a comparison has no branch.
-  [[nodiscard]] uint64_t key() const { return uint64_t{upperVertex} << 32 | corner; }
-  bool operator<(const EdgeEntry& other) const { return key() < other.key(); }
+  auto operator<=>(const EdgeEntry&) const = default;
 };
 
 /// The faces around every edge, in buckets by the lower vertex of the edge. Memory: 36 bytes per face.

@@ -9,7 +9,6 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
-#include "core/short_sort.h"
 
 namespace asdfvk {
 namespace {
@@ -87,7 +86,7 @@ void connect(const DualGraph& graph, const Buckets<uint32_t>& members, FaceAggre
       for (const uint32_t face : members[aggregate])
         for (const uint32_t neighbour : graph.neighboursOf(face))
           if (aggregates.aggregateOf[neighbour] != aggregate) rows.push_back(aggregates.aggregateOf[neighbour]);
-      sortShortList(std::span(rows.begin() + begin, rows.end()));
+      std::sort(rows.begin() + begin, rows.end());
       rows.erase(std::unique(rows.begin() + begin, rows.end()), rows.end());
       offsets[aggregate + 1] = static_cast<uint32_t>(rows.size() - static_cast<size_t>(begin));
     }
