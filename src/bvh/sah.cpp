@@ -12,7 +12,7 @@ constexpr uint32_t kMaxBinCount = 32;
 // good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
-// For each axis and bin: the bounding box and the number of those triangles of the sample that are in the bin.
+// The bounding box and the number of the sampled triangles in each bin of each axis.
 struct Bins {
   std::array<std::array<Float8, kMaxBinCount>, 3> boxes;
   std::array<std::array<uint32_t, kMaxBinCount>, 3> counts{};

@@ -10,7 +10,7 @@
 namespace asdfvk {
 
 /// The numbers that are not NaN, in their order.
-[[nodiscard]] inline std::vector<double> withoutNaN(std::span<const double> numbers) {
+[[nodiscard]] inline std::vector<double> presentNumbers(std::span<const double> numbers) {
   std::vector<double> present;
   present.reserve(numbers.size());
   std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(present), [](double n) { return !std::isnan(n); });

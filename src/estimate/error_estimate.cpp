@@ -29,7 +29,7 @@ double tracedRange(const EstimateInput& input) {
 
 /// The 99th minus the 1st percentile of the values. Precondition: a face has a value.
 double robustRange(std::span<const double> values) {
-  std::vector<double> present = withoutNaN(values);
+  std::vector<double> present = presentNumbers(values);
   const double low = percentileOf(present, 0.01);
   return percentileOf(present, 0.99) - low;
 }

@@ -25,7 +25,7 @@ struct PlyProperty {
   std::string_view name;
   PlyType type{};               ///< Type of the number, or of the items of a list.
   std::optional<PlyType> list;  ///< Type of the list length; unset for a number.
-  uint64_t offset = 0;          ///< In bytes, in a binary row whose lists are empty.
+  uint64_t offset = 0;          ///< Position in a binary row whose lists are empty, in bytes.
 };
 
 enum class PlyRole { Other, Vertices, Faces, Strips };
@@ -36,14 +36,14 @@ struct PlyElement {
   std::string_view name;
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  uint64_t rowSize = 0;    ///< Number of bytes of a binary row whose lists are empty.
+  uint64_t rowSize = 0;    ///< Size of a binary row whose lists are empty, in bytes.
   uint64_t listCount = 0;  ///< Number of properties that are lists.
   PlyRole role = PlyRole::Other;
   /// Indices of the properties x, y, z of Vertices.
   std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};
   size_t indices = kNoProperty;  ///< Index of the property vertex_indices or vertex_index of Faces and Strips.
 
-  /// In a text, a number or a list length has at least a digit and a blank.
+  /// In bytes. In ASCII, a number or a list length takes at least a digit and a blank.
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const {
     return encoding == PlyEncoding::Ascii ? 2 * properties.size() : rowSize;
   }

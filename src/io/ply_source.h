@@ -54,8 +54,8 @@ template <typename Out, bool kIsSwapped>
 
 // PlyAsciiSource and PlyBinarySource read the numbers after a PLY header through the same functions. expected: name of
 // the number in the error message of a truncated file. fail() reports the position of the last number. takePoints() and
-// takeTriangles() read the first rows of an element without a check per number. They stop at the first row that is
-// invalid or has another layout, and return the number of rows that they read.
+// takeTriangles() read the first rows of an element without a check per number. They stop before the first row that is
+// invalid or has another layout, and return the number of rows that were read.
 
 /// Rows of text. A row may continue on further lines, but must begin on a new line. If a row has too many values, the
 /// error message therefore has the line of this row.

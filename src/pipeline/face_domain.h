@@ -17,8 +17,8 @@ class AggregatedMesh;
 /// Views only.
 struct FaceDomain {
   const DualGraph& graph;  ///< #F nodes; arcs between faces of the domain only.
-  /// #F: components of `graph`. All faces outside of a region are one further component. Faces that are not centres
-  /// of aggregates are in the component of the mesh.
+  /// #F: the component of each face in `graph`. All faces outside of a region are one further component. With
+  /// aggregates, a face that is not a centre has its component of the mesh.
   std::span<const uint32_t> componentOf;
   size_t componentCount = 0;
   std::span<const uint32_t> traceableFaces;    ///< Faces of the domain that can cast rays, ascending.

@@ -35,7 +35,7 @@ Warning describeMissing(const Report& report, const PreparedMesh& prepared, cons
 }
 
 ValueRange rangeOf(const std::vector<double>& values) {
-  std::vector<double> present = withoutNaN(values);
+  std::vector<double> present = presentNumbers(values);
   if (present.empty()) return {};
   const auto [low, high] = std::minmax_element(present.begin(), present.end());
   ValueRange range{.min = *low, .max = *high};

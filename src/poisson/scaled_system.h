@@ -10,8 +10,8 @@
 
 namespace asdfvk {
 
-/// Number of rows that are multiplied at a time. The first-level cache still has the products when the products are
-/// summed. The number of a row among these rows fits into a byte.
+/// Greatest number of rows per call of ScaledSystem::multiplyRows(). With so few rows, the products are still in the
+/// first-level cache when they are summed. The index of a row among these rows is stored in a byte.
 inline constexpr size_t kRowsAtOnce = 256;
 static_assert(kRowsAtOnce <= 256);
 

@@ -78,7 +78,7 @@ HitRange HitPoints::append(uint32_t seed, uint32_t later) {
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);
   HitRange range = appendEmpty(hits.size());
   PointGroup* const groups = &groups_[range.firstGroup];
-  std::array<double, kMaxRayCount> lengths;  // Without misses and false hits.
+  std::array<double, kMaxRayCount> lengths;  // Lengths of hits that are not false.
   size_t validCount = 0;
   for (size_t ray = 0; ray < hits.size(); ++ray) {
     prefetchNormal(laterHits[ray]);

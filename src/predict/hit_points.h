@@ -23,7 +23,7 @@ class HitPoints {
   void prefetchNormals(uint32_t seed) const;
 
   /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates. Also prefetches the
-  /// normals of the hits of `later`, a seed that is appended later.
+  /// normals of the hit faces of `later`, the seed of a later call.
   HitRange append(uint32_t seed, uint32_t later);
   HitRange append(uint32_t seed) { return append(seed, seed); }  ///< Prefetches nothing for other seeds.
 

@@ -137,8 +137,8 @@ Instance::Instance(const InstanceOptions& options) {
 
 Instance::~Instance() {
   if (messenger_) destroyMessenger_(instance_, messenger_, nullptr);
-  // One instance remains until the end of the process, so that the loader does not unload the drivers. A process cannot
-  // load the driver of NVIDIA (580) again after it unloaded the driver about twenty times.
+  // One instance remains until the end of the process, so that the loader keeps the drivers loaded. A process can load
+  // NVIDIA's driver (version 580) only about twenty times.
   static std::atomic<bool> oneRemains = false;
   static std::shared_ptr<ValidationLog> logOfRemaining;
   if (oneRemains.exchange(true))

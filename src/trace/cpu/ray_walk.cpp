@@ -68,7 +68,7 @@ struct RayRows {
   // Bit `axis` of a flip is set if the direction is positive along the axis. The ray enters slot j ^ flip before slot
   // i ^ flip if i < j.
   alignas(32) std::array<int32_t, RayGroup::kWidth> flips, mainAxes;
-  // Offsets in bytes of rows of LaneNode::planes: near x, far x, near y, far y, near z, far z.
+  // Positions of planes in a LaneNode, in bytes: near x, far x, near y, far y, near z, far z.
   alignas(32) std::array<Indices, 6> planeOffsets;
   alignas(32) Floats zeros;
   alignas(32) Floats limits;  // RayHitDistance::compared of the nearest hit.
@@ -86,15 +86,14 @@ ASDFVK_ALWAYS_INLINE inline Float8 choose(const Ints8& isZ, const Ints8& isY, co
 
 ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
   Float8 d[3], o[3];
-  Ints8 signs{};
+  Ints8 flips{};
   for (size_t axis = 0; axis < 3; ++axis) {
-    const Float8 origin = load<Float8>(rays.origins[axis].data());
-    o[axis] = origin;
+    o[axis] = load<Float8>(rays.origins[axis].data());
     d[axis] = load<Float8>(rays.directions[axis].data());
     const Ints8 sign = reinterpret_cast<Ints8>(d[axis]) & kSignBit;
     const Float8 tiny = reinterpret_cast<Float8>(sign | std::bit_cast<int32_t>(kTinyDirection));
     const Float8 inverse = 1.0F / (absolute(d[axis]) < kTinyDirection ? tiny : d[axis]);
-    const Float8 lower = -(origin + kWideBoxMargin) * inverse, upper = -(origin - kWideBoxMargin) * inverse;
+    const Float8 lower = -(o[axis] + kWideBoxMargin) * inverse, upper = -(o[axis] - kWideBoxMargin) * inverse;
     store(rows.inverses[axis].data(), inverse);
     store(rows.nears[axis].data(), sign != 0 ? upper : lower);
     store(rows.fars[axis].data(), sign != 0 ? lower : upper);
@@ -103,14 +102,14 @@ ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
     const Ints8 change = Ints8{sign != 0} & kRowSize;
     store(rows.planeOffsets[2 * axis].data(), lowerOffset + change);
     store(rows.planeOffsets[2 * axis + 1].data(), lowerOffset + kRowSize - change);
-    signs |= sign != 0 ? broadcast<Ints8>(1 << axis) : Ints8{};
+    flips |= sign != 0 ? Ints8{} : broadcast<Ints8>(1 << axis);
   }
   const Ints8 isZ = absolute(d[2]) >= max(absolute(d[0]), absolute(d[1])), isY = absolute(d[1]) > absolute(d[0]);
   const Float8 main = choose(isZ, isY, d[2], d[1], d[0]);
   store(rows.shearsX.data(), choose(isZ, isY, d[0], d[2], d[1]) / main);
   store(rows.shearsY.data(), choose(isZ, isY, d[1], d[0], d[2]) / main);
   store(rows.mainDirections.data(), main);
-  store(rows.flips.data(), signs ^ 7);
+  store(rows.flips.data(), flips);
   store(rows.mainAxes.data(), isZ ? broadcast<Ints8>(2) : isY ? broadcast<Ints8>(1) : Ints8{});
   store(rows.originsX.data(), choose(isZ, isY, o[0], o[2], o[1]));
   store(rows.originsY.data(), choose(isZ, isY, o[1], o[0], o[2]));
@@ -238,7 +237,7 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
   return isChanged;
 }
 
-/// The entry at the bottom of a stack. Its distance is below every limit.
+/// The entry at the bottom of a stack. Its distance is below every limit, so that no limit removes the entry.
 constexpr float kEndDistance = -std::numeric_limits<float>::infinity();
 constexpr uint32_t kEnd = ~0U;
 static_assert((kEnd & kLaneBlockBit) != 0);
