@@ -59,6 +59,8 @@ Eight eightCones(const TracedMesh& traced, const Cone& cone, Random& random) {
 
 TEST_CASE("eight cones side by side have the bits of coneValue, for any number of rays") {
   Random random(3);
+  const TracedMesh anyMesh(shapes::box({1, 1, 1}));
+  const TraceScene scene = anyMesh.scene();
   for (const uint32_t rayCount : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 16u, 30u, 31u, 33u, 100u, 1024u})
     for (const ConeOptions& options : {ConeOptions{rayCount},
                                        {.rayCount = rayCount, .outlierDeviations = 0.3},
@@ -66,7 +68,7 @@ TEST_CASE("eight cones side by side have the bits of coneValue, for any number o
                                        {.rayCount = rayCount, .definition = Definition::Cgal}}) {
       const Cone cone = makeCone(options);
       for (const InstructionSet instructionSet : instructionSets()) {
-        LaneCones lanes(cone, {}, instructionSet);
+        LaneCones lanes(cone, scene, instructionSet);
         for (int turn = 0; turn < 20; ++turn) {
           for (auto& row : lanes.lengths())
             for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
@@ -88,40 +90,41 @@ TEST_CASE("eight cones side by side have the bits of coneValue, for any number o
 
 namespace {
 
+double distanceToPlane(const TraceScene& scene, uint32_t face, const Vec3d& origin, const Vec3d& direction) {
+  const Vec3d& normal = scene.geometry.normals[face];
+  return (dot(normal, scene.originOf(face)) - dot(normal, origin)) / dot(normal, direction);
+}
+
 void checkLengths(const ConeOptions& options) {
   Random random(8);
   const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.1, 4));
-  const UnsetVector<TrianglePlane> planes = trianglePlanes(traced.scene());
+  const TraceScene scene = traced.scene();
   const Cone cone = makeCone(options);
   const Eight eight = eightCones(traced, cone, random);
   std::vector<LaneHits> hits(cone.directions.size());
   for (size_t ray = 0; ray < hits.size(); ++ray)
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
-      const auto primitive = static_cast<uint32_t>(random.real() * static_cast<double>(planes.size()));
-      const TrianglePlane& plane = planes[primitive];
-      const double length =
-          (plane.offset - dot(plane.normal, eight.origins[lane])) / dot(plane.normal, eight.directions[ray][lane]);
+      const auto face = static_cast<uint32_t>(random.real() * static_cast<double>(traced.mesh.faceCount()));
+      const double length = distanceToPlane(scene, face, eight.origins[lane], eight.directions[ray][lane]);
       const double off = std::array{0.0, 5e-5, -5e-5, 8e-5, -8e-5}[(ray + lane) % 5];  // 2^-14 is 6.1e-5.
-      hits[ray].primitives[lane] = (ray + lane) % 7 == 0 ? kNoFace : primitive;
+      hits[ray].faces[lane] = (ray + lane) % 7 == 0 ? kNoFace : face;
       hits[ray].distances[lane] = static_cast<float>(length + off);
     }
   for (const InstructionSet instructionSet : instructionSets()) {
-    LaneCones lanes(cone, planes, instructionSet);
+    LaneCones lanes(cone, scene, instructionSet);
     lanes.measure(eight.frames, hits);
     size_t validCount = 0, keptDistanceCount = 0;
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
       for (size_t ray = 0; ray < hits.size(); ++ray) {
         const double length = lanes.lengths()[ray][lane];
-        const uint32_t primitive = hits[ray].primitives[lane];
-        if (primitive == kNoFace) {
+        const uint32_t face = hits[ray].faces[lane];
+        if (face == kNoFace) {
           CHECK(length == kInfinity);
           continue;
         }
-        const TrianglePlane& plane = planes[primitive];
-        const double cosine = dot(plane.normal, eight.directions[ray][lane]);
-        const double onPlane = (plane.offset - dot(plane.normal, eight.origins[lane])) / cosine;
+        const double onPlane = distanceToPlane(scene, face, eight.origins[lane], eight.directions[ray][lane]);
         const double distance = hits[ray].distances[lane];
-        if (isFalseHit(cone, eight.normals[lane], eight.directions[ray][lane], plane.normal)) {
+        if (isFalseHit(cone, eight.normals[lane], eight.directions[ray][lane], scene.geometry.normals[face])) {
           CHECK(length == kInfinity);
           continue;
         }

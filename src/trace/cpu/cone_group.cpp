@@ -9,8 +9,8 @@ namespace asdfvk {
 
 ConeGroup::ConeGroup(const CpuCones& cones)
     : cones_(cones),
-      walk_(cones.bvh, cones.planes),
-      lanes_(cones.cone, cones.planes),
+      walk_(cones.bvh, &cones.scene),
+      lanes_(cones.cone, cones.scene),
       hits_(cones.cone.directions.size()) {
   const auto contactDistance = static_cast<float>(cones.cone.contactDistance);
   rays_.begins.fill(contactDistance);
@@ -34,36 +34,51 @@ void ConeGroup::clear() {
 }
 
 void ConeGroup::trace() {
-  const bool keepsHits = size_ > 0 && !seeds_[0].hits.empty();
+  // The hits of a ray are taken after the next ray, because their faces are fetched from memory in the meantime.
+  RayGroup::Indices primitives;
+  RayGroup::Floats distances;
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
-    cast(cones_.cone.directions[ray], hits_[ray]);
-    for (const uint32_t primitive : hits_[ray].primitives) {
-      if (primitive == kNoFace) continue;
-      prefetchMemory(&cones_.planes[primitive]);
-      if (keepsHits) prefetchMemory(&cones_.scene.bvh.primitiveFaces[primitive]);
-    }
+    cast(cones_.cone.directions[ray]);
+    for (const uint32_t primitive : rays_.primitives)
+      if (primitive != kNoFace) prefetchMemory(&cones_.scene.bvh.primitiveFaces[primitive]);
+    if (ray > 0) takeHits(primitives, distances, hits_[ray - 1]);
+    primitives = rays_.primitives;
+    distances = rays_.distances;
   }
+  takeHits(primitives, distances, hits_.back());
   lanes_.measure(frames_, hits_);
   values_ = lanes_.values();
-  for (size_t lane = 0; keepsHits && lane < size_; ++lane) writeHits(lane);
+  if (size_ > 0 && !seeds_[0].hits.empty())
+    for (size_t lane = 0; lane < size_; ++lane) writeHits(lane);
 }
 
 /// coneDirection: one of Cone::directions.
-void ConeGroup::cast(const Vec3d& coneDirection, LaneHits& hits) {
+void ConeGroup::cast(const Vec3d& coneDirection) {
   const Vec3d& d = coneDirection;
   for (size_t axis = 0; axis < 3; ++axis)
     for (size_t lane = 0; lane < kWidth; ++lane)
       rays_.directions[axis][lane] = static_cast<float>(
           d.x * frames_.tangents[axis][lane] + d.y * frames_.bitangents[axis][lane] + d.z * frames_.axes[axis][lane]);
   walk_.findNearest(rays_);
-  hits = {rays_.primitives, rays_.distances};
+}
+
+/// Also prefetches what LaneCones::measure() reads of the faces.
+void ConeGroup::takeHits(const RayGroup::Indices& primitives, const RayGroup::Floats& distances, LaneHits& hits) const {
+  hits.distances = distances;
+  for (size_t lane = 0; lane < kWidth; ++lane) {
+    const uint32_t primitive = primitives[lane];
+    hits.faces[lane] = kNoFace;
+    if (primitive == kNoFace) continue;
+    const uint32_t face = hits.faces[lane] = cones_.scene.bvh.primitiveFaces[primitive];
+    prefetchMemory(&cones_.scene.geometry.normals[face]);
+    prefetchMemory(&cones_.scene.geometry.barycentres[face]);
+  }
 }
 
 void ConeGroup::writeHits(size_t lane) const {
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
-    const uint32_t primitive = hits_[ray].primitives[lane];
-    seeds_[lane].hits[ray] =
-        primitive == kNoFace ? kMiss : ConeHit{hits_[ray].distances[lane], cones_.scene.bvh.primitiveFaces[primitive]};
+    const uint32_t face = hits_[ray].faces[lane];
+    seeds_[lane].hits[ray] = face == kNoFace ? kMiss : ConeHit{hits_[ray].distances[lane], face};
   }
 }
 

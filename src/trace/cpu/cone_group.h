@@ -12,7 +12,6 @@ namespace asdfvk {
 struct CpuCones {
   const TraceScene& scene;
   const Cone& cone;
-  std::span<const TrianglePlane> planes;
   const LaneBvh& bvh;
 };
 
@@ -49,7 +48,8 @@ class ConeGroup {
   }
 
  private:
-  void cast(const Vec3d& coneDirection, LaneHits& hits);
+  void cast(const Vec3d& coneDirection);
+  void takeHits(const RayGroup::Indices& primitives, const RayGroup::Floats& distances, LaneHits& hits) const;
   void writeHits(size_t lane) const;
 
   CpuCones cones_;

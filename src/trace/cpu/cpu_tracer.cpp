@@ -17,15 +17,11 @@ constexpr size_t kFirstCpuChunkRayCount = 1u << 16;  // A chunk takes 0.01 to 0.
 class CpuTracer final : public ConeTracer {
  public:
   CpuTracer(const TraceScene& scene, const Cone& cone)
-      : scene_(scene),
-        cone_(cone),
-        seedOrder_(scene),
-        planes_(trianglePlanes(scene)),
-        bvh_(encodeLaneBvh(scene.bvh, scene.mesh)) {}
+      : scene_(scene), cone_(cone), seedOrder_(scene), bvh_(encodeLaneBvh(scene.bvh, scene.mesh)) {}
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->trace(seedFaces, results, control);
+    if (bvh_.nodes.empty()) return makeReferenceTracer(scene_, cone_)->trace(seedFaces, results, control);
     const auto seedOf = [&](uint32_t i) { return seedAt(seedFaces[i]); };
     const auto prefetchSeed = [&](uint32_t i) { prefetch(seedFaces[i]); };
     return traceAll(seedOrder_.of(seedFaces), seedOf, prefetchSeed, results, control);
@@ -33,7 +29,7 @@ class CpuTracer final : public ConeTracer {
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                           const RunControl& control) override {
-    if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->traceAt(starts, results, control);
+    if (bvh_.nodes.empty()) return makeReferenceTracer(scene_, cone_)->traceAt(starts, results, control);
     const auto seedOf = [&](uint32_t i) { return CpuSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
     const auto prefetchSeed = [&](uint32_t i) { prefetchMemory(&starts[i]); };
     return traceAll(spatialOrder(starts), seedOf, prefetchSeed, results, control);
@@ -65,7 +61,7 @@ class CpuTracer final : public ConeTracer {
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // Number of hits per cone.
     const auto hitsOf = [&](uint32_t cone) { return results.hits.subspan(cone * hitCount, hitCount); };
     std::atomic<uint64_t> redoneConeCount = 0;
-    const CpuCones cones{scene_, cone_, planes_, bvh_};
+    const CpuCones cones{scene_, cone_, bvh_};
     PerThread<ConeGroup> groups([&] { return ConeGroup(cones); });
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
     const auto traceGroup = [&](size_t index, ConeGroup& group) {
@@ -110,7 +106,6 @@ class CpuTracer final : public ConeTracer {
   TraceScene scene_;
   const Cone& cone_;
   SeedOrder seedOrder_;
-  UnsetVector<TrianglePlane> planes_;
   LaneBvh bvh_;
 };
 

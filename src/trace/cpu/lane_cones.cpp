@@ -25,6 +25,8 @@ ASDFVK_ALWAYS_INLINE inline void transpose(Double4 (&rows)[kDoubleCount]) {
   rows[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
 }
 
+ASDFVK_ALWAYS_INLINE inline Double4 vectorOf(const Vec3d& v) { return Double4{v.x, v.y, v.z, 0}; }
+
 struct Vec3Double4 {
   Double4 x, y, z;
 };
@@ -57,9 +59,9 @@ void LaneFrames::set(size_t lane, const ConeFrame& frame, const Vec3d& origin, c
   }
 }
 
-LaneCones::LaneCones(const Cone& cone, std::span<const TrianglePlane> planes, InstructionSet instructionSet)
+LaneCones::LaneCones(const Cone& cone, const TraceScene& scene, InstructionSet instructionSet)
     : cone_(cone),
-      planes_(planes),
+      scene_(scene),
       instructionSet_(instructionSet),
       lengths_(cone.directions.size()),
       sorted_(cone.directions.size()),
@@ -69,7 +71,9 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
   constexpr double kPlaneTolerance = 0x1p-14;
   // Local copies, because the compiler would reload members after every store of a length.
   const Vec3d* const directions = cone_.directions.data();
-  const TrianglePlane* const trianglePlanes = planes_.data();
+  const Vec3d* const faceNormals = scene_.geometry.normals.data();
+  const Vec3d* const barycentres = scene_.geometry.barycentres.data();
+  const Normalization unit = scene_.bvh.normalization;
   std::array<double, kWidth>* const lengths = lengths_.data();
   const double falseHitCosine = cone_.falseHitCosine;
   const bool isPaper = cone_.definition == Definition::Paper;
@@ -79,17 +83,22 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
                       seedNormal = loadRows(frames.normals, first);
     for (size_t ray = 0; ray < hits.size(); ++ray) {
       const LaneHits& hit = hits[ray];
-      Double4 planes[kDoubleCount], distance{};
+      Double4 normals[kDoubleCount]{}, points[kDoubleCount]{}, distance{};
       Mask isHit{};
       for (size_t k = 0; k < kDoubleCount; ++k) {
-        const uint32_t primitive = hit.primitives[first + k];
-        isHit[k] = primitive == kNoFace ? 0 : -1;
+        const bool isMiss = hit.faces[first + k] == kNoFace;
+        const uint32_t face = isMiss ? 0 : hit.faces[first + k];
+        isHit[k] = isMiss ? 0 : -1;
         distance[k] = hit.distances[first + k];
-        planes[k] = load<Double4>(&trianglePlanes[primitive == kNoFace ? 0 : primitive].normal.x);
+        normals[k] = vectorOf(faceNormals[face]);
+        points[k] = vectorOf(barycentres[face]);
       }
-      transpose(planes);
-      const Vec3Double4 normal{planes[0], planes[1], planes[2]};
-      const Double4 offset = planes[3];
+      transpose(normals);
+      transpose(points);
+      const Vec3Double4 normal{normals[0], normals[1], normals[2]};
+      const Double4 offset = normal.x * ((points[0] - unit.centre.x) * unit.scale) +
+                             normal.y * ((points[1] - unit.centre.y) * unit.scale) +
+                             normal.z * ((points[2] - unit.centre.z) * unit.scale);
       const Vec3d& d = directions[ray];
       const Vec3Double4 direction{d.x * tangent.x + d.y * bitangent.x + d.z * axis.x,
                                   d.x * tangent.y + d.y * bitangent.y + d.z * axis.y,

@@ -9,7 +9,7 @@
 #include "cone/cone.h"
 #include "core/simd.h"
 #include "trace/cone_tracer.h"
-#include "trace/triangle_planes.h"
+#include "trace/trace_scene.h"
 
 // Computes the values of eight cones, one per lane, from the hits of their rays, in double. Coordinates are normalised.
 namespace asdfvk {
@@ -17,7 +17,7 @@ namespace asdfvk {
 struct LaneHits {
   static constexpr size_t kWidth = 8;
 
-  std::array<uint32_t, kWidth> primitives;  ///< kNoFace for a miss.
+  std::array<uint32_t, kWidth> faces;  ///< kNoFace for a miss.
   std::array<float, kWidth> distances;
 };
 
@@ -35,9 +35,8 @@ class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
 
-  /// The cone and the planes must outlive this object. Precondition: this machine has the instruction set.
-  LaneCones(const Cone& cone, std::span<const TrianglePlane> planes,
-            InstructionSet instructionSet = widestInstructionSet());
+  /// The cone and the scene must outlive this object. Precondition: this machine has the instruction set.
+  LaneCones(const Cone& cone, const TraceScene& scene, InstructionSet instructionSet = widestInstructionSet());
 
   /// Computes the lengths of all rays. hits: one entry per ray of the cone. A length is the distance to the plane of
   /// the triangle. On slivers, whose planes are not near the hits, the distance of the hit is used.
@@ -54,7 +53,7 @@ class LaneCones {
   void sortDeviations(std::span<const double> medians);
 
   const Cone& cone_;
-  std::span<const TrianglePlane> planes_;
+  const TraceScene& scene_;
   InstructionSet instructionSet_;
   std::vector<std::array<double, kWidth>> lengths_, sorted_;  // One entry per ray.
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // The sorting network.

@@ -169,20 +169,23 @@ struct RayHitDistance {
 };
 
 /// The distance to the plane or, if the plane is not near the hit, `fromCorners`.
-RayHitDistance distanceToPlane(const TrianglePlane& plane, const RayGroup& rays, size_t ray,
+RayHitDistance distanceToPlane(const TraceScene& scene, uint32_t primitive, const RayGroup& rays, size_t ray,
                                const RayHitDistance& fromCorners) {
   constexpr double kPlaneTolerance = 0x1p-14;
+  const uint32_t face = scene.bvh.primitiveFaces[primitive];
+  const Vec3d& normal = scene.geometry.normals[face];
   const Vec3d origin{rays.origins[0][ray], rays.origins[1][ray], rays.origins[2][ray]},
       direction{rays.directions[0][ray], rays.directions[1][ray], rays.directions[2][ray]};
-  const double slope = dot(plane.normal, direction), distance = (plane.offset - dot(plane.normal, origin)) / slope;
+  const double slope = dot(normal, direction),
+               distance = (dot(normal, scene.originOf(face)) - dot(normal, origin)) / slope;
   if (!(std::abs(distance - fromCorners.distance) <= kPlaneTolerance)) return fromCorners;
   return {static_cast<float>(distance), static_cast<float>(slope < 0 ? distance + rays.outerSideAddition : distance)};
 }
 
 /// Returns whether the hit of the ray changed.
 template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<const TrianglePlane> planes, RayRows& rows,
-                                           size_t ray, RayGroup& rays) {
+ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, const TraceScene* scene, RayRows& rows, size_t ray,
+                                           RayGroup& rays) {
   static constexpr std::array<uint8_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
   const auto z = static_cast<size_t>(rows.mainAxes[ray]), x = size_t{kNext[z]}, y = size_t{kPrevious[z]};
   const float originX = rows.originsX[ray], originY = rows.originsY[ray], originZ = rows.originsZ[ray];
@@ -214,7 +217,7 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
   const auto extent = [&](const Corner& p) ASDFVK_ALWAYS_INLINE { return max(absolute(p.x), absolute(p.y)); };
   const Float8 widest = max(max(extent(a), extent(b)), extent(c));
   const uint32_t narrow =
-      planes.empty() ? 0 : maskBits<Floats>(widest * widest > kNarrowTriangle * absolute(det)) & bits;
+      scene == nullptr ? 0 : maskBits<Floats>(widest * widest > kNarrowTriangle * absolute(det)) & bits;
   bits &= maskBits<Floats>((distance >= rays.begins[ray]) & (compared <= rows.limits[ray])) | narrow;
   std::array<float, kBvhLaneCount> distances, comparedOnes;
   store(distances.data(), distance);
@@ -224,7 +227,7 @@ ASDFVK_ALWAYS_INLINE inline bool testBlock(const LaneBlock& block, std::span<con
     const auto lane = static_cast<uint32_t>(std::countr_zero(bits));
     const uint32_t primitive = block.firstPrimitive + lane;
     RayHitDistance hit{distances[lane], comparedOnes[lane]};
-    if ((narrow >> lane & 1) != 0) hit = distanceToPlane(planes[primitive], rays, ray, hit);
+    if ((narrow >> lane & 1) != 0) hit = distanceToPlane(*scene, primitive, rays, ray, hit);
     const float limit = rows.limits[ray];
     if (primitive == rays.skipped[ray] || hit.distance < rays.begins[ray] || hit.compared > limit ||
         (hit.compared == limit && primitive > rays.primitives[ray]))
@@ -243,7 +246,7 @@ constexpr uint32_t kEnd = ~0U;
 static_assert((kEnd & kLaneBlockBit) != 0);
 
 template <typename Floats, bool kEndsAtAnyHit>
-ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, std::span<const TrianglePlane> planes, RayGroup& rays,
+ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, const TraceScene* scene, RayGroup& rays,
                                       std::array<RayWalk::Stack, RayGroup::kWidth>& stacks) {
   RayRows rows;
   prepare(rays, rows);
@@ -271,7 +274,7 @@ ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, std::span<const Triang
         top += enterChildren<Floats>(bvh.nodes[reference], rows, ray, top, references);
         --top;
       } else if (reference != kEnd) {
-        const bool isHit = testBlock<Floats>(bvh.blocks[reference & ~kLaneBlockBit], planes, rows, ray, rays);
+        const bool isHit = testBlock<Floats>(bvh.blocks[reference & ~kLaneBlockBit], scene, rows, ray, rays);
         --top;
         if (isHit && kEndsAtAnyHit) top = &stacks[ray].distances[0];
       } else {
@@ -291,7 +294,7 @@ void RayWalk::trace(RayGroup& rays) {
   rays.primitives.fill(kNoFace);
   if (bvh_.nodes.empty()) return;
   dispatch<Float8>(instructionSet_, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
-    walk<Floats, kEndsAtAnyHit>(bvh_, planes_, rays, stacks_);
+    walk<Floats, kEndsAtAnyHit>(bvh_, scene_, rays, stacks_);
   });
 }
 

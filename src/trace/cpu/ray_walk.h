@@ -6,7 +6,7 @@
 
 #include "bvh/lane_bvh.h"
 #include "core/simd.h"
-#include "trace/triangle_planes.h"
+#include "trace/trace_scene.h"
 
 namespace asdfvk {
 
@@ -33,12 +33,12 @@ struct RayGroup {
 /// equally near triangles, the lowest primitive is hit. Use one object per thread.
 class RayWalk {
  public:
-  /// planes: one per primitive, or empty. If a triangle is long and narrow as seen from the origin, a distance that is
-  /// computed from its corners is inexact. With planes, the distance is computed from the plane of the triangle.
-  /// Hierarchy and planes must outlive this object. Precondition: this machine has the instruction set.
-  explicit RayWalk(const LaneBvh& bvh, std::span<const TrianglePlane> planes = {},
+  /// scene: may be null. If a triangle is long and narrow as seen from the origin, a distance that is computed from its
+  /// corners is inexact. With a scene, the distance is computed from the plane of the triangle. Hierarchy and scene
+  /// must outlive this object. Precondition: this machine has the instruction set.
+  explicit RayWalk(const LaneBvh& bvh, const TraceScene* scene = nullptr,
                    InstructionSet instructionSet = widestInstructionSet())
-      : bvh_(bvh), planes_(planes), instructionSet_(instructionSet) {}
+      : bvh_(bvh), scene_(scene), instructionSet_(instructionSet) {}
 
   /// Finds the nearest hit of each active ray.
   void findNearest(RayGroup& rays);
@@ -62,7 +62,7 @@ class RayWalk {
   void trace(RayGroup& rays);
 
   const LaneBvh& bvh_;
-  std::span<const TrianglePlane> planes_;
+  const TraceScene* scene_;
   InstructionSet instructionSet_;
   std::array<Stack, RayGroup::kWidth> stacks_;  // One stack per ray.
 };
