@@ -1,58 +1,59 @@
 #include "estimate/held_out.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/random.h"
 
 namespace asdfvk {
 namespace {
 
-/// Inclusion probabilities. A probability is proportional to the indicator times the represented count, and at most 1.
+/// Inclusion probabilities, one per candidate. See sampleHeldOut().
 class InclusionProbabilities {
  public:
   /// The sum of the probabilities is `count`. Precondition: `count` is below the number of candidates.
   InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
                          std::span<const uint32_t> representedCounts)
-      : indicator_(indicator), representedCounts_(representedCounts) {
+      : densities_(candidates.size()) {
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      const double expected = indicator[candidates[i]];
+      const double representedCount = representedCounts.empty() ? 1 : representedCounts[candidates[i]];
+      densities_[i] = expected * std::sqrt(std::sqrt(std::sqrt(expected))) * representedCount;
+    }
     for (bool grows = true; grows;) {  // Repeated until no further probability reaches 1.
       double sum = 0, remaining = static_cast<double>(count);
-      for (const uint32_t face : candidates)
-        if (of(face) < 1)
-          sum += densityOf(face);
+      for (size_t i = 0; i < densities_.size(); ++i)
+        if (of(i) < 1)
+          sum += densities_[i];
         else
           remaining -= 1;
       grows = remaining / sum > scale_;
       if (grows) scale_ = remaining / sum;
     }
   }
-  [[nodiscard]] double of(uint32_t face) const { return std::min(1.0, scale_ * densityOf(face)); }
-  [[nodiscard]] double representedCount(uint32_t face) const {
-    return representedCounts_.empty() ? 1 : representedCounts_[face];
-  }
+  [[nodiscard]] double of(size_t candidate) const { return std::min(1.0, scale_ * densities_[candidate]); }
 
  private:
-  [[nodiscard]] double densityOf(uint32_t face) const { return indicator_[face] * representedCount(face); }
-
-  std::span<const double> indicator_;
-  std::span<const uint32_t> representedCounts_;
+  std::vector<double> densities_;
   double scale_ = 0;
 };
 
-std::vector<uint32_t> samplePivotally(std::span<const uint32_t> candidates, const InclusionProbabilities& probabilities,
+/// Returns indices of candidates, ascending.
+std::vector<uint32_t> samplePivotally(uint32_t candidateCount, const InclusionProbabilities& probabilities,
                                       Random random) {
   std::vector<uint32_t> sample;
   uint32_t holder = 0;
-  double held = 0;  // Inclusion probability of `holder`, given the decisions on all earlier faces. Of two faces, one is
-                    // decided and the other becomes `holder`.
-  for (const uint32_t face : candidates) {
-    const double own = probabilities.of(face), sum = held + own, number = random.real();
-    if (sum < 1) {  // `holder` or `face` receives the probability of both; the other is not sampled.
-      if (number * sum >= held) holder = face;
+  double held = 0;  // Inclusion probability of `holder`, given the decisions on all earlier candidates. Of two
+                    // candidates, one is decided and the other becomes `holder`.
+  for (uint32_t next = 0; next < candidateCount; ++next) {
+    const double own = probabilities.of(next), sum = held + own, number = random.real();
+    if (sum < 1) {  // `holder` or `next` receives the probability of both; the other is not sampled.
+      if (number * sum >= held) holder = next;
       held = sum;
-    } else {  // `holder` or `face` is sampled; the other keeps the rest of the probability.
+    } else {  // `holder` or `next` is sampled; the other keeps the rest of the probability.
       const bool takesHolder = number * (2 - sum) < 1 - own;
-      sample.push_back(takesHolder ? holder : face);
-      if (takesHolder) holder = face;
+      sample.push_back(takesHolder ? holder : next);
+      if (takesHolder) holder = next;
       held = sum - 1;
     }
   }
@@ -75,9 +76,13 @@ HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const
   const InclusionProbabilities probabilities(candidates, indicator, count, representedCounts);
   const double candidatesPerFace = static_cast<double>(candidates.size()) / static_cast<double>(count);
   HeldOutFaces heldOut;
-  heldOut.faces = samplePivotally(candidates, probabilities, Random(randomSeed));
-  for (const uint32_t face : heldOut.faces)
-    heldOut.weights.push_back((probabilities.representedCount(face) / probabilities.of(face) - 1) / candidatesPerFace);
+  for (const uint32_t i :
+       samplePivotally(static_cast<uint32_t>(candidates.size()), probabilities, Random(randomSeed))) {
+    const uint32_t face = candidates[i];
+    const double representedCount = representedCounts.empty() ? 1 : representedCounts[face];
+    heldOut.faces.push_back(face);
+    heldOut.weights.push_back((representedCount / probabilities.of(i) - 1) / candidatesPerFace);
+  }
   return heldOut;
 }
 

@@ -24,11 +24,12 @@ struct HeldOutFaces {
 }
 
 /// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is at most 1, and
-/// proportional to its error indicator times its representedCounts. Ordered pivotal method (Deville and Tille 1998,
-/// "Unequal probability sampling without replacement through a splitting method"; Chauvet 2012). Neighbours in the list
-/// exclude each other, so that the sample is spread over the list. indicator: #F, above 0. representedCounts: #F, the
-/// number of faces that each face represents (itself and faces that get its value); empty: 1 for each face. Returns
-/// ascending faces if the candidates are ascending.
+/// proportional to i^(9/8) c. i is the error indicator of the face, and c its representedCounts. (The exponent lowers
+/// the error of the result, because the held-out faces become its seeds: docs/experiments.md.) Ordered pivotal method
+/// (Deville and Tille 1998, "Unequal probability sampling without replacement through a splitting method"; Chauvet
+/// 2012). Neighbours in the list exclude each other, so that the sample is spread over the list. indicator: #F, above
+/// 0. representedCounts: #F, the number of faces that each face represents (itself and faces that get its value);
+/// empty: 1 for each face. Returns ascending faces if the candidates are ascending.
 [[nodiscard]] HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator,
                                          uint64_t count, uint64_t randomSeed,
                                          std::span<const uint32_t> representedCounts = {});

@@ -46,25 +46,37 @@ TEST_CASE("held-out faces are as many as requested, all different, ascending and
   CHECK(sampleHeldOut({}, indicator, 50, 5).faces.empty());
 }
 
-TEST_CASE("the inclusion probability is in proportion to the indicator, and at most 1") {
-  const std::vector<double> indicator{1, 2, 3, 4, 100, 2, 4, 6, 8, 10};
-  const std::vector<double> shares = shareSampled(indicator, 4, 20000);
-  // The fifth is certain; three are left for densities that add up to 40.
-  for (size_t face = 0; face < indicator.size(); ++face)
-    CHECK(shares[face] == doctest::Approx(face == 4 ? 1 : indicator[face] * 3 / 40).epsilon(0.06));
+namespace {
+
+/// Ten indicators. If four faces are sampled, the fifth is certain, and three are left for the others.
+const std::vector<double> kIndicator{1, 2, 3, 4, 100, 2, 4, 6, 8, 10};
+
+std::vector<double> probabilitiesOfFour() {
+  std::vector<double> densities;
+  for (const double indicator : kIndicator) densities.push_back(std::pow(indicator, 9.0 / 8));
+  const double sumOfOthers = std::accumulate(densities.begin(), densities.end(), 0.0) - densities[4];
+  for (double& density : densities) density *= 3 / sumOfOthers;
+  densities[4] = 1;
+  return densities;
+}
+
+}  // namespace
+
+TEST_CASE("the inclusion probability is in proportion to the power 9/8 of the indicator, and at most 1") {
+  const std::vector<double> shares = shareSampled(kIndicator, 4, 20000), expected = probabilitiesOfFour();
+  for (size_t face = 0; face < shares.size(); ++face)
+    CHECK(shares[face] == doctest::Approx(expected[face]).epsilon(0.06));
 }
 
 TEST_CASE("a sampling weight is the number of other faces that a held-out face stands for") {
-  const std::vector<double> indicator{1, 2, 3, 4, 100, 2, 4, 6, 8, 10};
   const std::vector<uint32_t> faces = facesUpTo(10);
+  const std::vector<double> probabilities = probabilitiesOfFour();
   for (uint64_t run = 0; run < 50; ++run) {
-    const HeldOutFaces heldOut = sampleHeldOut(faces, indicator, 4, run);
-    for (size_t i = 0; i < heldOut.faces.size(); ++i) {
-      const double probability = heldOut.faces[i] == 4 ? 1 : indicator[heldOut.faces[i]] * 3 / 40;
-      CHECK(heldOut.weights[i] == doctest::Approx((1 / probability - 1) / 2.5));
-    }
+    const HeldOutFaces heldOut = sampleHeldOut(faces, kIndicator, 4, run);
+    for (size_t i = 0; i < heldOut.faces.size(); ++i)
+      CHECK(heldOut.weights[i] == doctest::Approx((1 / probabilities[heldOut.faces[i]] - 1) / 2.5));
   }
-  for (const double weight : sampleHeldOut(faces, indicator, 10, 1).weights) CHECK(weight == 0);
+  for (const double weight : sampleHeldOut(faces, kIndicator, 10, 1).weights) CHECK(weight == 0);
 }
 
 TEST_CASE("the weighted sum over held-out faces estimates the sum over the other faces without bias") {
