@@ -59,8 +59,13 @@ struct MeshRow {
   double overTrace = 0;
 };
 
-MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,
-                const RunControl& control) {
+struct Settings {
+  uint32_t truthRayCount = 600;
+  uint64_t randomSeed = 1;
+  bool onlyEstimates = false;
+};
+
+MeshRow measure(Session& session, const std::string& path, const Settings& settings, const RunControl& control) {
   MeshRow row;
   row.name = path.substr(path.rfind('/') + 1);
   const Mesh mesh = readMesh(path);
@@ -68,21 +73,24 @@ MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCoun
   const auto shareOf = [](const Result& result) {
     return static_cast<double>(result.report.seedCount) / static_cast<double>(result.report.faceCount);
   };
-  const Result full = compute(recipeOptions(Recipe::Paper, 100));
+  const auto options = [&](Recipe recipe, double percent) {
+    return recipeOptions(recipe, percent, settings.randomSeed);
+  };
+  const Result full = compute(options(Recipe::Paper, 100));
   row.faceCount = full.report.faceCount;
   const auto errors = [&](const Result& result) { return errorsOverRange(full.sdf(), result.sdf()); };
   Result balanced;  // The result with 10 % seeds.
   for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
-    Result result = compute(recipeOptions(Recipe::Balanced, kEstimatedPercents[i]));
+    Result result = compute(options(Recipe::Balanced, kEstimatedPercents[i]));
     if (result.report.estimatedError) row.estimates[i] = ratiosOf(*result.report.estimatedError, errors(result));
     if (kEstimatedPercents[i] == 10) balanced = std::move(result);
   }
-  if (onlyEstimates) return row;
+  if (settings.onlyEstimates) return row;
 
-  const Result truth = compute(truthOptions(truthRayCount));
+  const Result truth = compute(truthOptions(settings.truthRayCount));
   const auto truthError = [&](const Result& result) { return errorsOverRange(truth.sdf(), result.sdf()).average; };
   const double floor = truthError(full);
-  const Result paper = compute(recipeOptions(Recipe::Paper, 10));
+  const Result paper = compute(options(Recipe::Paper, 10));
   row.paper = errors(paper).average;
   row.balanced = errors(balanced).average;
   row.balancedTruth = truthError(balanced) / floor;
@@ -90,11 +98,11 @@ MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCoun
       static_cast<double>(balanced.report.solver.iterations) / std::max(1u, paper.report.solver.iterations);
   const StageSeconds& seconds = balanced.report.stageSeconds;
   row.overTrace = (seconds[Stage::Sample] + seconds[Stage::Predict] + seconds[Stage::Solve]) / seconds[Stage::Trace];
-  const Result quality = compute(recipeOptions(Recipe::Quality, 10));
+  const Result quality = compute(options(Recipe::Quality, 10));
   row.quality = errors(quality).average;
   row.qualityTruth = truthError(quality) / floor;
-  row.qualityTruthAt40 = truthError(compute(recipeOptions(Recipe::Quality, 40))) / floor;
-  Options bounded = recipeOptions(Recipe::Balanced, 2);
+  row.qualityTruthAt40 = truthError(compute(options(Recipe::Quality, 40))) / floor;
+  Options bounded = options(Recipe::Balanced, 2);
   bounded.rounds.maxError = kMaxError;
   const Result boundedResult = compute(bounded);
   row.boundedError = errors(boundedResult).average;
@@ -231,24 +239,25 @@ int main(int argc, char** argv) {
   Program program("asdfvk-bench-recipes", "Errors, error estimates and cost of the recipes over many meshes.");
   std::vector<std::string> meshes;
   std::string backend = "vulkan", device;
-  uint32_t truthRayCount = 600;
-  bool onlyEstimates = false;
+  Settings settings;
   program.addMeshes(meshes);
   program.add("--backend", backend, "vulkan, cpu or reference");
   program.add("--device", device, "Vulkan device: index or part of its name");
-  program.add("--truth-rays", truthRayCount, "Rays per face of the truth", {31, kMaxRayCount});
-  program.add("--only-estimates", onlyEstimates,
+  program.add("--truth-rays", settings.truthRayCount, "Rays per face of the truth", {31, kMaxRayCount});
+  program.add("--rng-seed", settings.randomSeed, "Random seed of the samplers");
+  program.add("--only-estimates", settings.onlyEstimates,
               "Only the error estimates of the recipe balanced; takes a tenth of the time");
   return program.run(argc, argv, [&](const RunControl& control) {
     Session session(sessionOptionsOf(backend, device));
     std::vector<MeshRow> rows, odd, even;
-    writeOutput(headerOf(onlyEstimates));
+    writeOutput(headerOf(settings.onlyEstimates));
     for (const std::string& mesh : meshes) {
-      rows.push_back(measure(session, mesh, truthRayCount, onlyEstimates, control));
+      rows.push_back(measure(session, mesh, settings, control));
       (rows.size() % 2 == 1 ? odd : even).push_back(rows.back());
-      writeOutput(toText(rows.back(), onlyEstimates));
+      writeOutput(toText(rows.back(), settings.onlyEstimates));
     }
-    writeOutput(summaryOf("odd places", odd, onlyEstimates) + summaryOf("even places", even, onlyEstimates) +
-                summaryOf("all", rows, onlyEstimates));
+    writeOutput(summaryOf("odd places", odd, settings.onlyEstimates) +
+                summaryOf("even places", even, settings.onlyEstimates) +
+                summaryOf("all", rows, settings.onlyEstimates));
   });
 }

@@ -6,6 +6,7 @@
 #include "core/box3.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 
 namespace asdfvk {
 namespace {
@@ -76,6 +77,16 @@ void fillNode(LaneNode& node, const LaneChildren& children, std::span<const BvhN
   }
 }
 
+/// Prefetches what fillBlock() reads. The faces of a later block have to be known for its vertices.
+void prefetchFaces(const WideCollapse::PrimitiveRange& range, const Bvh& bvh, const TriangleMesh& mesh) {
+  for (uint32_t i = 0; i < range.count; ++i) prefetchMemory(&mesh.faces[bvh.primitiveFaces[range.first + i]]);
+}
+void prefetchVertices(const WideCollapse::PrimitiveRange& range, const Bvh& bvh, const TriangleMesh& mesh) {
+  for (uint32_t i = 0; i < range.count; ++i)
+    for (const uint32_t vertex : mesh.faces[bvh.primitiveFaces[range.first + i]])
+      prefetchMemory(&mesh.vertices[vertex]);
+}
+
 void fillBlock(LaneBlock& block, const WideCollapse::PrimitiveRange& range, const Bvh& bvh, const TriangleMesh& mesh) {
   block = {.firstPrimitive = range.first, .triangleCount = range.count};
   for (uint32_t lane = 0; lane < range.count; ++lane) {
@@ -96,7 +107,12 @@ LaneBvh encodeLaneBvh(const Bvh& bvh, const TriangleMesh& mesh) {
   LaneBvh lanes{UnsetVector<LaneNode>(layout.children().size()), UnsetVector<LaneBlock>(layout.blocks().size()),
                 layout.depth()};
   forEachInParallel(lanes.nodes.size(), [&](size_t i) { fillNode(lanes.nodes[i], layout.children()[i], bvh.nodes); });
-  forEachInParallel(lanes.blocks.size(), [&](size_t i) { fillBlock(lanes.blocks[i], layout.blocks()[i], bvh, mesh); });
+  const std::vector<WideCollapse::PrimitiveRange>& blocks = layout.blocks();
+  forEachInParallel(blocks.size(), [&](size_t i) {
+    if (i + 4 < blocks.size()) prefetchFaces(blocks[i + 4], bvh, mesh);
+    if (i + 2 < blocks.size()) prefetchVertices(blocks[i + 2], bvh, mesh);
+    fillBlock(lanes.blocks[i], blocks[i], bvh, mesh);
+  });
   return lanes;
 }
 
