@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,6 +23,10 @@ namespace asdfvk {
 
 void configureHeap() {
   constexpr int kKeptBytes = 128 << 20;  // Unused memory at the end of the heap that is not returned to the kernel.
+  // The heap grows by this size more than needed. Otherwise it would end behind each large allocation, in the middle of
+  // a huge page, and such a part gets small pages.
+  constexpr int kGrowthBytes = 64 << 20;
+  ::mallopt(M_TOP_PAD, kGrowthBytes);
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);
   ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
@@ -35,14 +40,15 @@ namespace {
 
 constexpr size_t kHugePageBytes = 2 << 20, kMinAdvisedBytes = 128 << 10;
 
-/// Requests huge pages for the memory, and for the rest of its first and last huge page. With huge pages there is a
-/// page fault for each 2 MiB instead of each 4 KiB, and the processor finds addresses faster. Failures are ignored,
-/// because they cost only speed.
+/// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap. With
+/// huge pages there is a page fault for each 2 MiB instead of each 4 KiB, and the processor finds addresses faster.
+/// Failures are ignored, because they cost only speed.
 void adviseHugePages(void* memory, size_t byteCount) {
   if (byteCount < kMinAdvisedBytes) return;
   constexpr uintptr_t kMask = kHugePageBytes - 1;
   const auto address = reinterpret_cast<uintptr_t>(memory);
-  const uintptr_t begin = address & ~kMask, end = (address + byteCount + kMask) & ~kMask;
+  const uintptr_t heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0)) & ~kMask, begin = address & ~kMask,
+                  end = std::max((address + byteCount + kMask) & ~kMask, heapEnd);
   ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
