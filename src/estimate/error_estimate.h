@@ -17,8 +17,7 @@ struct EstimateInput {
   /// #H: values at the held-out faces, interpolated without the traced values of these faces.
   std::span<const double> withoutHeldOut;
   /// Error indicator; empty: the same for all faces. The indicator distributes the errors measured at held-out faces
-  /// over all faces: a ratio estimate (Cochran 1977, chapter 6). If the indicator was also the sampling density, the
-  /// estimate is that of Hansen and Hurwitz 1943.
+  /// over all faces: a ratio estimate with sampling weights (Cochran 1977, chapter 6).
   std::span<const double> indicator;
   std::span<const double> result;  ///< Interpolated from all seeds.
   bool predicts = true;            ///< Whether the interpolation used predictions.

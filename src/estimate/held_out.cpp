@@ -14,11 +14,14 @@ class InclusionProbabilities {
   /// The sum of the probabilities is `count`. Precondition: `count` is below the number of candidates.
   InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
                          std::span<const uint32_t> representedCounts)
-      : densities_(candidates.size()) {
+      : representedCounts_(representedCounts), densities_(candidates.size()) {
+    double greatest = 0;
+    for (const uint32_t face : candidates) greatest = std::max(greatest, indicator[face]);
     for (size_t i = 0; i < candidates.size(); ++i) {
-      const double expected = indicator[candidates[i]];
-      const double representedCount = representedCounts.empty() ? 1 : representedCounts[candidates[i]];
-      densities_[i] = expected * std::sqrt(std::sqrt(std::sqrt(expected))) * representedCount;
+      // Relative to the greatest indicator, so that the power neither overflows nor underflows in any unit of length.
+      // By square roots, because std::pow() has different bits on different systems.
+      const double relative = indicator[candidates[i]] / greatest;
+      densities_[i] = relative * std::sqrt(std::sqrt(std::sqrt(relative))) * representedCountOf(candidates[i]);
     }
     for (bool grows = true; grows;) {  // Repeated until no further probability reaches 1.
       double sum = 0, remaining = static_cast<double>(count);
@@ -32,8 +35,12 @@ class InclusionProbabilities {
     }
   }
   [[nodiscard]] double of(size_t candidate) const { return std::min(1.0, scale_ * densities_[candidate]); }
+  [[nodiscard]] double representedCountOf(uint32_t face) const {
+    return representedCounts_.empty() ? 1 : representedCounts_[face];
+  }
 
  private:
+  std::span<const uint32_t> representedCounts_;
   std::vector<double> densities_;
   double scale_ = 0;
 };
@@ -79,9 +86,8 @@ HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const
   for (const uint32_t i :
        samplePivotally(static_cast<uint32_t>(candidates.size()), probabilities, Random(randomSeed))) {
     const uint32_t face = candidates[i];
-    const double representedCount = representedCounts.empty() ? 1 : representedCounts[face];
     heldOut.faces.push_back(face);
-    heldOut.weights.push_back((representedCount / probabilities.of(i) - 1) / candidatesPerFace);
+    heldOut.weights.push_back((probabilities.representedCountOf(face) / probabilities.of(i) - 1) / candidatesPerFace);
   }
   return heldOut;
 }

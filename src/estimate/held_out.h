@@ -24,8 +24,8 @@ struct HeldOutFaces {
 }
 
 /// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is at most 1, and
-/// proportional to i^(9/8) c. i is the error indicator of the face, and c its representedCounts. (The exponent lowers
-/// the error of the result, because the held-out faces become its seeds: docs/experiments.md.) Ordered pivotal method
+/// proportional to i^(9/8) c, where i is its error indicator and c its entry in representedCounts. An exponent above 1
+/// lowers the error of the result, because held-out faces become seeds (docs/experiments.md). Ordered pivotal method
 /// (Deville and Tille 1998, "Unequal probability sampling without replacement through a splitting method"; Chauvet
 /// 2012). Neighbours in the list exclude each other, so that the sample is spread over the list. indicator: #F, above
 /// 0. representedCounts: #F, the number of faces that each face represents (itself and faces that get its value);

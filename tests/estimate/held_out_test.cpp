@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -49,7 +50,7 @@ TEST_CASE("held-out faces are as many as requested, all different, ascending and
 namespace {
 
 /// Ten indicators. If four faces are sampled, the fifth is certain, and three are left for the others.
-const std::vector<double> kIndicator{1, 2, 3, 4, 100, 2, 4, 6, 8, 10};
+constexpr std::array<double, 10> kIndicator{1, 2, 3, 4, 100, 2, 4, 6, 8, 10};
 
 std::vector<double> probabilitiesOfFour() {
   std::vector<double> densities;
@@ -77,6 +78,32 @@ TEST_CASE("a sampling weight is the number of other faces that a held-out face s
       CHECK(heldOut.weights[i] == doctest::Approx((1 / probabilities[heldOut.faces[i]] - 1) / 2.5));
   }
   for (const double weight : sampleHeldOut(faces, kIndicator, 10, 1).weights) CHECK(weight == 0);
+}
+
+TEST_CASE("held-out faces are the same in all units of length that differ by a power of two") {
+  const std::vector<uint32_t> faces = facesUpTo(10);
+  const HeldOutFaces expected = sampleHeldOut(faces, kIndicator, 4, 1);
+  for (const double unit : {0x1p1, 0x1p500, 0x1p-500, 0x1p1000, 0x1p-1000}) {
+    std::vector<double> scaled(kIndicator.begin(), kIndicator.end());
+    for (double& indicator : scaled) indicator *= unit;
+    const HeldOutFaces heldOut = sampleHeldOut(faces, scaled, 4, 1);
+    CHECK(heldOut.faces == expected.faces);
+    CHECK(heldOut.weights == expected.weights);
+  }
+}
+
+TEST_CASE("indicators and represented counts belong to faces; a probability is in proportion to the count") {
+  const std::vector<uint32_t> candidates{1, 3, 5, 7};
+  const std::vector<double> indicator{9, 1, 9, 1, 9, 1, 9, 1};
+  const std::vector<uint32_t> counts{9, 1, 9, 2, 9, 3, 9, 4};
+  for (uint64_t run = 0; run < 50; ++run) {
+    const HeldOutFaces heldOut = sampleHeldOut(candidates, indicator, 2, run, counts);
+    REQUIRE(heldOut.faces.size() == 2);
+    for (size_t i = 0; i < 2; ++i) {
+      const double count = counts[heldOut.faces[i]], probability = 2 * count / 10;
+      CHECK(heldOut.weights[i] == doctest::Approx((count / probability - 1) / 2));
+    }
+  }
 }
 
 TEST_CASE("the weighted sum over held-out faces estimates the sum over the other faces without bias") {
