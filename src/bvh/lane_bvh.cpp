@@ -77,10 +77,12 @@ void fillNode(LaneNode& node, const LaneChildren& children, std::span<const BvhN
   }
 }
 
-/// Prefetches what fillBlock() reads. The faces of a later block have to be known for its vertices.
+/// Prefetches the faces that prefetchVertices() and fillBlock() read.
 void prefetchFaces(const WideCollapse::PrimitiveRange& range, const Bvh& bvh, const TriangleMesh& mesh) {
   for (uint32_t i = 0; i < range.count; ++i) prefetchMemory(&mesh.faces[bvh.primitiveFaces[range.first + i]]);
 }
+
+/// Prefetches the vertices that fillBlock() reads. Reads the faces, which must therefore be prefetched earlier.
 void prefetchVertices(const WideCollapse::PrimitiveRange& range, const Bvh& bvh, const TriangleMesh& mesh) {
   for (uint32_t i = 0; i < range.count; ++i)
     for (const uint32_t vertex : mesh.faces[bvh.primitiveFaces[range.first + i]])
@@ -108,9 +110,10 @@ LaneBvh encodeLaneBvh(const Bvh& bvh, const TriangleMesh& mesh) {
                 layout.depth()};
   forEachInParallel(lanes.nodes.size(), [&](size_t i) { fillNode(lanes.nodes[i], layout.children()[i], bvh.nodes); });
   const std::vector<WideCollapse::PrimitiveRange>& blocks = layout.blocks();
+  constexpr size_t kFaceDistance = 4, kVertexDistance = 2;  // Prefetch distances. Unit: blocks.
   forEachInParallel(blocks.size(), [&](size_t i) {
-    if (i + 4 < blocks.size()) prefetchFaces(blocks[i + 4], bvh, mesh);
-    if (i + 2 < blocks.size()) prefetchVertices(blocks[i + 2], bvh, mesh);
+    if (i + kFaceDistance < blocks.size()) prefetchFaces(blocks[i + kFaceDistance], bvh, mesh);
+    if (i + kVertexDistance < blocks.size()) prefetchVertices(blocks[i + kVertexDistance], bvh, mesh);
     fillBlock(lanes.blocks[i], blocks[i], bvh, mesh);
   });
   return lanes;

@@ -53,7 +53,7 @@ def test_colour_maps(page, name):
     x = int(legend[0] + 58 + 9)
     rows = [box[1] + box[3] / 2 for box in ends]
     picture = page.screenshot()
-    # At the ends the first pixel that lies inside of the bar as a whole.
+    # At each end: the first pixel that is completely inside of the bar.
     for y, expected in zip((int(rows[0]) - 1, int(sum(rows) / 2), int(rows[1]) + 1), stops):
         assert abs(numpy.array(picture.getpixel((x, y))) - expected).max() <= 8
 

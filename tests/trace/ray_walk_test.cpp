@@ -57,7 +57,7 @@ TEST_CASE("the walk of the CPU finds the nearest hits of the reference, with the
     const std::vector<RayGroup> groups = randomGroups(300);
     std::vector<RayGroup> results[2];
     for (const InstructionSet instructionSet : walkInstructionSets()) {
-      RayWalk walk(bvh, {}, instructionSet);
+      RayWalk walk(bvh, nullptr, instructionSet);
       std::vector<RayGroup>& own = results[instructionSet == InstructionSet::Baseline ? 0 : 1] = groups;
       for (RayGroup& group : own) walk.findNearest(group);
       size_t wrongCount = 0;

@@ -34,7 +34,7 @@ void ConeGroup::clear() {
 }
 
 void ConeGroup::trace() {
-  // The hits of a ray are taken after the next ray, because their faces are fetched from memory in the meantime.
+  // takeHits() of a ray follows the next ray: the entries of primitiveFaces that it reads are prefetched meanwhile.
   RayGroup::Indices primitives;
   RayGroup::Floats distances;
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
@@ -62,7 +62,7 @@ void ConeGroup::cast(const Vec3d& coneDirection) {
   walk_.findNearest(rays_);
 }
 
-/// Also prefetches what LaneCones::measure() reads of the faces.
+/// Writes the faces and distances of one ray per cone, and prefetches what LaneCones::measure() reads of the faces.
 void ConeGroup::takeHits(const RayGroup::Indices& primitives, const RayGroup::Floats& distances, LaneHits& hits) const {
   hits.distances = distances;
   for (size_t lane = 0; lane < kWidth; ++lane) {

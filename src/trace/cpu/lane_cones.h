@@ -35,7 +35,8 @@ class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
 
-  /// The cone and the scene must outlive this object. Precondition: this machine has the instruction set.
+  /// The cone and the viewed data of the scene must outlive this object. Precondition: this machine has the instruction
+  /// set.
   LaneCones(const Cone& cone, const TraceScene& scene, InstructionSet instructionSet = widestInstructionSet());
 
   /// Computes the lengths of all rays. hits: one entry per ray of the cone. A length is the distance to the plane of
@@ -53,7 +54,7 @@ class LaneCones {
   void sortDeviations(std::span<const double> medians);
 
   const Cone& cone_;
-  const TraceScene& scene_;
+  TraceScene scene_;
   InstructionSet instructionSet_;
   std::vector<std::array<double, kWidth>> lengths_, sorted_;  // One entry per ray.
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // The sorting network.
