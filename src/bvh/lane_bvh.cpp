@@ -82,7 +82,7 @@ void prefetchFaces(const WideCollapse::PrimitiveRange& range, const Bvh& bvh, co
   for (uint32_t i = 0; i < range.count; ++i) prefetchMemory(&mesh.faces[bvh.primitiveFaces[range.first + i]]);
 }
 
-/// Prefetches the vertices that fillBlock() reads. Reads the faces, which must therefore be prefetched earlier.
+/// Prefetches the vertices that fillBlock() reads. This function reads the faces, so they must be prefetched earlier.
 void prefetchVertices(const WideCollapse::PrimitiveRange& range, const Bvh& bvh, const TriangleMesh& mesh) {
   for (uint32_t i = 0; i < range.count; ++i)
     for (const uint32_t vertex : mesh.faces[bvh.primitiveFaces[range.first + i]])
@@ -110,7 +110,8 @@ LaneBvh encodeLaneBvh(const Bvh& bvh, const TriangleMesh& mesh) {
                 layout.depth()};
   forEachInParallel(lanes.nodes.size(), [&](size_t i) { fillNode(lanes.nodes[i], layout.children()[i], bvh.nodes); });
   const std::vector<WideCollapse::PrimitiveRange>& blocks = layout.blocks();
-  constexpr size_t kFaceDistance = 4, kVertexDistance = 2;  // Prefetch distances. Unit: blocks.
+  // Faces and vertices are prefetched this number of blocks ahead.
+  constexpr size_t kFaceDistance = 4, kVertexDistance = 2;
   forEachInParallel(blocks.size(), [&](size_t i) {
     if (i + kFaceDistance < blocks.size()) prefetchFaces(blocks[i + kFaceDistance], bvh, mesh);
     if (i + kVertexDistance < blocks.size()) prefetchVertices(blocks[i + kVertexDistance], bvh, mesh);

@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-/// Inclusion probabilities, one per candidate. See sampleHeldOut().
+/// The inclusion probabilities of the candidates (sampleHeldOut()).
 class InclusionProbabilities {
  public:
   /// The sum of the probabilities is `count`. Precondition: `count` is below the number of candidates.
@@ -34,6 +34,7 @@ class InclusionProbabilities {
       if (grows) scale_ = remaining / sum;
     }
   }
+  [[nodiscard]] size_t size() const { return densities_.size(); }
   [[nodiscard]] double of(size_t candidate) const { return std::min(1.0, scale_ * densities_[candidate]); }
   [[nodiscard]] double representedCountOf(uint32_t face) const {
     return representedCounts_.empty() ? 1 : representedCounts_[face];
@@ -45,19 +46,18 @@ class InclusionProbabilities {
   double scale_ = 0;
 };
 
-/// Returns indices of candidates, ascending.
-std::vector<uint32_t> samplePivotally(uint32_t candidateCount, const InclusionProbabilities& probabilities,
-                                      Random random) {
+/// Returns ascending indices of candidates.
+std::vector<uint32_t> samplePivotally(const InclusionProbabilities& probabilities, Random random) {
   std::vector<uint32_t> sample;
   uint32_t holder = 0;
-  double held = 0;  // Inclusion probability of `holder`, given the decisions on all earlier candidates. Of two
-                    // candidates, one is decided and the other becomes `holder`.
-  for (uint32_t next = 0; next < candidateCount; ++next) {
+  // The inclusion probability of `holder`, the only candidate before `next` that is neither sampled nor rejected yet.
+  double held = 0;
+  for (uint32_t next = 0; next < probabilities.size(); ++next) {
     const double own = probabilities.of(next), sum = held + own, number = random.real();
-    if (sum < 1) {  // `holder` or `next` receives the probability of both; the other is not sampled.
+    if (sum < 1) {  // One of the two gets the probability of both. The other one is rejected.
       if (number * sum >= held) holder = next;
       held = sum;
-    } else {  // `holder` or `next` is sampled; the other keeps the rest of the probability.
+    } else {  // One of the two is sampled. The other one keeps the rest of the probability.
       const bool takesHolder = number * (2 - sum) < 1 - own;
       sample.push_back(takesHolder ? holder : next);
       if (takesHolder) holder = next;
@@ -83,8 +83,7 @@ HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const
   const InclusionProbabilities probabilities(candidates, indicator, count, representedCounts);
   const double candidatesPerFace = static_cast<double>(candidates.size()) / static_cast<double>(count);
   HeldOutFaces heldOut;
-  for (const uint32_t i :
-       samplePivotally(static_cast<uint32_t>(candidates.size()), probabilities, Random(randomSeed))) {
+  for (const uint32_t i : samplePivotally(probabilities, Random(randomSeed))) {
     const uint32_t face = candidates[i];
     heldOut.faces.push_back(face);
     heldOut.weights.push_back((probabilities.representedCountOf(face) / probabilities.of(i) - 1) / candidatesPerFace);

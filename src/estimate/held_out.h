@@ -23,13 +23,14 @@ struct HeldOutFaces {
   return (randomSeed ^ 0x7072'6f62'6500'0000u) + earlierHeldOutCount;
 }
 
-/// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is at most 1, and
-/// proportional to i^(9/8) c, where i is its error indicator and c its entry in representedCounts. An exponent above 1
-/// lowers the error of the result, because held-out faces become seeds (docs/experiments.md). Ordered pivotal method
-/// (Deville and Tille 1998, "Unequal probability sampling without replacement through a splitting method"; Chauvet
-/// 2012). Neighbours in the list exclude each other, so that the sample is spread over the list. indicator: #F, above
-/// 0. representedCounts: #F, the number of faces that each face represents (itself and faces that get its value);
-/// empty: 1 for each face. Returns ascending faces if the candidates are ascending.
+/// Samples `count` of the candidates, or all candidates if there are fewer. The inclusion probability of a face is at
+/// most 1. It is proportional to c i^(9/8): i is the error indicator of the face, and c is the number of faces that it
+/// represents. The exponent is above 1 because held-out faces become seeds, which lowers the error of the result
+/// (docs/experiments.md). The method is the ordered pivotal method (Deville and Tille 1998, "Unequal probability
+/// sampling without replacement through a splitting method"; Chauvet 2012). Neighbours in the list exclude each other,
+/// so that the sample is spread over the list. indicator: #F, above 0. representedCounts: #F, the number of faces that
+/// each face represents (itself and faces that get its value); if empty, each face represents only itself. If the
+/// candidates are ascending, the sampled faces are ascending, too.
 [[nodiscard]] HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator,
                                          uint64_t count, uint64_t randomSeed,
                                          std::span<const uint32_t> representedCounts = {});

@@ -23,6 +23,10 @@ struct TraceScene {
   }
 };
 
+/// A ray length is the distance to the plane of the hit face, unless this distance differs from the float32 distance of
+/// the hit by more than this number (normalised units). The distances differ by more only on slivers.
+inline constexpr double kPlaneTolerance = 0x1p-14;
+
 /// Returns normalised coordinates.
 [[nodiscard]] inline PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face) {
   return {scene.bvh.normalization.normalizedCorners(scene.mesh, face), scene.geometry.normals[face]};

@@ -34,18 +34,18 @@ void ConeGroup::clear() {
 }
 
 void ConeGroup::trace() {
-  // takeHits() of a ray follows the next ray: the entries of primitiveFaces that it reads are prefetched meanwhile.
+  // The faces of the hits are set after the next ray, because setFaces() reads scattered entries of primitiveFaces. The
+  // memory loads these entries during the next ray.
   RayGroup::Indices primitives;
-  RayGroup::Floats distances;
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     cast(cones_.cone.directions[ray]);
     for (const uint32_t primitive : rays_.primitives)
       if (primitive != kNoFace) prefetchMemory(&cones_.scene.bvh.primitiveFaces[primitive]);
-    if (ray > 0) takeHits(primitives, distances, hits_[ray - 1]);
+    if (ray > 0) setFaces(primitives, hits_[ray - 1]);
     primitives = rays_.primitives;
-    distances = rays_.distances;
+    hits_[ray].distances = rays_.distances;
   }
-  takeHits(primitives, distances, hits_.back());
+  setFaces(primitives, hits_.back());
   lanes_.measure(frames_, hits_);
   values_ = lanes_.values();
   if (size_ > 0 && !seeds_[0].hits.empty())
@@ -62,9 +62,8 @@ void ConeGroup::cast(const Vec3d& coneDirection) {
   walk_.findNearest(rays_);
 }
 
-/// Writes the faces and distances of one ray per cone, and prefetches what LaneCones::measure() reads of the faces.
-void ConeGroup::takeHits(const RayGroup::Indices& primitives, const RayGroup::Floats& distances, LaneHits& hits) const {
-  hits.distances = distances;
+/// Sets the faces of the hits of one ray per cone, and prefetches what LaneCones::measure() reads of them.
+void ConeGroup::setFaces(const RayGroup::Indices& primitives, LaneHits& hits) const {
   for (size_t lane = 0; lane < kWidth; ++lane) {
     const uint32_t primitive = primitives[lane];
     hits.faces[lane] = kNoFace;

@@ -49,7 +49,7 @@ class ConeGroup {
 
  private:
   void cast(const Vec3d& coneDirection);
-  void takeHits(const RayGroup::Indices& primitives, const RayGroup::Floats& distances, LaneHits& hits) const;
+  void setFaces(const RayGroup::Indices& primitives, LaneHits& hits) const;
   void writeHits(size_t lane) const;
 
   CpuCones cones_;

@@ -68,7 +68,6 @@ LaneCones::LaneCones(const Cone& cone, const TraceScene& scene, InstructionSet i
       exchanges_(sortingNetwork(cone.directions.size())) {}
 
 ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& frames, std::span<const LaneHits> hits) {
-  constexpr double kPlaneTolerance = 0x1p-14;
   // Local copies, because the compiler would reload members after every store of a length.
   const Vec3d* const directions = cone_.directions.data();
   const Vec3d* const faceNormals = scene_.geometry.normals.data();

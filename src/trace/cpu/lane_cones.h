@@ -17,7 +17,7 @@ namespace asdfvk {
 struct LaneHits {
   static constexpr size_t kWidth = 8;
 
-  std::array<uint32_t, kWidth> faces;  ///< kNoFace for a miss.
+  std::array<uint32_t, kWidth> faces;  ///< kNoFace: the ray hits nothing.
   std::array<float, kWidth> distances;
 };
 

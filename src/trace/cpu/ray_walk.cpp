@@ -171,7 +171,6 @@ struct RayHitDistance {
 /// The distance to the plane or, if the plane is not near the hit, `fromCorners`.
 RayHitDistance distanceToPlane(const TraceScene& scene, uint32_t primitive, const RayGroup& rays, size_t ray,
                                const RayHitDistance& fromCorners) {
-  constexpr double kPlaneTolerance = 0x1p-14;
   const uint32_t face = scene.bvh.primitiveFaces[primitive];
   const Vec3d& normal = scene.geometry.normals[face];
   const Vec3d origin{rays.origins[0][ray], rays.origins[1][ray], rays.origins[2][ray]},
