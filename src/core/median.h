@@ -3,19 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <span>
 #include <vector>
 
 namespace asdfvk {
-
-/// The numbers that are not NaN, in their order.
-[[nodiscard]] inline std::vector<double> presentNumbers(std::span<const double> numbers) {
-  std::vector<double> present;
-  present.reserve(numbers.size());
-  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(present), [](double n) { return !std::isnan(n); });
-  return present;
-}
 
 /// The median; for an even count the upper of the middle two. Reorders the numbers. Preconditions: at least one number,
 /// no NaN.

@@ -1,10 +1,13 @@
 #include "estimate/error_estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
-#include "core/median.h"
+#include "core/parallel.h"
+#include "core/percentiles.h"
 #include "core/weighted_sample.h"
 
 namespace asdfvk {
@@ -29,9 +32,9 @@ double tracedRange(const EstimateInput& input) {
 
 /// The 99th minus the 1st percentile of the values. Precondition: a face has a value.
 double robustRange(std::span<const double> values) {
-  std::vector<double> present = presentNumbers(values);
-  const double low = percentileOf(present, 0.01);
-  return percentileOf(present, 0.99) - low;
+  constexpr std::array<double, 2> kShares{0.01, 0.99};
+  const std::vector<double> ends = percentilesOf(values, kShares);
+  return ends[1] - ends[0];
 }
 
 /// The power of two at or below the range. Errors are squared in this unit: at any scale of the mesh the squares
@@ -76,6 +79,17 @@ std::vector<WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement
   for (size_t i = 0; i < count; ++i) worst.push_back({mesh.inputFaceOf(measured[i].face), measured[i].error / range});
   return worst;
 }
+
+/// Sums over faces with a value.
+struct ExpectedSums {
+  double error = 0, interpolatedIndicator = 0;  // The error is in the unit of unitOf().
+  size_t count = 0, interpolatedCount = 0;
+
+  ExpectedSums operator+(const ExpectedSums& other) const {
+    return {error + other.error, interpolatedIndicator + other.interpolatedIndicator, count + other.count,
+            interpolatedCount + other.interpolatedCount};
+  }
+};
 
 /// An error of 0 gives 0, also for the value 0.
 double relativeError(double error, double value) { return error == 0 ? 0 : error / std::abs(value); }
@@ -138,26 +152,30 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& in
   const double ratioDeviation = std::sqrt(squareSum * sampleSize / (sampleSize - 1)) / indicatorSum;
   const double gain = gainBySeeds(input), gainDeviation = 1 - gain;
 
-  double sum = 0, interpolatedIndicator = 0;
-  size_t count = 0, interpolatedCount = 0;
-  for (size_t face = 0; face < input.result.size(); ++face) {
-    if (std::isnan(input.result[face])) continue;
-    const double traced = input.traced.values[face], indicator = indicatorOf(input, face);
-    const bool isInterpolated = std::isnan(traced);
-    result.expected[face] = isInterpolated ? gain * ratio * indicator * unit : std::abs(input.result[face] - traced);
-    if (isInterpolated) {
-      interpolatedIndicator += indicator;
-      ++interpolatedCount;
+  const auto expectIn = [&](size_t begin, size_t end) {
+    ExpectedSums sums;
+    for (size_t face = begin; face < end; ++face) {
+      if (std::isnan(input.result[face])) continue;
+      const double traced = input.traced.values[face], indicator = indicatorOf(input, face);
+      const bool isInterpolated = std::isnan(traced);
+      result.expected[face] = isInterpolated ? gain * ratio * indicator * unit : std::abs(input.result[face] - traced);
+      if (isInterpolated) {
+        sums.interpolatedIndicator += indicator;
+        ++sums.interpolatedCount;
+      }
+      sums.error += result.expected[face] / unit;
+      ++sums.count;
     }
-    sum += result.expected[face] / unit;
-    ++count;
-  }
-  const double scale = 1 / (static_cast<double>(count) * (range / unit));
-  estimateRelativeErrors(input, measured, gain, interpolatedCount, result.estimate);
-  result.estimate.robustAverage = sum / static_cast<double>(count) / (robustRange(input.result) / unit);
-  result.estimate.average = sum * scale;
+    return sums;
+  };
+  const ExpectedSums sums = foldInParallel<ExpectedSums>(input.result.size(), expectIn, std::plus<>());
+  const auto count = static_cast<double>(sums.count);
+  const double scale = 1 / (count * (range / unit));
+  estimateRelativeErrors(input, measured, gain, sums.interpolatedCount, result.estimate);
+  result.estimate.robustAverage = sums.error / count / (robustRange(input.result) / unit);
+  result.estimate.average = sums.error * scale;
   result.estimate.standardError =
-      gain * std::hypot(ratioDeviation, gainDeviation * ratio) * interpolatedIndicator * scale;
+      gain * std::hypot(ratioDeviation, gainDeviation * ratio) * sums.interpolatedIndicator * scale;
   result.estimate.heldOutCount = measured.size();
   result.estimate.worstFaces = worstOf(mesh, measured, range);
   return result;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/median.h"
+#include "core/percentiles.h"
 
 namespace asdfvk {
 namespace {
@@ -22,12 +22,9 @@ constexpr std::array<std::array<uint8_t, 3>, 9> kViridis{{{68, 1, 84},
 }  // namespace
 
 ColourRange percentileRange(std::span<const double> values) {
-  std::vector<double> finite;
-  finite.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](double v) { return std::isfinite(v); });
-  if (finite.empty()) return {};
-  const double low = percentileOf(finite, 0.01);
-  return {low, percentileOf(finite, 0.99)};
+  constexpr std::array<double, 2> kShares{0.01, 0.99};
+  const std::vector<double> ends = percentilesOf(values, kShares);
+  return ends.empty() ? ColourRange{} : ColourRange{ends[0], ends[1]};
 }
 
 Rgba colourOf(double value, const ColourRange& range) {

@@ -1,11 +1,11 @@
 #include "pipeline/value_report.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "core/median.h"
+#include "core/percentiles.h"
 #include "describe/warnings.h"
 
 namespace asdfvk {
@@ -34,15 +34,11 @@ Warning describeMissing(const Report& report, const PreparedMesh& prepared, cons
   return missingValues(missing);
 }
 
-ValueRange rangeOf(const std::vector<double>& values) {
-  std::vector<double> present = presentNumbers(values);
-  if (present.empty()) return {};
-  const auto [low, high] = std::minmax_element(present.begin(), present.end());
-  ValueRange range{.min = *low, .max = *high};
-  range.median = upperMedian(present);
-  range.percentile1 = percentileOf(present, 0.01);
-  range.percentile99 = percentileOf(present, 0.99);
-  return range;
+ValueRange rangeOf(std::span<const double> values) {
+  constexpr std::array<double, 5> kShares{0, 0.01, 0.5, 0.99, 1};
+  const std::vector<double> at = percentilesOf(values, kShares);
+  if (at.empty()) return {};
+  return {at[0], at[1], at[2], at[3], at[4]};
 }
 
 /// The warning about reported errors over the range that look small only because the range is large.
