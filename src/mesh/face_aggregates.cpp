@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
-#include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
@@ -24,38 +24,59 @@ constexpr uint32_t kNoAggregate = 0xffffffff;
 
 double inRadians(double degrees) { return degrees * (std::numbers::pi / 180); }
 
-/// Builds the aggregates one after another, in the order of the faces.
+/// The faces of each aggregate, the centre first.
+struct Members {
+  std::vector<uint32_t> faces;
+  std::vector<uint32_t> offsets;  // #A+1
+
+  [[nodiscard]] std::span<const uint32_t> operator[](uint32_t aggregate) const {
+    return std::span(faces).subspan(offsets[aggregate], offsets[aggregate + 1] - offsets[aggregate]);
+  }
+};
+
+struct FaceRange {
+  uint32_t begin = 0, end = 0;
+};
+
+/// Builds the aggregates of a block of faces one after another, in the order of the faces.
 class AggregateGrower {
  public:
+  /// aggregateOf, members: of all faces; the entries of the block are written. The aggregates are numbered from 0.
   AggregateGrower(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
-                  FaceAggregates& aggregates)
-      : graph_(graph), geometry_(geometry), limits_(limits), aggregates_(aggregates) {
-    aggregates.aggregateOf.assign(graph.faceCount(), kNoAggregate);
-    members_.entries.reserve(graph.faceCount());
+                  const FaceRange& block, std::vector<uint32_t>& aggregateOf, std::vector<uint32_t>& members)
+      : graph_(graph),
+        geometry_(geometry),
+        limits_(limits),
+        block_(block),
+        aggregateOf_(aggregateOf),
+        members_(members),
+        memberEnd_(block.begin) {
+    for (uint32_t face = block.begin; face < block.end; ++face)
+      if (aggregateOf_[face] == kNoAggregate) grow(face);
   }
 
-  void grow(uint32_t centre) {
-    maxLength_ = limits_.lengths[limits_.componentOf[centre]];
-    const auto aggregate = static_cast<uint32_t>(aggregates_.centres.size());
-    aggregates_.centres.push_back(centre);
-    add(centre, aggregate);
-    size_t next = members_.offsets.back();
-    for (uint32_t arc = 0; maxLength_ > 0 && arc < limits_.arcCount; ++arc)
-      for (const size_t end = members_.entries.size(); next < end; ++next)
-        for (const uint32_t neighbour : graph_.neighboursOf(members_.entries[next]))
-          if (aggregates_.aggregateOf[neighbour] == kNoAggregate && isWithinLimits(centre, neighbour))
-            add(neighbour, aggregate);
-    members_.offsets.push_back(static_cast<uint32_t>(members_.entries.size()));
-    aggregates_.sizes.push_back(static_cast<uint32_t>(members_[aggregate].size()));
-  }
-
-  /// The faces of each aggregate, the centre first.
-  [[nodiscard]] const Buckets<uint32_t>& members() const { return members_; }
+  [[nodiscard]] const std::vector<uint32_t>& centres() const { return centres_; }
+  /// The ends of the aggregates in `members`.
+  [[nodiscard]] const std::vector<uint32_t>& memberEnds() const { return memberEnds_; }
 
  private:
-  void add(uint32_t face, uint32_t aggregate) {
-    aggregates_.aggregateOf[face] = aggregate;
-    members_.entries.push_back(face);
+  void grow(uint32_t centre) {
+    maxLength_ = limits_.lengths[limits_.componentOf[centre]];
+    uint32_t next = memberEnd_;
+    add(centre);
+    for (uint32_t arc = 0; maxLength_ > 0 && arc < limits_.arcCount; ++arc)
+      for (const uint32_t end = memberEnd_; next < end; ++next)
+        for (const uint32_t neighbour : graph_.neighboursOf(members_[next]))
+          if (isFree(neighbour) && isWithinLimits(centre, neighbour)) add(neighbour);
+    centres_.push_back(centre);
+    memberEnds_.push_back(memberEnd_);
+  }
+  void add(uint32_t face) {
+    aggregateOf_[face] = static_cast<uint32_t>(centres_.size());
+    members_[memberEnd_++] = face;
+  }
+  [[nodiscard]] bool isFree(uint32_t face) const {
+    return face >= block_.begin && face < block_.end && aggregateOf_[face] == kNoAggregate;
   }
   [[nodiscard]] bool isWithinLimits(uint32_t centre, uint32_t face) const {
     const Vec3d between = (geometry_.barycentres[face] - geometry_.barycentres[centre]) / maxLength_;
@@ -66,13 +87,61 @@ class AggregateGrower {
   const FaceGeometry& geometry_;
   const AggregateLimits limits_;
   const double minCosine_ = std::cos(inRadians(kMaxAngleDegrees));
-  FaceAggregates& aggregates_;
-  Buckets<uint32_t> members_{{0}, {}};
+  const FaceRange block_;
+  std::vector<uint32_t>&aggregateOf_, &members_;
+  std::vector<uint32_t> centres_, memberEnds_;
+  uint32_t memberEnd_;
   double maxLength_ = 0;  // Greatest distance of a face from the centre of the current aggregate.
 };
 
+/// Blocks of consecutive faces. An aggregate is within one block. If neighbours are often in different blocks, all
+/// faces are one block.
+std::vector<FaceRange> blocksOf(const DualGraph& graph) {
+  constexpr uint32_t kBlockSize = 1 << 16, kFacesPerSample = 64;
+  constexpr double kMaxCrossingShare = 0.02;
+  const uint32_t faceCount = graph.faceCount();
+  uint64_t arcCount = 0, crossingCount = 0;
+  for (uint64_t face = 0; face < faceCount; face += kFacesPerSample)
+    for (const uint32_t neighbour : graph.neighboursOf(static_cast<uint32_t>(face))) {
+      ++arcCount;
+      crossingCount += neighbour / kBlockSize != face / kBlockSize ? 1 : 0;
+    }
+  const bool isOneBlock = static_cast<double>(crossingCount) > kMaxCrossingShare * static_cast<double>(arcCount);
+  const uint32_t blockSize = isOneBlock ? faceCount : kBlockSize;
+  std::vector<FaceRange> blocks;
+  for (uint32_t begin = 0; begin < faceCount; begin = blocks.back().end)
+    blocks.push_back({begin, begin + std::min(blockSize, faceCount - begin)});
+  return blocks;
+}
+
+/// Sets everything but aggregates.graph.
+Members growAggregates(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
+                       FaceAggregates& aggregates) {
+  const std::vector<FaceRange> blocks = blocksOf(graph);
+  aggregates.aggregateOf.assign(graph.faceCount(), kNoAggregate);
+  Members members{std::vector<uint32_t>(graph.faceCount()), {}};
+  std::vector<std::optional<AggregateGrower>> growers(blocks.size());
+  forEachTask(blocks.size(), [&](size_t i) {
+    growers[i].emplace(graph, geometry, limits, blocks[i], aggregates.aggregateOf, members.faces);
+  });
+  std::vector<uint32_t> first(1, 0);  // The first aggregate of each block.
+  for (const auto& grower : growers) first.push_back(first.back() + static_cast<uint32_t>(grower->centres().size()));
+  aggregates.centres.resize(first.back());
+  members.offsets.assign(first.back() + size_t{1}, 0);
+  forEachTask(blocks.size(), [&](size_t i) {
+    std::ranges::copy(growers[i]->centres(), aggregates.centres.begin() + first[i]);
+    std::ranges::copy(growers[i]->memberEnds(), members.offsets.begin() + first[i] + 1);
+    for (uint32_t face = blocks[i].begin; face < blocks[i].end; ++face) aggregates.aggregateOf[face] += first[i];
+  });
+  aggregates.sizes.resize(first.back());
+  forEachInParallel(aggregates.sizes.size(), [&](uint32_t aggregate) {
+    aggregates.sizes[aggregate] = members.offsets[aggregate + 1] - members.offsets[aggregate];
+  });
+  return members;
+}
+
 /// Sets aggregates.graph.
-void connect(const DualGraph& graph, const Buckets<uint32_t>& members, FaceAggregates& aggregates) {
+void connect(const DualGraph& graph, const Members& members, FaceAggregates& aggregates) {
   constexpr uint32_t kBlockSize = 4096;
   const auto aggregateCount = static_cast<uint32_t>(aggregates.centres.size());
   std::vector<std::vector<uint32_t>> blocks((aggregateCount + kBlockSize - 1) / kBlockSize);
@@ -105,10 +174,7 @@ FaceAggregates buildFaceAggregates(const DualGraph& graph, const FaceGeometry& g
                                    const AggregateLimits& limits) {
   ASDFVK_CHECK_OP(limits.componentOf.size(), ==, size_t{graph.faceCount()});
   FaceAggregates aggregates;
-  AggregateGrower grower(graph, geometry, limits, aggregates);
-  for (uint32_t face = 0; face < graph.faceCount(); ++face)
-    if (aggregates.aggregateOf[face] == kNoAggregate) grower.grow(face);
-  connect(graph, grower.members(), aggregates);
+  connect(graph, growAggregates(graph, geometry, limits, aggregates), aggregates);
   return aggregates;
 }
 

@@ -21,10 +21,19 @@ constexpr double kMinFacesPerAggregate = 1.5;
 
 /// #components: AggregateLimits::lengths.
 std::vector<double> lengthLimits(const PreparedMesh& prepared) {
-  const auto& [componentOf, components] = prepared.components;
+  const std::vector<uint32_t>& componentOf = prepared.components.componentOf;
+  const std::vector<Component>& components = prepared.components.components;
+  PerThread<std::vector<Box3d>> ofThreads([&] { return std::vector<Box3d>(components.size()); });
+  forEachRange(componentOf.size(), kItemsPerTask, [&](size_t begin, size_t end) {
+    std::vector<Box3d>& boxes = ofThreads.local();
+    for (size_t face = begin; face < end; ++face)
+      if (const Vec3d& place = prepared.geometry.barycentres[face]; isFinite(place))
+        boxes[componentOf[face]].add(place);
+  });
   std::vector<Box3d> boxes(components.size());
-  for (size_t face = 0; face < componentOf.size(); ++face)
-    if (const Vec3d& place = prepared.geometry.barycentres[face]; isFinite(place)) boxes[componentOf[face]].add(place);
+  ofThreads.forEach([&](const std::vector<Box3d>& ofThread) {
+    for (size_t i = 0; i < boxes.size(); ++i) boxes[i].add(ofThread[i]);
+  });
   std::vector<double> limits(components.size(), 0);
   for (size_t i = 0; i < limits.size(); ++i)
     if (components[i].faceCount >= kMinComponentSize) limits[i] = kMaxLength * length(boxes[i].size());
@@ -52,8 +61,8 @@ AggregatedMesh::AggregatedMesh(const PreparedMesh& prepared)
       aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry,
                                       {kMaxArcCount, lengthLimits(prepared), prepared.components.componentOf})),
       graph_(onCentres(aggregates_)) {
-  std::copy_if(aggregates_.centres.begin(), aggregates_.centres.end(), std::back_inserter(traceableFaces_),
-               [&](uint32_t centre) { return !prepared.geometry.isDegenerate(centre); });
+  traceableFaces_ = aggregates_.centres;
+  std::erase_if(traceableFaces_, [&](uint32_t centre) { return prepared.geometry.isDegenerate(centre); });
 }
 
 std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount) {
@@ -67,14 +76,16 @@ std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared
 
 std::vector<uint32_t> AggregatedMesh::representedCounts() const {
   std::vector<uint32_t> counts(aggregates_.aggregateOf.size(), 0);
-  for (size_t i = 0; i < aggregates_.centres.size(); ++i) counts[aggregates_.centres[i]] = aggregates_.sizes[i];
+  forEachInParallel(aggregates_.centres.size(),
+                    [&](uint32_t i) { counts[aggregates_.centres[i]] = aggregates_.sizes[i]; });
   return counts;
 }
 
 void AggregatedMesh::spread(std::vector<double>& values, std::vector<double>& indicator) const {
   spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, values);
-  for (size_t face = 0; face < indicator.size(); ++face)
-    indicator[face] = indicator[aggregates_.centreOf(static_cast<uint32_t>(face))];
+  forEachInParallel(indicator.size(), [&](uint32_t face) {
+    if (!aggregates_.isCentre(face)) indicator[face] = indicator[aggregates_.centreOf(face)];
+  });
 }
 
 }  // namespace asdfvk

@@ -104,6 +104,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("aggregates of a fine mesh have the same sizes in blocks and, if neighbours are far apart, without blocks") {
+  Mesh fine = shapes::icosphere(6);  // 81,920 faces: two blocks.
+  const AggregatedShape inOrder(fine);
+  Random random(1);
+  random.shuffle(std::span<Face>(fine.faces));
+  const AggregatedShape shuffled(fine);
+  const auto meanSizeOf = [](const AggregatedShape& shape) {
+    const FaceAggregates aggregates = shape.aggregates(2);
+    std::vector<uint32_t> sizes(aggregates.centres.size(), 0);
+    for (uint32_t face = 0; face < shape.mesh.faces.size(); ++face) {
+      REQUIRE(aggregates.isCentre(aggregates.centreOf(face)));
+      ++sizes[aggregates.aggregateOf[face]];
+    }
+    CHECK(sizes == aggregates.sizes);
+    CHECK(std::is_sorted(aggregates.centres.begin(), aggregates.centres.end()));
+    CHECK(aggregates.graph.faceCount() == sizes.size());
+    return static_cast<double>(shape.mesh.faces.size()) / static_cast<double>(sizes.size());
+  };
+  CHECK(meanSizeOf(inOrder) > 3.5);
+  CHECK(meanSizeOf(shuffled) > 3.5);
+}
+
 TEST_CASE("values are spread smoothly, not across sharp edges, and not over faces without a value") {
   const AggregatedShape cube(shapes::box({1, 1, 1}, 12));
   const FaceAggregates aggregates = cube.aggregates(2);
