@@ -276,7 +276,7 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
       Result result;
       StageWaits stageWaits;
       StageClock clock(result.report.stageSeconds, [&](Stage stage) { stageWaits.begin(stage); });
-      const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, control);
+      const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options.orientation, clock, control));
       KeptTracers tracers(*session.named.backend, scene->view(), 0);
       computeOn({session, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
       stageWaits.begin(Stage::Geometry);

@@ -120,8 +120,8 @@ void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, 
 }
 
 /// The values of the triangles, smoothed if requested.
-std::vector<double> finalValues(const FaceDomain& domain, const std::vector<double>& values,
-                                const SmoothingOptions& smoothing, StageClock& clock, const RunControl& stopOnly) {
+std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> values, const SmoothingOptions& smoothing,
+                                StageClock& clock, const RunControl& stopOnly) {
   if (!smoothing.isOn) return values;
   const auto scope = clock.time(Stage::Smooth);
   return smoothBilaterally(domain.graph, values,
@@ -138,12 +138,15 @@ bool losesComponent(const FaceDomain& domain, const TracedSeeds& traced) {
 }
 
 /// Calls runRounds(), on fine meshes for the centres of aggregates only. If these leave a component without a value,
-/// calls it for all faces.
-RoundsResult runRoundsOnAggregates(const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
-                                   const RunControl& control) {
+/// calls it for all faces. keepsNodes: whether the hierarchy is needed later.
+RoundsResult runRoundsOnAggregates(const Computation& computation, PreparedScene& preparedScene, KeptTracers& tracers,
+                                   bool keepsNodes, const RunControl& control) {
   const auto run = [&](const Computation& on) {
-    return runRounds(
-        on, [&] { return std::make_unique<SeedTracing>(on, tracers, releasedBvh); }, control);
+    const auto makeTracing = [&] {
+      preparedScene.requireHierarchy(bvhOptionsFor(on.backend), on.clock, control.withoutProgress());
+      return std::make_unique<SeedTracing>(on, tracers, keepsNodes ? nullptr : &preparedScene.bvh);
+    };
+    return runRounds(on, makeTracing, control);
   };
   const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
   const bool mayAggregate = computation.predicts() && options.seeds.kind != SeedCount::Kind::All &&
@@ -161,25 +164,23 @@ RoundsResult runRoundsOnAggregates(const Computation& computation, KeptTracers& 
   counted.seeds = SeedCount::ofCount(seedCount);
   control.checkpoint(0);
   RoundsResult rounds = run({counted, prepared, centres, scene, cone, backend, solvers, clock, warnings});
-  if (!losesComponent(domain, rounds.traced)) return rounds;
-  if (releasedBvh != nullptr && releasedBvh->nodes.empty())
-    *releasedBvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives, bvhOptionsFor(backend));
-  return run(computation);
+  return losesComponent(domain, rounds.traced) ? run(computation) : std::move(rounds);
 }
 
-/// releasedBvh: see SeedTracing.
-void measureDiameter(Result& result, const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
-                     const RunControl& control) {
+/// keepsNodes: whether the hierarchy is needed later.
+void measureDiameter(Result& result, const Computation& computation, PreparedScene& preparedScene, KeptTracers& tracers,
+                     bool keepsNodes, const RunControl& control) {
   const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
   Report& report = result.report;
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  RoundsResult rounds = runRoundsOnAggregates(computation, tracers, releasedBvh, control.part(0, roundsEnd));
+  RoundsResult rounds =
+      runRoundsOnAggregates(computation, preparedScene, tracers, keepsNodes, control.part(0, roundsEnd));
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
   const RunControl stopOnly = control.withoutProgress();
   const std::vector<double> values =
-      finalValues(domain, rounds.interpolated.values, options.smoothing, clock, stopOnly);
+      finalValues(domain, std::move(rounds.interpolated.values), options.smoothing, clock, stopOnly);
   SegmentedValues segmented = segmentValues(
       prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
   if (options.checkCount)
@@ -254,9 +255,11 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
                           options.segmentation == Segmentation::Parts;
   if (options.measuresDiameter())
-    measureDiameter(result, computation, input.tracers, keepsNodes ? nullptr : &input.scene->bvh, control);
-  if (options.measuresThickness())
+    measureDiameter(result, computation, *sharedScene, input.tracers, keepsNodes, control);
+  if (options.measuresThickness()) {
+    sharedScene->requireHierarchy(bvhOptionsFor(backend), clock, control.withoutProgress());
     measureThickness(result, computation, options.measuresDiameter() ? control.withoutProgress() : control);
+  }
   addDerivedFields(result.fields, prepared, options);
   backend.requireSilentValidation();
   if (options.keepsScene) result.scene = sceneData(sharedScene, isLast);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "asdf_vk/run_control.h"
 #include "bvh/bvh.h"
 #include "pipeline/prepared_mesh.h"
@@ -13,20 +15,27 @@ struct PreparedScene {
   PreparedMesh prepared;
   Bvh bvh;
 
+  /// Without a hierarchy, see requireHierarchy().
+  explicit PreparedScene(PreparedMesh mesh) : prepared(std::move(mesh)) {}
   /// Throws the errors of prepareMesh().
-  /// bvhOptions: see bvhOptionsFor().
   PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control,
                 const BvhOptions& bvhOptions = {})
-      : prepared(prepareMesh(mesh, orientation, clock, control)) {
-    control.checkpoint(0);
-    {
-      const auto scope = clock.time(Stage::Bvh);
-      bvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives, bvhOptions);
-    }
-    control.checkpoint(0);
+      : PreparedScene(prepareMesh(mesh, orientation, clock, control)) {
+    requireHierarchy(bvhOptions, clock, control);
   }
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
+
+  /// Builds the hierarchy, unless it has nodes. options: see bvhOptionsFor().
+  void requireHierarchy(const BvhOptions& options, StageClock& clock, const RunControl& control) {
+    if (!bvh.nodes.empty()) return;
+    control.checkpoint(0);
+    {
+      const auto scope = clock.time(Stage::Bvh);
+      bvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives, options);
+    }
+    control.checkpoint(0);
+  }
 
   [[nodiscard]] TraceScene view() const { return {prepared.mesh, prepared.geometry, prepared.representatives, bvh}; }
 };

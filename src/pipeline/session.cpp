@@ -21,8 +21,7 @@ Result Session::compute(const MeshView& mesh, const Options& given, const RunCon
   return state_->compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);
-    const auto scene =
-        std::make_shared<PreparedScene>(mesh, options.orientation, clock, rest, bvhOptionsFor(*state_->named.backend));
+    const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options.orientation, clock, rest));
     KeptTracers tracers(*state_->named.backend, scene->view(), 0);
     computeOn({*state_, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, rest, result);
     return result;
