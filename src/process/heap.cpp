@@ -25,7 +25,7 @@ void configureHeap() {
   constexpr int kKeptBytes = 128 << 20;  // Unused memory at the end of the heap that is not returned to the kernel.
   // The heap grows by this size more than needed. Otherwise it would end behind each large allocation, in the middle of
   // a huge page, and such a part gets small pages.
-  constexpr int kGrowthBytes = 64 << 20;
+  constexpr int kGrowthBytes = 256 << 20;
   ::mallopt(M_TOP_PAD, kGrowthBytes);
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);
@@ -56,7 +56,12 @@ void adviseHugePages(void* memory, size_t byteCount) {
 template <typename Allocate>
 void* allocated(size_t byteCount, const Allocate& allocate) {
   for (;;) {
-    if (void* const memory = allocate()) {
+    void* memory = allocate();
+    if (memory == nullptr) {
+      ::mallopt(M_TOP_PAD, 0);  // There may be memory enough without it, for example under `ulimit -v`.
+      memory = allocate();
+    }
+    if (memory != nullptr) {
       adviseHugePages(memory, byteCount);
       return memory;
     }
