@@ -96,6 +96,22 @@ template <typename Value, typename ValueOf>
   return foldInParallel<Value>(count, greatestOf, greater);
 }
 
+/// The i in [0, count) for which holds(i), ascending.
+template <typename Holds>
+[[nodiscard]] std::vector<uint32_t> indicesInParallel(size_t count, const Holds& holds) {
+  constexpr size_t kBlockSize = 4 * kItemsPerTask;
+  std::vector<std::vector<uint32_t>> blocks((count + kBlockSize - 1) / kBlockSize);
+  forEachTask(blocks.size(), [&](size_t block) {
+    for (size_t i = block * kBlockSize; i < std::min(count, (block + 1) * kBlockSize); ++i)
+      if (holds(static_cast<uint32_t>(i))) blocks[block].push_back(static_cast<uint32_t>(i));
+  });
+  std::vector<size_t> places(1, 0);
+  for (const std::vector<uint32_t>& block : blocks) places.push_back(places.back() + block.size());
+  std::vector<uint32_t> indices(places.back());
+  forEachTask(blocks.size(), [&](size_t block) { std::ranges::copy(blocks[block], indices.begin() + places[block]); });
+  return indices;
+}
+
 /// Sorts by `less`, in parallel if the range is long. Not stable, but the order is the same on any number of threads.
 /// The last merge runs on one thread.
 template <typename Iterator, typename Less = std::less<>>

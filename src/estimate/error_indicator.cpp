@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/ordered_sum.h"
 #include "core/parallel.h"
 #include "mesh/mesh.h"
 
@@ -35,15 +36,14 @@ std::vector<double> neighbourDeviation(const NearestCells& nearest, std::span<co
 
 /// Adds the floor to each entry; faces without an entry receive the mean.
 void addFloor(std::vector<double>& indicator) {
-  double sum = 0;
-  size_t count = 0;
-  for (const double entry : indicator)
-    if (!std::isnan(entry)) {
-      sum += entry;
-      ++count;
-    }
+  const uint64_t count = countInParallel(indicator.size(), [&](uint32_t face) { return !std::isnan(indicator[face]); });
+  const double sum =
+      orderedSum(indicator.size(), [&](size_t face) { return std::isnan(indicator[face]) ? 0 : indicator[face]; });
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0, floor = mean > 0 ? kFloor * mean : 1;
-  for (double& entry : indicator) entry = (std::isnan(entry) ? mean : entry) + floor;
+  forEachInParallel(indicator.size(), [&](uint32_t face) {
+    double& entry = indicator[face];
+    entry = (std::isnan(entry) ? mean : entry) + floor;
+  });
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace asdfvk {
 namespace {
 
@@ -76,14 +78,14 @@ std::vector<Rgba> coloursOf(const Field& field) {
   std::visit(
       [&]<typename Entries>(const Entries& entries) {
         using T = typename Entries::value_type;
-        for (size_t i = 0; i < colours.size(); ++i) {
+        forEachInParallel(colours.size(), [&](uint32_t i) {
           if constexpr (std::is_same_v<T, double>)
             colours[i] = colourOf(entries[i], range);
           else if constexpr (std::is_same_v<T, uint8_t>)
             colours[i] = entries[i] != 0 ? kSetColour : kUnsetColour;
           else
             colours[i] = colourOfPart(entries[i]);
-        }
+        });
       },
       field.values);
   return colours;

@@ -88,7 +88,7 @@ double Interpolation::pooled(double value, double prediction) const {
 
 void Interpolation::pool(std::span<const double> predicted, std::vector<double>& values) const {
   if (options_.interpolation.pooling > 0)
-    for (size_t face = 0; face < predicted.size(); ++face) values[face] = pooled(values[face], predicted[face]);
+    forEachInParallel(predicted.size(), [&](uint32_t face) { values[face] = pooled(values[face], predicted[face]); });
 }
 
 std::vector<double> Interpolation::valuesAt(std::span<const uint32_t> faces, std::span<const double> constraints,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "describe/warnings.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/input_faces.h"
@@ -152,9 +153,8 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   }
   control.checkpoint(0);
   orient(prepared, orientation);
-  prepared.traceableFaces.reserve(mesh.faces.size());
-  for (uint32_t face = 0; face < mesh.faceCount(); ++face)
-    if (!prepared.geometry.isDegenerate(face)) prepared.traceableFaces.push_back(face);
+  prepared.traceableFaces =
+      indicesInParallel(mesh.faceCount(), [&](uint32_t face) { return !prepared.geometry.isDegenerate(face); });
   if (!prepared.traceableFaces.empty()) requireResolved(prepared.geometry.bounds);
   return prepared;
 }

@@ -283,6 +283,7 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
     const std::span<const uint32_t> traceable = computation_.domain.traceableFaces;
     extremes = extremeSeeds(traceable, prediction_.last().values, traced_.isSeed, shares.extreme);
     std::vector<uint32_t> candidates;
+    candidates.reserve(traceable.size());
     auto extreme = extremes.begin();
     for (const uint32_t face : traceable)
       if (extreme != extremes.end() && face == *extreme)

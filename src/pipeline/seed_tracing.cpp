@@ -1,6 +1,7 @@
 #include "pipeline/seed_tracing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +36,10 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
 }
 
 void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
+  std::vector<uint8_t> hasValue(computation_.domain.componentCount, 0);
+  for (const uint32_t face : traced.faces)
+    if (!std::isnan(traced.values[face])) hasValue[computation_.domain.componentOf[face]] = 1;
+  if (std::ranges::all_of(hasValue, [](uint8_t has) { return has != 0; })) return;
   std::vector<uint32_t> untried;
   for (const uint32_t face : computation_.domain.traceableFaces)
     if (!traced.isSeed[face]) untried.push_back(face);

@@ -210,14 +210,15 @@ double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
 
 /// The cells in the order of their seeds in the hierarchy. In this order, neighbours in space are close to each other.
 std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds, const SeedCells& cells) {
-  std::vector<uint32_t> order;
+  const std::vector<uint32_t>& faces = scene.bvh.primitiveFaces;
+  std::vector<uint32_t> order = indicesInParallel(faces.size(), [&](uint32_t primitive) {
+    const uint32_t cell = cells.cellOf[faces[primitive]];
+    return cell != kNoCell && seeds[cell] == faces[primitive];
+  });
   std::vector<uint8_t> isListed(seeds.size(), 0);
-  order.reserve(seeds.size());
-  for (const uint32_t face : scene.bvh.primitiveFaces) {
-    const uint32_t cell = cells.cellOf[face];
-    if (cell == kNoCell || seeds[cell] != face) continue;
-    order.push_back(cell);
-    isListed[cell] = 1;
+  for (uint32_t& entry : order) {
+    entry = cells.cellOf[faces[entry]];
+    isListed[entry] = 1;
   }
   // Seeds that are copies of other faces are not in the hierarchy; their cells are the last ones.
   for (uint32_t cell = 0; cell < seeds.size(); ++cell)
