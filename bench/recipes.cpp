@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "asdf_vk/files.h"
@@ -40,15 +41,28 @@ EstimateRatios ratiosOf(const ErrorEstimate& estimate, const FieldErrors& actual
           over(estimate.relativePercentile90, actual.relativePercentile90)};
 }
 
+/// A computation that is compared with the truth.
+struct TruthRun {
+  const char* name;
+  Recipe recipe;
+  std::optional<double> percent;  ///< Unset: the default number of seeds.
+};
+constexpr std::array<TruthRun, 6> kTruthRuns{{{"balanced 5 %", Recipe::Balanced, 5},
+                                              {"balanced 10 %", Recipe::Balanced, 10},
+                                              {"balanced, default seeds", Recipe::Balanced, std::nullopt},
+                                              {"quality 5 %", Recipe::Quality, 5},
+                                              {"quality 10 %", Recipe::Quality, 10},
+                                              {"quality 40 %", Recipe::Quality, 40}}};
+
 /// Average differences from reference values, divided by the range of the reference values. The full function is the
 /// values from 30 rays at every face with fixed cones. The truth is the values from many rays at every face with hashed
 /// cones. The floor is the error of the full function against the truth.
 struct MeshRow {
   std::string name;
   uint64_t faceCount = 0;
-  double paper = 0, balanced = 0, quality = 0;  ///< At 10 %, against the full function.
-  double balancedTruth = 0, qualityTruth = 0;   ///< At 10 %, against the truth, divided by the floor.
-  double qualityTruthAt40 = 0;                  ///< At 40 %, against the truth, divided by the floor.
+  double paper = 0, balanced = 0;  ///< At 10 %, against the full function.
+  double byDefault = 0;            ///< Balanced with the default number of seeds, against the full function.
+  std::array<double, kTruthRuns.size()> overFloor{};                ///< Against the truth, divided by the floor.
   std::array<EstimateRatios, kEstimatedPercents.size()> estimates;  ///< For the recipe balanced.
   double boundedError = 0;                                          ///< Balanced with --max-error 1%: actual error.
   double boundedShare = 0;          ///< Balanced with --max-error 1%: seeds divided by faces.
@@ -90,18 +104,21 @@ MeshRow measure(Session& session, const std::string& path, const Settings& setti
   const Result truth = compute(truthOptions(settings.truthRayCount));
   const auto truthError = [&](const Result& result) { return errorsOverRange(truth.sdf(), result.sdf()).average; };
   const double floor = truthError(full);
+  for (size_t i = 0; i < kTruthRuns.size(); ++i) {
+    const TruthRun& run = kTruthRuns[i];
+    Options runOptions = options(run.recipe, run.percent.value_or(10));
+    if (!run.percent) runOptions.seeds = Options().seeds;
+    const Result result = compute(runOptions);
+    row.overFloor[i] = truthError(result) / floor;
+    if (!run.percent) row.byDefault = errors(result).average;
+  }
   const Result paper = compute(options(Recipe::Paper, 10));
   row.paper = errors(paper).average;
   row.balanced = errors(balanced).average;
-  row.balancedTruth = truthError(balanced) / floor;
   row.iterations =
       static_cast<double>(balanced.report.solver.iterations) / std::max(1u, paper.report.solver.iterations);
   const StageSeconds& seconds = balanced.report.stageSeconds;
   row.overTrace = (seconds[Stage::Sample] + seconds[Stage::Predict] + seconds[Stage::Solve]) / seconds[Stage::Trace];
-  const Result quality = compute(options(Recipe::Quality, 10));
-  row.quality = errors(quality).average;
-  row.qualityTruth = truthError(quality) / floor;
-  row.qualityTruthAt40 = truthError(compute(options(Recipe::Quality, 40))) / floor;
   Options bounded = options(Recipe::Balanced, 2);
   bounded.rounds.maxError = kMaxError;
   const Result boundedResult = compute(bounded);
@@ -174,11 +191,11 @@ std::string recipeSummary(const std::vector<MeshRow>& rows) {
                             boundedRelative = valuesOf(rows, &MeshRow::boundedRelativeError);
   std::string text = fmt::format("  error with 10 % seeds, balanced / paper: geometric mean {:.3f}, maximum {:.3f}\n",
                                  geometricMeanOf(ratios), maximumOf(ratios));
-  text +=
-      fmt::format("  error against the truth / floor: quality at 10 % {}; quality at 40 % {}; balanced at 10 % {}\n",
-                  meanAndMaximum(valuesOf(rows, &MeshRow::qualityTruth), 3),
-                  meanAndMaximum(valuesOf(rows, &MeshRow::qualityTruthAt40), 3),
-                  meanAndMaximum(valuesOf(rows, &MeshRow::balancedTruth), 3));
+  text += fmt::format("  error with the default number of seeds: {}\n",
+                      meanAndMaximum(valuesOf(rows, &MeshRow::byDefault), 4));
+  for (size_t i = 0; i < kTruthRuns.size(); ++i)
+    text += fmt::format("  error against the truth / floor, {}: {}\n", kTruthRuns[i].name,
+                        meanAndMaximum(valuesOf(rows, [i](const MeshRow& row) { return row.overFloor[i]; }), 3));
   text += fmt::format(
       "  --max-error 1%: actual error at most 1.2 % on {:.1f} % of the meshes, maximum {:.2f} %; mean share of seeds "
       "{:.1f} %\n",
@@ -211,12 +228,12 @@ std::string toText(const MeshRow& row, double EstimateRatios::*ratio) {
 std::string toText(const MeshRow& row, bool onlyEstimates) {
   std::string text = fmt::format("| {} | {} |", row.name, row.faceCount);
   for (const NamedRatio& kind : kEstimateRatios) text += fmt::format(" {} |", toText(row, kind.ratio));
-  if (!onlyEstimates)
-    text += fmt::format(
-        " {:.4f} | {:.4f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.4f} ({:.1f} %) | {:.4f} ({:.1f} %) |", row.paper,
-        row.balanced, row.balanced / row.paper, row.balancedTruth, row.qualityTruth, row.qualityTruthAt40,
-        row.boundedError, 100 * row.boundedShare, row.boundedRelativeError, 100 * row.boundedRelativeShare);
-  return text + "\n";
+  if (onlyEstimates) return text + "\n";
+  text += fmt::format(" {:.4f} | {:.4f} | {:.3f} | {:.4f} |", row.paper, row.balanced, row.balanced / row.paper,
+                      row.byDefault);
+  for (const double overFloor : row.overFloor) text += fmt::format(" {:.3f} |", overFloor);
+  return text + fmt::format(" {:.4f} ({:.1f} %) | {:.4f} ({:.1f} %) |\n", row.boundedError, 100 * row.boundedShare,
+                            row.boundedRelativeError, 100 * row.boundedRelativeShare);
 }
 
 std::string headerOf(bool onlyEstimates) {
@@ -226,10 +243,10 @@ std::string headerOf(bool onlyEstimates) {
     line += "---|";
   };
   for (const NamedRatio& kind : kEstimateRatios) add(fmt::format("estimated / actual {} at 5, 10, 20 %", kind.name));
-  if (!onlyEstimates)
-    for (const char* column : {"paper, 10 %", "balanced", "ratio", "balanced / floor", "quality / floor",
-                               "quality 40 % / floor", "--max-error 1% (seeds)", "--max-error 5%rel (seeds)"})
-      add(column);
+  if (onlyEstimates) return header + "\n" + line + "\n";
+  for (const char* column : {"paper 10 %", "balanced 10 %", "balanced / paper", "balanced, default seeds"}) add(column);
+  for (const TruthRun& run : kTruthRuns) add(fmt::format("{} / floor", run.name));
+  for (const char* column : {"--max-error 1% (seeds)", "--max-error 5%rel (seeds)"}) add(column);
   return header + "\n" + line + "\n";
 }
 
