@@ -100,13 +100,17 @@ double relativeError(double error, double value) { return error == 0 ? 0 : error
 void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measurement>& measured, double gain,
                             size_t interpolatedCount, ErrorEstimate& estimate) {
   WeightedSample errors;
-  size_t count = interpolatedCount;
+  size_t count = interpolatedCount, exactCount = 0;
   for (const uint32_t face : input.traced.faces) {
     const double traced = input.traced.values[face], error = std::abs(input.result[face] - traced);
     if (std::isnan(error)) continue;
-    errors.add(relativeError(error, traced), 1);
+    if (error > 0)
+      errors.add(relativeError(error, traced), 1);
+    else
+      ++exactCount;
     ++count;
   }
+  if (exactCount > 0) errors.add(0, static_cast<double>(exactCount));
   double weightSum = 0, squareSum = 0;
   for (const Measurement& m : measured) {
     weightSum += m.weight;

@@ -24,17 +24,14 @@ void label(const DualGraph& graph, Components& result) {
   });
   std::vector<uint32_t>& componentOf = result.componentOf;
   componentOf.resize(faceCount);
-  forEachInParallel(faceCount, [&](uint32_t face) { componentOf[face] = sets.lowestOf(face); });
+  for (const uint32_t face : indicesInParallel(faceCount, [&](uint32_t f) { return sets.lowestOf(f) == f; })) {
+    componentOf[face] = static_cast<uint32_t>(result.components.size());
+    result.components.push_back({.firstFace = face, .faceCount = faceCount});
+  }
+  if (result.components.size() <= 1) return;
+  for (Component& component : result.components) component.faceCount = 0;
   for (uint32_t face = 0; face < faceCount; ++face) {
-    const uint32_t lowest = componentOf[face];
-    if (lowest == face) {
-      Component component;
-      component.firstFace = face;
-      componentOf[face] = static_cast<uint32_t>(result.components.size());
-      result.components.push_back(component);
-    } else {
-      componentOf[face] = componentOf[lowest];  // `lowest` is lower and already has its index.
-    }
+    componentOf[face] = componentOf[sets.lowestOf(face)];  // That face is not above this one, and has its index.
     ++result.components[componentOf[face]].faceCount;
   }
 }

@@ -44,10 +44,13 @@ std::vector<double> lengthLimits(const PreparedMesh& prepared) {
 /// both graphs have the same weights.
 DualGraph onCentres(const FaceAggregates& aggregates) {
   DualGraph graph;
-  graph.offsets.reserve(aggregates.aggregateOf.size() + 1);
-  for (uint32_t aggregate = 0; aggregate < aggregates.centres.size(); ++aggregate)
-    graph.offsets.resize(aggregates.centres[aggregate] + size_t{1}, aggregates.graph.offsets[aggregate]);
-  graph.offsets.resize(aggregates.aggregateOf.size() + 1, aggregates.graph.offsets.back());
+  const std::vector<uint32_t>& centres = aggregates.centres;
+  graph.offsets.assign(aggregates.aggregateOf.size() + 1, 0);
+  forEachInParallel(centres.size(), [&](uint32_t aggregate) {
+    const size_t end = aggregate + 1 < centres.size() ? centres[aggregate + 1] : aggregates.aggregateOf.size();
+    for (size_t face = centres[aggregate]; face < end; ++face)
+      graph.offsets[face + 1] = aggregates.graph.offsets[aggregate + 1];
+  });
   graph.neighbours.resize(aggregates.graph.neighbours.size());
   forEachInParallel(graph.neighbours.size(),
                     [&](size_t arc) { graph.neighbours[arc] = aggregates.centres[aggregates.graph.neighbours[arc]]; });

@@ -15,10 +15,10 @@ namespace {
 
 std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span<const double> constraints) {
   std::vector<ComponentValues> values(domain.componentCount);
-  for (size_t face = 0; face < constraints.size();
-       ++face) {  // In face order, so that the order of the seeds does not change the last bit.
+  // In face order, so that the order of the seeds does not change the last bit.
+  for (const uint32_t face :
+       indicesInParallel(constraints.size(), [&](uint32_t i) { return std::isfinite(constraints[i]); })) {
     const double value = constraints[face];
-    if (!std::isfinite(value)) continue;
     ComponentValues& component = values[domain.componentOf[face]];
     component.low = std::min(component.low, value);
     component.high = std::max(component.high, value);
@@ -155,8 +155,8 @@ SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vec
                                              .componentOf = componentOf},
                                             solved, control);
   values.assign(problem.constraints.begin(), problem.constraints.end());
-  for (size_t aggregate = 0; aggregate < solved.size(); ++aggregate)
-    values[aggregates.centres[aggregate]] = solved[aggregate];
+  forEachInParallel(solved.size(),
+                    [&](uint32_t aggregate) { values[aggregates.centres[aggregate]] = solved[aggregate]; });
   return report;
 }
 

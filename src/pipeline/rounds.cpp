@@ -282,14 +282,10 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
     const auto scope = clock_.time(Stage::Sample);
     const std::span<const uint32_t> traceable = computation_.domain.traceableFaces;
     extremes = extremeSeeds(traceable, prediction_.last().values, traced_.isSeed, shares.extreme);
-    std::vector<uint32_t> candidates;
-    candidates.reserve(traceable.size());
-    auto extreme = extremes.begin();
-    for (const uint32_t face : traceable)
-      if (extreme != extremes.end() && face == *extreme)
-        ++extreme;
-      else if (!traced_.isSeed[face])
-        candidates.push_back(face);
+    std::vector<uint32_t> candidates = indicesInParallel(traceable.size(), [&](uint32_t i) {
+      return !traced_.isSeed[traceable[i]] && !std::binary_search(extremes.begin(), extremes.end(), traceable[i]);
+    });
+    for (uint32_t& face : candidates) face = traceable[face];
     const AggregatedMesh* const aggregated = computation_.domain.aggregated;
     const std::vector<uint32_t> counts = aggregated ? aggregated->representedCounts() : std::vector<uint32_t>();
     heldOut = sampleHeldOut(candidates, indicator, shares.heldOut,

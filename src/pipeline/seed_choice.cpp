@@ -9,6 +9,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/parallel.h"
 #include "estimate/held_out.h"
 
 namespace asdfvk {
@@ -91,9 +92,10 @@ SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, Ar
 
 std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces, std::span<const double> prediction,
                                    std::span<const uint8_t> isSeed, uint64_t count) {
-  std::vector<uint32_t> faces;
-  for (const uint32_t face : traceableFaces)
-    if (!isSeed[face] && std::isfinite(prediction[face])) faces.push_back(face);
+  std::vector<uint32_t> faces = indicesInParallel(traceableFaces.size(), [&](uint32_t i) {
+    return !isSeed[traceableFaces[i]] && std::isfinite(prediction[traceableFaces[i]]);
+  });
+  for (uint32_t& face : faces) face = traceableFaces[face];
   const auto end = faces.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count, faces.size()));
   std::nth_element(faces.begin(), end, faces.end(), [&](uint32_t a, uint32_t b) {
     return prediction[a] != prediction[b] ? prediction[a] > prediction[b] : a < b;

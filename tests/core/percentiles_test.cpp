@@ -37,7 +37,8 @@ TEST_CASE("percentiles are those of the sorted finite numbers") {
   for (size_t i = 0; i < 200'000; ++i) both.push_back(random.real() - 0.3);
   for (size_t i = 0; i < 70'001; ++i) positive.push_back(std::exp(20 * random.real()));
   equal.push_back(4);
-  for (size_t i = 0; i < 1000; ++i) extreme.push_back(i % 3 == 0 ? -Limits::max() : i % 3 == 1 ? Limits::max() : 1e-310);
+  for (size_t i = 0; i < 1000; ++i)
+    extreme.push_back(i % 3 == 0 ? -Limits::max() : i % 3 == 1 ? Limits::max() : 1e-310);
   for (std::vector<double>* numbers : {&both, &positive, &equal, &few, &extreme}) {
     checkAgainstSorted(*numbers);
     numbers->insert(numbers->begin(), Limits::quiet_NaN());
