@@ -16,6 +16,7 @@
 #include "batch/output_record.h"
 #include "cli/outputs.h"
 #include "cli/report.h"
+#include "core/background_task.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "io/inspected_mesh.h"
@@ -273,6 +274,9 @@ void finishPage(const Page& page, const std::string& output, bool opensBrowser, 
 ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, const std::stop_token& stop) {
   const InputFile file{.path = input};
   const std::string output = planOutputs(settings.outputs, {}, {&file, 1}).front();
+  LoadedMesh loaded;
+  std::optional<BackgroundTask> reading;  // Reads the mesh while the device is opened.
+  if (!mayWait(input)) reading.emplace([&] { loaded = loadNow(input, false); });
   std::optional<Session> session;
   try {
     session.emplace(settings.session);
@@ -284,8 +288,12 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
   }
   if (!settings.outputs.quiet) writeStandardError(deviceLinesOf(*session, settings.session, settings.outputs.verbose));
   const Deadline deadline(settings.timeoutSeconds, stop);
-  const MeshRun run = computeMesh(*session, input, output, loadMesh(input, false, deadline.token()), settings, deadline,
-                                  !settings.outputs.quiet);
+  if (reading)
+    reading->wait();
+  else
+    loaded = loadMesh(input, false, deadline.token());
+  const MeshRun run =
+      computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
   writeStandardError(run.text);
   writeStandardOutput(run.json);
   return run.failure ? run.failure->code : ExitCode::Done;
