@@ -92,11 +92,13 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
   Options options = seedsOf(0.02);
   options.interpolation.pooling = 0.75;
+  options.estimatesError = false;  // Held-out faces are chosen by predictions, whose last bits differ on a device.
   const Result onCpu = cpuSession().compute(mesh, options);
   options.solver = "cg";
   const Result onDevice = test::vulkanSession().compute(mesh, options);
   CHECK(onDevice.report.solver.name == "cg");
-  CHECK(averageError(onDevice.sdf(), onCpu.sdf()) < 2e-4);
+  CHECK(onDevice.seed() == onCpu.seed());
+  CHECK(averageError(onDevice.sdf(), onCpu.sdf()) < 1e-5);
 }
 
 TEST_CASE("a component whose centres have no valid ray has the value of another face") {
