@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/function_ref.h"
@@ -71,7 +73,7 @@ template <typename Value, size_t kBlockSize = kItemsPerTask, typename Fold, type
     values[block] = fold(block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
   });
   Value result{};
-  for (const Value& value : values) result = joined(result, value);
+  for (const Value& value : values) result = joined(std::move(result), value);
   return result;
 }
 
@@ -96,20 +98,37 @@ template <typename Value, typename ValueOf>
   return foldInParallel<Value>(count, greatestOf, greater);
 }
 
-/// The i in [0, count) for which holds(i), ascending.
-template <typename Holds>
-[[nodiscard]] std::vector<uint32_t> indicesInParallel(size_t count, const Holds& holds) {
+/// The items for which holds(item), in their order. itemAt(i): the item with index i in [0, count).
+template <typename ItemAt, typename Holds>
+[[nodiscard]] std::vector<uint32_t> selectInParallel(size_t count, const ItemAt& itemAt, const Holds& holds) {
   constexpr size_t kBlockSize = 4 * kItemsPerTask;
   std::vector<std::vector<uint32_t>> blocks((count + kBlockSize - 1) / kBlockSize);
   forEachTask(blocks.size(), [&](size_t block) {
     for (size_t i = block * kBlockSize; i < std::min(count, (block + 1) * kBlockSize); ++i)
-      if (holds(static_cast<uint32_t>(i))) blocks[block].push_back(static_cast<uint32_t>(i));
+      if (const uint32_t item = itemAt(i); holds(item)) blocks[block].push_back(item);
   });
   std::vector<size_t> places(1, 0);
   for (const std::vector<uint32_t>& block : blocks) places.push_back(places.back() + block.size());
-  std::vector<uint32_t> indices(places.back());
-  forEachTask(blocks.size(), [&](size_t block) { std::ranges::copy(blocks[block], indices.begin() + places[block]); });
-  return indices;
+  std::vector<uint32_t> selected(places.back());
+  forEachTask(blocks.size(), [&](size_t block) {
+    std::copy(blocks[block].begin(), blocks[block].end(),
+              selected.begin() + static_cast<std::ptrdiff_t>(places[block]));
+  });
+  return selected;
+}
+
+/// The items for which holds(item), in their order.
+template <typename Holds>
+[[nodiscard]] std::vector<uint32_t> selectInParallel(std::span<const uint32_t> items, const Holds& holds) {
+  return selectInParallel(
+      items.size(), [&](size_t i) { return items[i]; }, holds);
+}
+
+/// The i in [0, count) for which holds(i), ascending. Precondition: count is at most 2^32.
+template <typename Holds>
+[[nodiscard]] std::vector<uint32_t> indicesInParallel(size_t count, const Holds& holds) {
+  return selectInParallel(
+      count, [](size_t i) { return static_cast<uint32_t>(i); }, holds);
 }
 
 /// Sorts by `less`, in parallel if the range is long. Not stable, but the order is the same on any number of threads.

@@ -30,11 +30,11 @@ double tracedRange(const EstimateInput& input) {
   return high > low ? high - low : 0;
 }
 
-/// The 99th minus the 1st percentile of the values. Precondition: a face has a value.
+/// The 99th minus the 1st percentile of the values; NaN without a finite value.
 double robustRange(std::span<const double> values) {
   constexpr std::array<double, 2> kShares{0.01, 0.99};
   const std::vector<double> ends = percentilesOf(values, kShares);
-  return ends[1] - ends[0];
+  return ends.empty() ? kNoValue : ends[1] - ends[0];
 }
 
 /// The power of two at or below the range. Errors are squared in this unit: at any scale of the mesh the squares

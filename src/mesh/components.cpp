@@ -26,14 +26,16 @@ void label(const DualGraph& graph, Components& result) {
   componentOf.resize(faceCount);
   for (const uint32_t face : indicesInParallel(faceCount, [&](uint32_t f) { return sets.lowestOf(f) == f; })) {
     componentOf[face] = static_cast<uint32_t>(result.components.size());
-    result.components.push_back({.firstFace = face, .faceCount = faceCount});
+    result.components.push_back({.firstFace = face});
   }
-  if (result.components.size() <= 1) return;
-  for (Component& component : result.components) component.faceCount = 0;
-  for (uint32_t face = 0; face < faceCount; ++face) {
-    componentOf[face] = componentOf[sets.lowestOf(face)];  // That face is not above this one, and has its index.
-    ++result.components[componentOf[face]].faceCount;
+  if (result.components.size() == 1) {
+    result.components.front().faceCount = faceCount;
+    return;
   }
+  forEachInParallel(faceCount, [&](uint32_t face) {
+    if (const uint32_t lowest = sets.lowestOf(face); lowest != face) componentOf[face] = componentOf[lowest];
+  });
+  for (const uint32_t component : componentOf) ++result.components[component].faceCount;
 }
 
 /// Faces that are not proper (EdgeKind) neither open a component nor close it.

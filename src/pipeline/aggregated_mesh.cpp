@@ -1,7 +1,5 @@
 #include "pipeline/aggregated_mesh.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "core/parallel.h"
@@ -23,20 +21,25 @@ constexpr double kMinFacesPerAggregate = 1.5;
 std::vector<double> lengthLimits(const PreparedMesh& prepared) {
   const std::vector<uint32_t>& componentOf = prepared.components.componentOf;
   const std::vector<Component>& components = prepared.components.components;
-  PerThread<std::vector<Box3d>> ofThreads([&] { return std::vector<Box3d>(components.size()); });
+  const std::vector<uint32_t> large =
+      indicesInParallel(components.size(), [&](uint32_t i) { return components[i].faceCount >= kMinComponentSize; });
+  std::vector<uint32_t> placeOf(components.size(), static_cast<uint32_t>(large.size()));  // In `large`, or its end.
+  for (uint32_t place = 0; place < large.size(); ++place) placeOf[large[place]] = place;
+  PerThread<std::vector<Box3d>> ofThreads([&] { return std::vector<Box3d>(large.size()); });
   forEachRange(componentOf.size(), kItemsPerTask, [&](size_t begin, size_t end) {
     std::vector<Box3d>& boxes = ofThreads.local();
-    for (size_t face = begin; face < end; ++face)
-      if (const Vec3d& place = prepared.geometry.barycentres[face]; isFinite(place))
-        boxes[componentOf[face]].add(place);
-  });
-  std::vector<Box3d> boxes(components.size());
-  ofThreads.forEach([&](const std::vector<Box3d>& ofThread) {
-    for (size_t i = 0; i < boxes.size(); ++i) boxes[i].add(ofThread[i]);
+    for (size_t face = begin; face < end; ++face) {
+      const Vec3d& barycentre = prepared.geometry.barycentres[face];
+      const uint32_t place = placeOf[componentOf[face]];
+      if (place < boxes.size() && isFinite(barycentre)) boxes[place].add(barycentre);
+    }
   });
   std::vector<double> limits(components.size(), 0);
-  for (size_t i = 0; i < limits.size(); ++i)
-    if (components[i].faceCount >= kMinComponentSize) limits[i] = kMaxLength * length(boxes[i].size());
+  for (uint32_t place = 0; place < large.size(); ++place) {
+    Box3d box;
+    ofThreads.forEach([&](const std::vector<Box3d>& boxes) { box.add(boxes[place]); });
+    limits[large[place]] = kMaxLength * length(box.size());
+  }
   return limits;
 }
 

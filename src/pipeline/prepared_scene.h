@@ -17,7 +17,7 @@ struct PreparedScene {
 
   /// Without a hierarchy, see requireHierarchy().
   explicit PreparedScene(PreparedMesh mesh) : prepared(std::move(mesh)) {}
-  /// Throws the errors of prepareMesh().
+  /// With a hierarchy. Throws the errors of prepareMesh().
   PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control,
                 const BvhOptions& bvhOptions = {})
       : PreparedScene(prepareMesh(mesh, orientation, clock, control)) {
@@ -26,7 +26,8 @@ struct PreparedScene {
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
 
-  /// Builds the hierarchy, unless it has nodes. options: see bvhOptionsFor().
+  /// Builds the hierarchy, unless it has nodes. options: see bvhOptionsFor(). Precondition: no tracer refers to a
+  /// hierarchy without nodes, and no other thread reads the hierarchy.
   void requireHierarchy(const BvhOptions& options, StageClock& clock, const RunControl& control) {
     if (!bvh.nodes.empty()) return;
     control.checkpoint(0);

@@ -208,8 +208,8 @@ SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double>
   return choose(shares, density, control);
 }
 
-/// The first seeds are chosen in the background while this thread makes the tracer. Stage::Sample is charged with the
-/// time from then until the choice ends.
+/// The first seeds are chosen in the background while this thread builds the hierarchy and makes the tracer. Therefore
+/// choose() must not read the hierarchy. Stage::Sample includes only the time for which this thread then waits.
 SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares, const RunControl& control) {
   SeedChoice choice;
   double seconds = 0;
@@ -282,10 +282,9 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
     const auto scope = clock_.time(Stage::Sample);
     const std::span<const uint32_t> traceable = computation_.domain.traceableFaces;
     extremes = extremeSeeds(traceable, prediction_.last().values, traced_.isSeed, shares.extreme);
-    std::vector<uint32_t> candidates = indicesInParallel(traceable.size(), [&](uint32_t i) {
-      return !traced_.isSeed[traceable[i]] && !std::binary_search(extremes.begin(), extremes.end(), traceable[i]);
+    const std::vector<uint32_t> candidates = selectInParallel(traceable, [&](uint32_t face) {
+      return !traced_.isSeed[face] && !std::binary_search(extremes.begin(), extremes.end(), face);
     });
-    for (uint32_t& face : candidates) face = traceable[face];
     const AggregatedMesh* const aggregated = computation_.domain.aggregated;
     const std::vector<uint32_t> counts = aggregated ? aggregated->representedCounts() : std::vector<uint32_t>();
     heldOut = sampleHeldOut(candidates, indicator, shares.heldOut,

@@ -92,10 +92,8 @@ SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, Ar
 
 std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces, std::span<const double> prediction,
                                    std::span<const uint8_t> isSeed, uint64_t count) {
-  std::vector<uint32_t> faces = indicesInParallel(traceableFaces.size(), [&](uint32_t i) {
-    return !isSeed[traceableFaces[i]] && std::isfinite(prediction[traceableFaces[i]]);
-  });
-  for (uint32_t& face : faces) face = traceableFaces[face];
+  std::vector<uint32_t> faces =
+      selectInParallel(traceableFaces, [&](uint32_t face) { return !isSeed[face] && std::isfinite(prediction[face]); });
   const auto end = faces.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count, faces.size()));
   std::nth_element(faces.begin(), end, faces.end(), [&](uint32_t a, uint32_t b) {
     return prediction[a] != prediction[b] ? prediction[a] > prediction[b] : a < b;

@@ -211,15 +211,13 @@ double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
 /// The cells in the order of their seeds in the hierarchy. In this order, neighbours in space are close to each other.
 std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds, const SeedCells& cells) {
   const std::vector<uint32_t>& faces = scene.bvh.primitiveFaces;
-  std::vector<uint32_t> order = indicesInParallel(faces.size(), [&](uint32_t primitive) {
+  const auto cellAt = [&](size_t primitive) {
     const uint32_t cell = cells.cellOf[faces[primitive]];
-    return cell != kNoCell && seeds[cell] == faces[primitive];
-  });
+    return cell != kNoCell && seeds[cell] == faces[primitive] ? cell : kNoCell;
+  };
+  std::vector<uint32_t> order = selectInParallel(faces.size(), cellAt, [](uint32_t cell) { return cell != kNoCell; });
   std::vector<uint8_t> isListed(seeds.size(), 0);
-  for (uint32_t& entry : order) {
-    entry = cells.cellOf[faces[entry]];
-    isListed[entry] = 1;
-  }
+  for (const uint32_t cell : order) isListed[cell] = 1;
   // Seeds that are copies of other faces are not in the hierarchy; their cells are the last ones.
   for (uint32_t cell = 0; cell < seeds.size(); ++cell)
     if (seeds[cell] != kNoFace && !isListed[cell]) order.push_back(cell);

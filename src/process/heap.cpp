@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -21,15 +22,21 @@
 
 namespace asdfvk {
 
+namespace {
+
+// The heap grows by this size more than needed, and keeps so much unused memory at its end. Otherwise it would end
+// behind each large allocation, in the middle of a huge page, and such a part gets small pages.
+constexpr int kReserveBytes = 256 << 20;
+std::atomic<bool> hasReserve = false;
+
+}  // namespace
+
 void configureHeap() {
-  constexpr int kKeptBytes = 128 << 20;  // Unused memory at the end of the heap that is not returned to the kernel.
-  // The heap grows by this size more than needed. Otherwise it would end behind each large allocation, in the middle of
-  // a huge page, and such a part gets small pages.
-  constexpr int kGrowthBytes = 256 << 20;
-  ::mallopt(M_TOP_PAD, kGrowthBytes);
+  hasReserve = true;
+  ::mallopt(M_TOP_PAD, kReserveBytes);
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);
-  ::mallopt(M_TRIM_THRESHOLD, kKeptBytes);
+  ::mallopt(M_TRIM_THRESHOLD, kReserveBytes);
 }
 
 }  // namespace asdfvk
@@ -57,9 +64,11 @@ template <typename Allocate>
 void* allocated(size_t byteCount, const Allocate& allocate) {
   for (;;) {
     void* memory = allocate();
-    if (memory == nullptr) {
-      ::mallopt(M_TOP_PAD, 0);  // There may be memory enough without it, for example under `ulimit -v`.
+    if (memory == nullptr &&
+        hasReserve) {  // There may be enough memory without a reserve, for example with `ulimit -v`.
+      ::mallopt(M_TOP_PAD, 0);
       memory = allocate();
+      ::mallopt(M_TOP_PAD, kReserveBytes);
     }
     if (memory != nullptr) {
       adviseHugePages(memory, byteCount);

@@ -104,7 +104,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("aggregates of a fine mesh have the same sizes in blocks and, if neighbours are far apart, without blocks") {
+TEST_CASE("aggregates of a fine mesh are within blocks of faces, unless neighbours are far apart in memory") {
   Mesh fine = shapes::icosphere(6);  // 81,920 faces: two blocks.
   const AggregatedShape inOrder(fine);
   Random random(1);
@@ -124,6 +124,15 @@ TEST_CASE("aggregates of a fine mesh have the same sizes in blocks and, if neigh
   };
   CHECK(meanSizeOf(inOrder) > 3.5);
   CHECK(meanSizeOf(shuffled) > 3.5);
+  const auto crossesBlocks = [](const AggregatedShape& shape) {
+    const FaceAggregates aggregates = shape.aggregates(2);
+    for (uint32_t face = 0; face < shape.mesh.faces.size(); ++face)
+      if (face >> 16 != aggregates.centreOf(face) >> 16) return true;
+    return false;
+  };
+  CHECK_FALSE(crossesBlocks(inOrder));
+  CHECK(crossesBlocks(shuffled));
+  checkArcs(inOrder, inOrder.aggregates(2));
 }
 
 TEST_CASE("values are spread smoothly, not across sharp edges, and not over faces without a value") {

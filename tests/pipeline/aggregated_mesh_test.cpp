@@ -99,6 +99,10 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   CHECK(onDevice.report.solver.name == "cg");
   CHECK(onDevice.seed() == onCpu.seed());
   CHECK(averageError(onDevice.sdf(), onCpu.sdf()) < 1e-5);
+  options.estimatesError = true;
+  const Result withEstimate = test::vulkanSession().compute(mesh, options);
+  options.solver = "cpu";
+  CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < 1e-3);
 }
 
 TEST_CASE("a component whose centres have no valid ray has the value of another face") {
