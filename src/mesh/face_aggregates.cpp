@@ -97,7 +97,9 @@ class AggregateGrower {
 /// Blocks of consecutive faces. An aggregate is within one block. If neighbours are often in different blocks, all
 /// faces are one block.
 std::vector<FaceRange> blocksOf(const DualGraph& graph) {
-  constexpr uint32_t kBlockSize = 1 << 16, kFacesPerSample = 64;
+  constexpr uint32_t kBlockSize = 1 << 16;
+  // Not a power of two: in a subdivided mesh, such faces would all be at borders.
+  constexpr uint32_t kFacesPerSample = 61;
   constexpr double kMaxCrossingShare = 0.02;
   const uint32_t faceCount = graph.faceCount();
   uint64_t arcCount = 0, crossingCount = 0;
