@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Measures the default options on 20 generated meshes of 400 to 12,000 faces: parts as from CAD programs, and shapes.
+"""Measures the default options on 20 generated meshes of 688 to 12,040 faces: parts as from CAD programs, and shapes.
 
     bench/low_poly.py [--backend cpu] [--build build/develop]
 

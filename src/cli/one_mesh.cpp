@@ -275,7 +275,7 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
   const InputFile file{.path = input};
   const std::string output = planOutputs(settings.outputs, {}, {&file, 1}).front();
   LoadedMesh loaded;
-  // Reads the mesh while the device is opened. If this fails, the program ends when the mesh has been read.
+  // Reads the mesh while the device is opened. If opening fails, the program ends when the mesh has been read.
   std::optional<BackgroundTask> reading;
   if (!mayWait(input)) reading.emplace([&] { loaded = loadNow(input, false); });
   std::optional<Session> session;

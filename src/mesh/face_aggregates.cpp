@@ -98,7 +98,7 @@ class AggregateGrower {
 /// faces are one block.
 std::vector<FaceRange> blocksOf(const DualGraph& graph) {
   constexpr uint32_t kBlockSize = 1 << 16;
-  // Not a power of two: in a subdivided mesh, such faces would all be at borders.
+  // Not a power of two: in a subdivided mesh, the faces at multiples of it would all be at borders of coarser faces.
   constexpr uint32_t kFacesPerSample = 61;
   constexpr double kMaxCrossingShare = 0.02;
   const uint32_t faceCount = graph.faceCount();

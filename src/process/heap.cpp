@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 
 // The address sanitizer checks its own operators.
@@ -59,17 +60,23 @@ void adviseHugePages(void* memory, size_t byteCount) {
   ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
+/// There may be enough memory without a reserve, for example with `ulimit -v`. Only `new` tries this, not malloc().
+template <typename Allocate>
+void* allocatedWithoutReserve(const Allocate& allocate) {
+  static std::mutex mutex;  // Otherwise another thread could restore the reserve before the allocation.
+  const std::lock_guard lock(mutex);
+  ::mallopt(M_TOP_PAD, 0);
+  void* const memory = allocate();
+  ::mallopt(M_TOP_PAD, kReserveBytes);
+  return memory;
+}
+
 /// Calls the new-handler until `allocate` succeeds, as the standard requires of operator new.
 template <typename Allocate>
 void* allocated(size_t byteCount, const Allocate& allocate) {
   for (;;) {
     void* memory = allocate();
-    if (memory == nullptr &&
-        hasReserve) {  // There may be enough memory without a reserve, for example with `ulimit -v`.
-      ::mallopt(M_TOP_PAD, 0);
-      memory = allocate();
-      ::mallopt(M_TOP_PAD, kReserveBytes);
-    }
+    if (memory == nullptr && hasReserve) memory = allocatedWithoutReserve(allocate);
     if (memory != nullptr) {
       adviseHugePages(memory, byteCount);
       return memory;
