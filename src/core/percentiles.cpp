@@ -9,7 +9,6 @@
 #include <limits>
 #include <numeric>
 
-#include "core/check.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
@@ -75,38 +74,28 @@ Counts countsOf(std::span<const double> numbers, const KeyBuckets& buckets) {
   });
 }
 
-/// For each bucket the index of its list in Lists, or kNoList.
-using ListOfBucket = std::array<uint8_t, kBucketCount>;
-constexpr uint8_t kNoList = std::numeric_limits<uint8_t>::max();
-using Lists = std::vector<std::vector<double>>;
+using IsWanted = std::array<bool, kBucketCount>;
 
-/// The members of the buckets that have a list.
-Lists membersOf(const ListOfBucket& listOf, size_t listCount, std::span<const double> numbers,
-                const KeyBuckets& buckets) {
+/// The numbers in the wanted buckets.
+std::vector<double> membersOf(const IsWanted& isWanted, std::span<const double> numbers, const KeyBuckets& buckets) {
   const auto collect = [&](size_t begin, size_t end) {
-    Lists lists(listCount);
+    std::vector<double> members;
     for (const double number : numbers.subspan(begin, end - begin))
-      if (std::isfinite(number))
-        if (const uint8_t list = listOf[buckets.of(number)]; list != kNoList) lists[list].push_back(number);
-    return lists;
+      if (std::isfinite(number) && isWanted[buckets.of(number)]) members.push_back(number);
+    return members;
   };
-  return foldInParallel<Lists, kBlockSize>(numbers.size(), collect, [](Lists all, const Lists& further) {
-    all.resize(further.size());
-    for (size_t i = 0; i < all.size(); ++i) all[i].insert(all[i].end(), further[i].begin(), further[i].end());
-    return all;
-  });
+  return foldInParallel<std::vector<double>, kBlockSize>(
+      numbers.size(), collect, [](std::vector<double> all, const std::vector<double>& further) {
+        all.insert(all.end(), further.begin(), further.end());
+        return all;
+      });
 }
 
-/// The number at index `rank` in ascending order of the members of the bucket.
-struct Place {
+/// The bucket of the number at index `rank` in ascending order.
+size_t bucketOf(uint64_t rank, const Counts& counts) {
   size_t bucket = 0;
-  uint64_t rank = 0;
-};
-
-Place placeOf(uint64_t rank, const Counts& counts) {
-  Place place{.bucket = 0, .rank = rank};
-  for (; place.rank >= counts[place.bucket]; ++place.bucket) place.rank -= counts[place.bucket];
-  return place;
+  for (; rank >= counts[bucket]; ++bucket) rank -= counts[bucket];
+  return bucket;
 }
 
 }  // namespace
@@ -117,20 +106,19 @@ std::vector<double> percentilesOf(std::span<const double> numbers, std::span<con
   const KeyBuckets buckets(range);
   const Counts counts = countsOf(numbers, buckets);
   const uint64_t count = std::accumulate(counts.begin(), counts.end(), uint64_t{0});
-  ASDFVK_CHECK_OP(shares.size(), <, size_t{kNoList});
-  std::vector<Place> places;
-  ListOfBucket listOf;
-  listOf.fill(kNoList);
-  uint8_t listCount = 0;
+  std::vector<uint64_t> ranks;
+  IsWanted isWanted{};
   for (const double share : shares) {
-    places.push_back(placeOf(static_cast<uint64_t>(std::llround(share * static_cast<double>(count - 1))), counts));
-    if (uint8_t& list = listOf[places.back().bucket]; list == kNoList) list = listCount++;
+    ranks.push_back(static_cast<uint64_t>(std::llround(share * static_cast<double>(count - 1))));
+    isWanted[bucketOf(ranks.back(), counts)] = true;
   }
-  Lists lists = membersOf(listOf, listCount, numbers, buckets);
+  std::vector<double> members = membersOf(isWanted, numbers, buckets);
   std::vector<double> percentiles;
-  for (const Place& place : places) {
-    std::vector<double>& members = lists[listOf[place.bucket]];
-    const auto found = members.begin() + static_cast<std::ptrdiff_t>(place.rank);
+  for (const uint64_t rank : ranks) {
+    uint64_t place = rank;  // In ascending order of the members.
+    for (size_t bucket = 0, end = bucketOf(rank, counts); bucket < end; ++bucket)
+      if (!isWanted[bucket]) place -= counts[bucket];
+    const auto found = members.begin() + static_cast<std::ptrdiff_t>(place);
     std::nth_element(members.begin(), found, members.end());
     percentiles.push_back(*found);
   }

@@ -5,10 +5,10 @@
 
 namespace asdfvk {
 
-/// For each share (0 to 1), the finite number at index round(share * (count - 1)) in ascending order, where `count` is
-/// the number of finite numbers. Share 0.5 gives the median, of an even count the upper of the middle two. Empty
-/// without a finite number. Takes three parallel passes over the numbers, and then selects among the few numbers near
-/// each result. In the worst case, for example if almost all numbers are equal, these are all numbers.
+/// Percentiles of the finite numbers. For each share (0 to 1), returns the number at index round(share * (n - 1)) of
+/// the n finite numbers in ascending order. For an even n, the share 0.5 gives the upper of the two middle numbers. The
+/// result is empty if no number is finite. The function makes three parallel passes over the numbers, and then selects
+/// among the numbers near the results. These are few, unless many numbers are almost equal.
 [[nodiscard]] std::vector<double> percentilesOf(std::span<const double> numbers, std::span<const double> shares);
 
 }  // namespace asdfvk
