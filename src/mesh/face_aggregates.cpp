@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
 
+#include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
@@ -24,40 +24,32 @@ constexpr uint32_t kNoAggregate = 0xffffffff;
 
 double inRadians(double degrees) { return degrees * (std::numbers::pi / 180); }
 
-/// The faces of each aggregate, the centre first.
-struct Members {
-  std::vector<uint32_t> faces;
-  std::vector<uint32_t> offsets;  // #A+1
-
-  [[nodiscard]] std::span<const uint32_t> operator[](uint32_t aggregate) const {
-    return std::span(faces).subspan(offsets[aggregate], offsets[aggregate + 1] - offsets[aggregate]);
-  }
-};
-
-struct FaceRange {
+/// Consecutive faces, and the aggregates within these faces.
+struct Block {
   uint32_t begin = 0, end = 0;
+  std::vector<uint32_t> centres;     ///< One per aggregate.
+  std::vector<uint32_t> memberEnds;  ///< One per aggregate: the end of its faces in `members`.
 };
 
-/// Builds the aggregates of a block of faces one after another, in the order of the faces.
+/// Builds the aggregates of a block one after another, in the order of the faces.
 class AggregateGrower {
  public:
-  /// aggregateOf, members: of all faces; the entries of the block are written. The aggregates are numbered from 0.
-  AggregateGrower(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
-                  const FaceRange& block, std::vector<uint32_t>& aggregateOf, std::vector<uint32_t>& members)
+  /// aggregateOf: #F, receives the number of the aggregate of each face of the block, from 0. members: #F, receives the
+  /// faces of each aggregate, the centre first.
+  AggregateGrower(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits, Block& block,
+                  std::vector<uint32_t>& aggregateOf, std::vector<uint32_t>& members)
       : graph_(graph),
         geometry_(geometry),
         limits_(limits),
         block_(block),
         aggregateOf_(aggregateOf),
         members_(members),
-        memberEnd_(block.begin) {
-    for (uint32_t face = block.begin; face < block.end; ++face)
+        memberEnd_(block.begin) {}
+
+  void growAll() {
+    for (uint32_t face = block_.begin; face < block_.end; ++face)
       if (aggregateOf_[face] == kNoAggregate) grow(face);
   }
-
-  [[nodiscard]] const std::vector<uint32_t>& centres() const { return centres_; }
-  /// The ends of the aggregates in `members`.
-  [[nodiscard]] const std::vector<uint32_t>& memberEnds() const { return memberEnds_; }
 
  private:
   void grow(uint32_t centre) {
@@ -68,11 +60,11 @@ class AggregateGrower {
       for (const uint32_t end = memberEnd_; next < end; ++next)
         for (const uint32_t neighbour : graph_.neighboursOf(members_[next]))
           if (isFree(neighbour) && isWithinLimits(centre, neighbour)) add(neighbour);
-    centres_.push_back(centre);
-    memberEnds_.push_back(memberEnd_);
+    block_.centres.push_back(centre);
+    block_.memberEnds.push_back(memberEnd_);
   }
   void add(uint32_t face) {
-    aggregateOf_[face] = static_cast<uint32_t>(centres_.size());
+    aggregateOf_[face] = static_cast<uint32_t>(block_.centres.size());
     members_[memberEnd_++] = face;
   }
   [[nodiscard]] bool isFree(uint32_t face) const {
@@ -87,20 +79,20 @@ class AggregateGrower {
   const FaceGeometry& geometry_;
   const AggregateLimits limits_;
   const double minCosine_ = std::cos(inRadians(kMaxAngleDegrees));
-  const FaceRange block_;
+  Block& block_;
   std::vector<uint32_t>&aggregateOf_, &members_;
-  std::vector<uint32_t> centres_, memberEnds_;
   uint32_t memberEnd_;
   double maxLength_ = 0;  // Greatest distance of a face from the centre of the current aggregate.
 };
 
-/// Blocks of consecutive faces. An aggregate is within one block. If neighbours are often in different blocks, all
-/// faces are one block.
-std::vector<FaceRange> blocksOf(const DualGraph& graph) {
+/// Divides the faces into blocks. If more than kMaxCrossingShare of the arcs connect two blocks, all faces are one
+/// block.
+std::vector<Block> blocksOf(const DualGraph& graph) {
   constexpr uint32_t kBlockSize = 1 << 16;
-  // Not a power of two: in a subdivided mesh, the faces at multiples of it would all be at borders of coarser faces.
-  constexpr uint32_t kFacesPerSample = 61;
   constexpr double kMaxCrossingShare = 0.02;
+  // The arcs of every 61st face are counted. With a power of two instead of 61, these faces would all be at borders of
+  // coarser faces if the mesh is subdivided.
+  constexpr uint32_t kFacesPerSample = 61;
   const uint32_t faceCount = graph.faceCount();
   uint64_t arcCount = 0, crossingCount = 0;
   for (uint64_t face = 0; face < faceCount; face += kFacesPerSample)
@@ -110,40 +102,39 @@ std::vector<FaceRange> blocksOf(const DualGraph& graph) {
     }
   const bool isOneBlock = static_cast<double>(crossingCount) > kMaxCrossingShare * static_cast<double>(arcCount);
   const uint32_t blockSize = isOneBlock ? faceCount : kBlockSize;
-  std::vector<FaceRange> blocks;
+  std::vector<Block> blocks;
   for (uint32_t begin = 0; begin < faceCount; begin = blocks.back().end)
-    blocks.push_back({begin, begin + std::min(blockSize, faceCount - begin)});
+    blocks.push_back({.begin = begin, .end = begin + std::min(blockSize, faceCount - begin)});
   return blocks;
 }
 
-/// Sets everything but aggregates.graph.
-Members growAggregates(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
-                       FaceAggregates& aggregates) {
-  const std::vector<FaceRange> blocks = blocksOf(graph);
+/// Sets everything but aggregates.graph. Returns the faces of each aggregate, the centre first.
+Buckets<uint32_t> growAggregates(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
+                                 FaceAggregates& aggregates) {
+  std::vector<Block> blocks = blocksOf(graph);
   aggregates.aggregateOf.assign(graph.faceCount(), kNoAggregate);
-  Members members{std::vector<uint32_t>(graph.faceCount()), {}};
-  std::vector<std::optional<AggregateGrower>> growers(blocks.size());
+  Buckets<uint32_t> members{{}, std::vector<uint32_t>(graph.faceCount())};
   forEachTask(blocks.size(), [&](size_t i) {
-    growers[i].emplace(graph, geometry, limits, blocks[i], aggregates.aggregateOf, members.faces);
+    AggregateGrower(graph, geometry, limits, blocks[i], aggregates.aggregateOf, members.entries).growAll();
   });
   std::vector<uint32_t> first(1, 0);  // The first aggregate of each block.
-  for (const auto& grower : growers) first.push_back(first.back() + static_cast<uint32_t>(grower->centres().size()));
+  for (const Block& block : blocks) first.push_back(first.back() + static_cast<uint32_t>(block.centres.size()));
   aggregates.centres.resize(first.back());
   members.offsets.assign(first.back() + size_t{1}, 0);
   forEachTask(blocks.size(), [&](size_t i) {
-    std::ranges::copy(growers[i]->centres(), aggregates.centres.begin() + first[i]);
-    std::ranges::copy(growers[i]->memberEnds(), members.offsets.begin() + first[i] + 1);
+    std::ranges::copy(blocks[i].centres, aggregates.centres.begin() + first[i]);
+    std::ranges::copy(blocks[i].memberEnds, members.offsets.begin() + first[i] + 1);
     for (uint32_t face = blocks[i].begin; face < blocks[i].end; ++face) aggregates.aggregateOf[face] += first[i];
   });
   aggregates.sizes.resize(first.back());
   forEachInParallel(aggregates.sizes.size(), [&](uint32_t aggregate) {
-    aggregates.sizes[aggregate] = members.offsets[aggregate + 1] - members.offsets[aggregate];
+    aggregates.sizes[aggregate] = static_cast<uint32_t>(members[aggregate].size());
   });
   return members;
 }
 
 /// Sets aggregates.graph.
-void connect(const DualGraph& graph, const Members& members, FaceAggregates& aggregates) {
+void connect(const DualGraph& graph, const Buckets<uint32_t>& members, FaceAggregates& aggregates) {
   constexpr uint32_t kBlockSize = 4096;
   const auto aggregateCount = static_cast<uint32_t>(aggregates.centres.size());
   std::vector<std::vector<uint32_t>> blocks((aggregateCount + kBlockSize - 1) / kBlockSize);
