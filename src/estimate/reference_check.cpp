@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/median.h"
+#include "core/parallel.h"
 #include "seeds/samplers.h"
 
 namespace asdfvk {
@@ -34,10 +35,7 @@ class References {
 };
 
 std::vector<uint32_t> seedsOf(const TracedSeeds& traced, std::span<const uint32_t> traceableFaces) {
-  std::vector<uint32_t> seeds;
-  std::copy_if(traceableFaces.begin(), traceableFaces.end(), std::back_inserter(seeds),
-               [&](uint32_t face) { return traced.isSeed[face] != 0; });
-  return seeds;
+  return selectInParallel(traceableFaces, [&](uint32_t face) { return traced.isSeed[face] != 0; });
 }
 
 std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {

@@ -67,8 +67,8 @@ AggregatedMesh::AggregatedMesh(const PreparedMesh& prepared)
       aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry,
                                       {kMaxArcCount, lengthLimits(prepared), prepared.components.componentOf})),
       graph_(onCentres(aggregates_)) {
-  traceableFaces_ = aggregates_.centres;
-  std::erase_if(traceableFaces_, [&](uint32_t centre) { return prepared.geometry.isDegenerate(centre); });
+  traceableFaces_ =
+      selectInParallel(aggregates_.centres, [&](uint32_t centre) { return !prepared.geometry.isDegenerate(centre); });
 }
 
 std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount) {

@@ -128,17 +128,8 @@ std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> va
                            smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())), stopOnly);
 }
 
-/// Whether a component without a value has faces that could cast rays and did not.
-bool losesComponent(const FaceDomain& domain, const TracedSeeds& traced) {
-  std::vector<uint8_t> hasValue(domain.componentCount, 0);
-  for (const uint32_t face : traced.faces)
-    if (std::isfinite(traced.values[face])) hasValue[domain.componentOf[face]] = 1;
-  return std::any_of(domain.traceableFaces.begin(), domain.traceableFaces.end(),
-                     [&](uint32_t face) { return !traced.isSeed[face] && hasValue[domain.componentOf[face]] == 0; });
-}
-
 /// Calls runRounds(), on fine meshes for the centres of aggregates only. If these leave a component without a value,
-/// calls it for all faces. keepsNodes: whether the hierarchy is needed later.
+/// calls it for all faces. keepsNodes: whether the nodes of the hierarchy are needed after the rounds.
 RoundsResult runRoundsOnAggregates(const Computation& computation, PreparedScene& preparedScene, KeptTracers& tracers,
                                    bool keepsNodes, const RunControl& control) {
   const auto run = [&](const Computation& on) {
@@ -164,10 +155,10 @@ RoundsResult runRoundsOnAggregates(const Computation& computation, PreparedScene
   counted.seeds = SeedCount::ofCount(seedCount);
   control.checkpoint(0);
   RoundsResult rounds = run({counted, prepared, centres, scene, cone, backend, solvers, clock, warnings});
-  return losesComponent(domain, rounds.traced) ? run(computation) : std::move(rounds);
+  return untriedWithoutValue(domain, rounds.traced).empty() ? std::move(rounds) : run(computation);
 }
 
-/// keepsNodes: whether the hierarchy is needed later.
+/// keepsNodes: see runRoundsOnAggregates().
 void measureDiameter(Result& result, const Computation& computation, PreparedScene& preparedScene, KeptTracers& tracers,
                      bool keepsNodes, const RunControl& control) {
   const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;

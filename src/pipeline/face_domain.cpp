@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <iterator>
 #include <numeric>
 
 #include "asdf_vk/error.h"
@@ -22,8 +20,7 @@ Region::Region(const PreparedMesh& prepared, std::span<const uint8_t> inputFaces
                     [&](uint32_t face) { isInside_[face] = inputFaces[prepared.mesh.inputFaceOf(face)] != 0 ? 1 : 0; });
   connect(prepared);
   labelComponents();
-  std::copy_if(prepared.traceableFaces.begin(), prepared.traceableFaces.end(), std::back_inserter(traceableFaces_),
-               [&](uint32_t face) { return isInside_[face] != 0; });
+  traceableFaces_ = selectInParallel(prepared.traceableFaces, [&](uint32_t face) { return isInside_[face] != 0; });
 }
 
 void Region::connect(const PreparedMesh& prepared) {

@@ -1,14 +1,24 @@
 #include "pipeline/seed_tracing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/free_memory.h"
+#include "core/parallel.h"
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
+
+std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const TracedSeeds& traced) {
+  std::vector<uint8_t> hasValue(domain.componentCount, 0);
+  for (const uint32_t face : traced.faces)
+    if (std::isfinite(traced.values[face])) hasValue[domain.componentOf[face]] = 1;
+  return selectInParallel(domain.traceableFaces, [&](uint32_t face) {
+    return !traced.isSeed[face] && hasValue[domain.componentOf[face]] == 0;
+  });
+}
+
 SeedTracing::SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released)
     : computation_(computation),
       released_(released),
@@ -36,13 +46,7 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
 }
 
 void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
-  std::vector<uint8_t> hasValue(computation_.domain.componentCount, 0);
-  for (const uint32_t face : traced.faces)
-    if (!std::isnan(traced.values[face])) hasValue[computation_.domain.componentOf[face]] = 1;
-  if (std::ranges::all_of(hasValue, [](uint8_t has) { return has != 0; })) return;
-  std::vector<uint32_t> untried;
-  for (const uint32_t face : computation_.domain.traceableFaces)
-    if (!traced.isSeed[face]) untried.push_back(face);
+  const std::vector<uint32_t> untried = untriedWithoutValue(computation_.domain, traced);
   if (untried.empty()) return;
   ComponentSeeds further(computation_.domain.componentOf, traced.values, untried, computation_.options.randomSeed);
   for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "bvh/bvh.h"
 #include "pipeline/computation.h"
@@ -10,6 +11,9 @@
 #include "trace/traced_seeds.h"
 
 namespace asdfvk {
+
+/// The traceable faces of the domain that are not seeds, in components without a value.
+[[nodiscard]] std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const TracedSeeds& traced);
 
 /// Casts the rays of seeds of one computation. Its destructor releases the tracer, unless `tracers` keep it, and the
 /// nodes of the hierarchy if they are not needed later.

@@ -1,9 +1,9 @@
 #include "seeds/samplers.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 
@@ -13,11 +13,7 @@ std::vector<uint32_t> remainingCandidates(const SeedDomain& domain, std::span<co
     ASDFVK_CHECK_OP(face, <, domain.graph.faceCount());
     isChosen[face] = 1;
   }
-  std::vector<uint32_t> remaining;
-  remaining.reserve(domain.candidates.size());
-  std::copy_if(domain.candidates.begin(), domain.candidates.end(), std::back_inserter(remaining),
-               [&](uint32_t face) { return !isChosen[face]; });
-  return remaining;
+  return selectInParallel(domain.candidates, [&](uint32_t face) { return !isChosen[face]; });
 }
 
 const Sampler* findSampler(std::string_view name) {
