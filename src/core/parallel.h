@@ -98,7 +98,7 @@ template <typename Value, typename ValueOf>
   return foldInParallel<Value>(count, greatestOf, greater);
 }
 
-/// The items for which holds(item), in their order. itemAt(i): the item with index i in [0, count).
+/// Returns the items for which holds(item) is true, in the order of their indices. itemAt(i): item i of [0, count).
 template <typename ItemAt, typename Holds>
 [[nodiscard]] std::vector<uint32_t> selectInParallel(size_t count, const ItemAt& itemAt, const Holds& holds) {
   constexpr size_t kBlockSize = 4 * kItemsPerTask;
@@ -117,14 +117,14 @@ template <typename ItemAt, typename Holds>
   return selected;
 }
 
-/// The items for which holds(item), in their order.
+/// Returns the items for which holds(item) is true, in their order.
 template <typename Holds>
 [[nodiscard]] std::vector<uint32_t> selectInParallel(std::span<const uint32_t> items, const Holds& holds) {
   return selectInParallel(
       items.size(), [&](size_t i) { return items[i]; }, holds);
 }
 
-/// The i in [0, count) for which holds(i), ascending. Precondition: count is at most 2^32.
+/// Returns the i in [0, count) for which holds(i) is true, ascending. Precondition: count is at most 2^32.
 template <typename Holds>
 [[nodiscard]] std::vector<uint32_t> indicesInParallel(size_t count, const Holds& holds) {
   return selectInParallel(

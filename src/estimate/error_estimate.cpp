@@ -82,7 +82,7 @@ std::vector<WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement
 
 /// Sums over faces with a value.
 struct ExpectedSums {
-  double error = 0, interpolatedIndicator = 0;  // The error is in the unit of unitOf().
+  double error = 0, interpolatedIndicator = 0;  // Unit of the error: unitOf().
   size_t count = 0, interpolatedCount = 0;
 
   ExpectedSums operator+(const ExpectedSums& other) const {

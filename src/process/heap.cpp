@@ -25,8 +25,9 @@ namespace asdfvk {
 
 namespace {
 
-// The heap grows by this size more than needed, and keeps so much unused memory at its end. Otherwise it would end
-// behind each large allocation, in the middle of a huge page, and such a part gets small pages.
+// The heap grows by this size more than needed. Without this reserve, the heap would end directly after each large
+// allocation, in the middle of a huge page, and the kernel would use small pages there. Only unused memory beyond this
+// size is returned to the kernel.
 constexpr int kReserveBytes = 256 << 20;
 std::atomic<bool> hasReserve = false;
 

@@ -102,7 +102,8 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   options.estimatesError = true;
   const Result withEstimate = test::vulkanSession().compute(mesh, options);
   options.solver = "cpu";
-  CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < 1e-3);
+  const double bound = withEstimate.report.runsOnCpu ? 2e-4 : 1e-3;
+  CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < bound);
 }
 
 TEST_CASE("a component whose centres have no valid ray has the value of another face") {

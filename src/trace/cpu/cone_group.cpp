@@ -34,8 +34,8 @@ void ConeGroup::clear() {
 }
 
 void ConeGroup::trace() {
-  // The faces of the hits are set after the next ray, because setFaces() reads scattered entries of primitiveFaces. The
-  // memory loads these entries during the next ray.
+  // setFaces() reads scattered entries of primitiveFaces. These entries are prefetched, and setFaces() is called only
+  // after the next ray is traced.
   RayGroup::Indices primitives;
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     cast(cones_.cone.directions[ray]);
