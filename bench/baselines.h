@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,16 +18,20 @@ class EmbreeBaseline {
   [[nodiscard]] virtual double trace(std::span<const uint32_t> seedFaces) const = 0;
 };
 
-enum class EmbreeMode {
-  Fast,    ///< Embree's fastest mode: a ray can pass between two adjacent triangles.
-  Robust,  ///< Embree's robust mode, which is watertight.
+struct EmbreeMode {
+  const char* name;
+  const char* deviceConfig;  ///< Argument of rtcNewDevice(); may be null.
+  bool isRobust;             ///< Watertight. In the fastest mode a ray can pass between two adjacent triangles.
 };
+inline constexpr std::array<EmbreeMode, 3> kEmbreeModes{{{"Embree, fast", nullptr, false},
+                                                         {"Embree, AVX2", "isa=avx2", false},  // Without AVX-512.
+                                                         {"Embree, robust", nullptr, true}}};
 
 /// Builds Embree's scene of medium quality from the given faces. The order of the faces has a small influence on the
 /// speed. `scene` and `cone` must outlive the result. Null if the build has no Embree.
 [[nodiscard]] std::unique_ptr<EmbreeBaseline> makeEmbreeBaseline(const TraceScene& scene,
                                                                  std::span<const uint32_t> faces, const Cone& cone,
-                                                                 EmbreeMode mode);
+                                                                 const EmbreeMode& mode);
 
 [[nodiscard]] bool hasCgal();
 

@@ -46,6 +46,9 @@ class MeshComparison {
   MeshComparison(std::string path, const std::string& device)
       : path_(std::move(path)), device_(device), mesh_(readMesh(path_)), backends_(openBackends(device)) {
     for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(mesh_.scene(), cone_, {});
+    for (const EmbreeMode& mode : kEmbreeModes)
+      if (auto baseline = makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.primitiveFaces, cone_, mode))
+        embree_[mode.name] = std::move(baseline);
     for (const std::string& name : fastBackends())
       sessions_[name] = std::make_unique<Session>(sessionOptionsOf(name, device));
   }
@@ -62,10 +65,8 @@ class MeshComparison {
         std::vector<double> values(seeds.size());
         static_cast<void>(chosen.trace(seeds, {values}, control));
       });
-    if (embreeFast_) {
-      traces.emplace_back(kEmbreeFast, [&] { static_cast<void>(embreeFast_->trace(seeds)); });
-      traces.emplace_back(kEmbreeRobust, [&] { static_cast<void>(embreeRobust_->trace(seeds)); });
-    }
+    for (const auto& [name, baseline] : embree_)
+      traces.emplace_back(name, [&, &chosen = *baseline] { static_cast<void>(chosen.trace(seeds)); });
     // The first tracer of a round starts with cold caches. Therefore each round starts with another tracer.
     std::rotate(traces.begin(), traces.begin() + round % static_cast<uint32_t>(traces.size()), traces.end());
     for (const auto& [name, trace] : traces) {
@@ -117,10 +118,7 @@ class MeshComparison {
   std::string path_, device_;
   TraceableMesh mesh_;
   Cone cone_ = makeCone({});
-  std::unique_ptr<EmbreeBaseline> embreeFast_ =
-      makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.primitiveFaces, cone_, EmbreeMode::Fast);
-  std::unique_ptr<EmbreeBaseline> embreeRobust_ =
-      makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.primitiveFaces, cone_, EmbreeMode::Robust);
+  std::map<std::string, std::unique_ptr<EmbreeBaseline>> embree_;
   std::map<std::string, std::unique_ptr<Backend>> backends_;
   std::map<std::string, std::unique_ptr<ConeTracer>> tracers_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;
@@ -137,7 +135,7 @@ bool isFirstOfPart(size_t round, size_t roundCount, size_t partCount) {
 }  // namespace
 
 std::optional<Dispersion> SeedComparison::speedOverEmbree(const std::string& tracer) const {
-  const auto embree = trace.find(kEmbreeFast);
+  const auto embree = trace.find(kEmbreeModes[0].name);
   if (embree == trace.end()) return {};
   return ratioOf(embree->second, trace.at(tracer));
 }

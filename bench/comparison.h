@@ -22,8 +22,6 @@ struct ComparisonRequest {
 /// One entry per round: entry i of every task is from round i.
 using Seconds = std::vector<double>;
 
-inline const std::string kEmbreeFast = "Embree, fast", kEmbreeRobust = "Embree, robust";
-
 struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;
@@ -32,7 +30,7 @@ struct SeedComparison {
   /// from file to file.
   std::map<std::pair<std::string, std::string>, Seconds> total = {};
 
-  /// Time of kEmbreeFast divided by the time of the tracer. Unset without Embree.
+  /// Time of the first of kEmbreeModes divided by the time of the tracer. Unset without Embree.
   [[nodiscard]] std::optional<Dispersion> speedOverEmbree(const std::string& tracer) const;
 };
 

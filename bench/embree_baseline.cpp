@@ -18,9 +18,10 @@ namespace {
 
 class EmbreeBaselineScene final : public EmbreeBaseline {
  public:
-  EmbreeBaselineScene(const TraceScene& scene, std::span<const uint32_t> faces, const Cone& cone, EmbreeMode mode)
-      : scene_(scene), cone_(cone), device_(rtcNewDevice(nullptr)), embree_(rtcNewScene(device_)) {
-    if (mode == EmbreeMode::Robust) rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
+  EmbreeBaselineScene(const TraceScene& scene, std::span<const uint32_t> faces, const Cone& cone,
+                      const EmbreeMode& mode)
+      : scene_(scene), cone_(cone), device_(rtcNewDevice(mode.deviceConfig)), embree_(rtcNewScene(device_)) {
+    if (mode.isRobust) rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3f), scene.mesh.vertices.size()));
@@ -78,13 +79,13 @@ class EmbreeBaselineScene final : public EmbreeBaseline {
 }  // namespace
 
 std::unique_ptr<EmbreeBaseline> makeEmbreeBaseline(const TraceScene& scene, std::span<const uint32_t> faces,
-                                                   const Cone& cone, EmbreeMode mode) {
+                                                   const Cone& cone, const EmbreeMode& mode) {
   return std::make_unique<EmbreeBaselineScene>(scene, faces, cone, mode);
 }
 
 #else
 std::unique_ptr<EmbreeBaseline> makeEmbreeBaseline(const TraceScene&, std::span<const uint32_t>, const Cone&,
-                                                   EmbreeMode) {
+                                                   const EmbreeMode&) {
   return {};
 }
 #endif
