@@ -31,33 +31,33 @@ double valueOfLane(const Cone& cone, std::span<const std::array<double, LaneCone
   return coneValue(valid, weights, cone.outliers);
 }
 
-struct Eight {
+struct ConeLanes {
   LaneFrames frames;
   std::vector<std::array<Vec3d, LaneCones::kWidth>> directions;  // Per ray.
   std::array<Vec3d, LaneCones::kWidth> origins, normals;
 };
 
-/// The cones of eight faces of a mesh, with rays that hit random faces.
-Eight eightCones(const TracedMesh& traced, const Cone& cone, Random& random) {
-  Eight eight;
-  eight.directions.resize(cone.directions.size());
+/// The cones of faces of a mesh, with rays that hit random faces.
+ConeLanes randomCones(const TracedMesh& traced, const Cone& cone, Random& random) {
+  ConeLanes cones;
+  cones.directions.resize(cone.directions.size());
   for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
     const auto face = static_cast<uint32_t>(random.real() * static_cast<double>(traced.mesh.faceCount()));
-    eight.normals[lane] = traced.geometry.normals[face];
-    eight.origins[lane] = traced.bvh.normalization.toNormalized(traced.geometry.barycentres[face]);
-    const ConeFrame frame = paperConeFrame(cone, eight.normals[lane], face);
-    eight.frames.set(lane, frame, eight.origins[lane], eight.normals[lane]);
+    cones.normals[lane] = traced.geometry.normals[face];
+    cones.origins[lane] = traced.bvh.normalization.toNormalized(traced.geometry.barycentres[face]);
+    const ConeFrame frame = paperConeFrame(cone, cones.normals[lane], face);
+    cones.frames.set(lane, frame, cones.origins[lane], cones.normals[lane]);
     for (size_t ray = 0; ray < cone.directions.size(); ++ray) {
       const Vec3d& d = cone.directions[ray];
-      eight.directions[ray][lane] = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
+      cones.directions[ray][lane] = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
     }
   }
-  return eight;
+  return cones;
 }
 
 }  // namespace
 
-TEST_CASE("eight cones side by side have the bits of coneValue, for any number of rays") {
+TEST_CASE("cones side by side have the bits of coneValue, for any number of rays") {
   Random random(3);
   const TracedMesh anyMesh(shapes::box({1, 1, 1}));
   const TraceScene scene = anyMesh.scene();
@@ -100,19 +100,19 @@ void checkLengths(const ConeOptions& options) {
   const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.1, 4));
   const TraceScene scene = traced.scene();
   const Cone cone = makeCone(options);
-  const Eight eight = eightCones(traced, cone, random);
+  const ConeLanes cones = randomCones(traced, cone, random);
   std::vector<LaneHits> hits(cone.directions.size());
   for (size_t ray = 0; ray < hits.size(); ++ray)
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
       const auto face = static_cast<uint32_t>(random.real() * static_cast<double>(traced.mesh.faceCount()));
-      const double length = distanceToPlane(scene, face, eight.origins[lane], eight.directions[ray][lane]);
+      const double length = distanceToPlane(scene, face, cones.origins[lane], cones.directions[ray][lane]);
       const double off = std::array{0.0, 5e-5, -5e-5, 8e-5, -8e-5}[(ray + lane) % 5];  // 2^-14 is 6.1e-5.
       hits[ray].faces[lane] = (ray + lane) % 7 == 0 ? kNoFace : face;
       hits[ray].distances[lane] = static_cast<float>(length + off);
     }
   for (const InstructionSet instructionSet : instructionSets()) {
     LaneCones lanes(cone, scene, instructionSet);
-    lanes.measure(eight.frames, hits);
+    lanes.measure(cones.frames, hits);
     size_t validCount = 0, keptDistanceCount = 0;
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
       for (size_t ray = 0; ray < hits.size(); ++ray) {
@@ -122,9 +122,9 @@ void checkLengths(const ConeOptions& options) {
           CHECK(length == kInfinity);
           continue;
         }
-        const double onPlane = distanceToPlane(scene, face, eight.origins[lane], eight.directions[ray][lane]);
+        const double onPlane = distanceToPlane(scene, face, cones.origins[lane], cones.directions[ray][lane]);
         const double distance = hits[ray].distances[lane];
-        if (isFalseHit(cone, eight.normals[lane], eight.directions[ray][lane], scene.geometry.normals[face])) {
+        if (isFalseHit(cone, cones.normals[lane], cones.directions[ray][lane], scene.geometry.normals[face])) {
           CHECK(length == kInfinity);
           continue;
         }

@@ -26,7 +26,7 @@ std::vector<RayGroup> randomGroups(size_t count) {
   const auto coordinate = [&] { return static_cast<float>(2 * random.real() - 1); };
   std::vector<RayGroup> groups(count);
   for (RayGroup& group : groups) {
-    group.active = 0xff;
+    group.active = ~0U;
     group.begins.fill(0x1p-20F);
     group.ends.fill(std::numeric_limits<float>::max());
     group.skipped.fill(kNoFace);
@@ -104,7 +104,7 @@ TEST_CASE("rays that are not active, skip a face, end before a face or begin beh
   const uint32_t top = group.primitives[0];
   const float distance = group.distances[0];
   REQUIRE(top != kNoFace);
-  group.active = 0b11111101;
+  group.active = ~0b10U;
   group.skipped[2] = top;
   group.ends[3] = 0.99F * distance;
   group.begins[4] = 1.01F * distance;

@@ -22,7 +22,7 @@ struct CpuSeed {
   std::span<ConeHit> hits;       ///< One per ray, or empty. All cones of a group have hits, or none.
 };
 
-/// Traces up to eight neighbouring cones together: the first ray of all cones, then the second, and so on. Lengths are
+/// Traces up to kWidth neighbouring cones together: the first ray of all cones, then the second, and so on. Lengths are
 /// in normalised units. An object reuses its memory.
 class ConeGroup {
  public:

@@ -11,17 +11,18 @@
 #include "trace/cone_tracer.h"
 #include "trace/trace_scene.h"
 
-// Computes the values of eight cones, one per lane, from the hits of their rays, in double. Coordinates are normalised.
+// Computes the values of a group of cones, one per lane, from the hits of their rays, in double. Coordinates are
+// normalised.
 namespace asdfvk {
 
 struct LaneHits {
-  static constexpr size_t kWidth = 8;
+  static constexpr size_t kWidth = 32;
 
   std::array<uint32_t, kWidth> faces;  ///< kNoFace: the ray hits nothing.
   std::array<float, kWidth> distances;
 };
 
-/// Frames of eight cones, and barycentres and normals of their seed faces. Rows: x, y and z of all lanes.
+/// Frames of the cones of a group, and barycentres and normals of their seed faces. Rows: x, y and z of all lanes.
 struct LaneFrames {
   using Rows = std::array<std::array<double, LaneHits::kWidth>, 3>;
 

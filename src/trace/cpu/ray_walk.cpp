@@ -70,7 +70,7 @@ struct RayRows {
   alignas(32) std::array<int32_t, RayGroup::kWidth> flips, mainAxes;
   // Positions of planes in a LaneNode, in bytes: near x, far x, near y, far y, near z, far z.
   alignas(32) std::array<Indices, 6> planeOffsets;
-  alignas(32) Floats zeros;
+  alignas(32) std::array<float, kLaneCount<Float8>> zeros{};
   alignas(32) Floats limits;  // RayHitDistance::compared of the nearest hit.
 };
 
@@ -84,38 +84,37 @@ ASDFVK_ALWAYS_INLINE inline Float8 choose(const Ints8& isZ, const Ints8& isY, co
   return isZ ? z : isY ? y : x;
 }
 
-ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
+/// Prepares the rows of eight rays of the group.
+ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, size_t first, RayRows& rows) {
   Float8 d[3], o[3];
   Ints8 flips{};
   for (size_t axis = 0; axis < 3; ++axis) {
-    o[axis] = load<Float8>(rays.origins[axis].data());
-    d[axis] = load<Float8>(rays.directions[axis].data());
+    o[axis] = load<Float8>(&rays.origins[axis][first]);
+    d[axis] = load<Float8>(&rays.directions[axis][first]);
     const Ints8 sign = reinterpret_cast<Ints8>(d[axis]) & kSignBit;
     const Float8 tiny = reinterpret_cast<Float8>(sign | std::bit_cast<int32_t>(kTinyDirection));
     const Float8 inverse = 1.0F / (absolute(d[axis]) < kTinyDirection ? tiny : d[axis]);
     const Float8 lower = -(o[axis] + kWideBoxMargin) * inverse, upper = -(o[axis] - kWideBoxMargin) * inverse;
-    store(rows.inverses[axis].data(), inverse);
-    store(rows.nears[axis].data(), sign != 0 ? upper : lower);
-    store(rows.fars[axis].data(), sign != 0 ? lower : upper);
+    store(&rows.inverses[axis][first], inverse);
+    store(&rows.nears[axis][first], sign != 0 ? upper : lower);
+    store(&rows.fars[axis][first], sign != 0 ? lower : upper);
     constexpr int32_t kRowSize = sizeof(LaneNode::planes[0][0]);
     const auto lowerOffset = static_cast<int32_t>(offsetof(LaneNode, planes) + 2 * axis * kRowSize);
     const Ints8 change = Ints8{sign != 0} & kRowSize;
-    store(rows.planeOffsets[2 * axis].data(), lowerOffset + change);
-    store(rows.planeOffsets[2 * axis + 1].data(), lowerOffset + kRowSize - change);
+    store(&rows.planeOffsets[2 * axis][first], lowerOffset + change);
+    store(&rows.planeOffsets[2 * axis + 1][first], lowerOffset + kRowSize - change);
     flips |= sign != 0 ? Ints8{} : broadcast<Ints8>(1 << axis);
   }
   const Ints8 isZ = absolute(d[2]) >= max(absolute(d[0]), absolute(d[1])), isY = absolute(d[1]) > absolute(d[0]);
   const Float8 main = choose(isZ, isY, d[2], d[1], d[0]);
-  store(rows.shearsX.data(), choose(isZ, isY, d[0], d[2], d[1]) / main);
-  store(rows.shearsY.data(), choose(isZ, isY, d[1], d[0], d[2]) / main);
-  store(rows.mainDirections.data(), main);
-  store(rows.flips.data(), flips);
-  store(rows.mainAxes.data(), isZ ? broadcast<Ints8>(2) : isY ? broadcast<Ints8>(1) : Ints8{});
-  store(rows.originsX.data(), choose(isZ, isY, o[0], o[2], o[1]));
-  store(rows.originsY.data(), choose(isZ, isY, o[1], o[0], o[2]));
-  store(rows.originsZ.data(), choose(isZ, isY, o[2], o[1], o[0]));
-  rows.zeros = {};
-  rows.limits = rays.ends;
+  store(&rows.shearsX[first], choose(isZ, isY, d[0], d[2], d[1]) / main);
+  store(&rows.shearsY[first], choose(isZ, isY, d[1], d[0], d[2]) / main);
+  store(&rows.mainDirections[first], main);
+  store(&rows.flips[first], flips);
+  store(&rows.mainAxes[first], isZ ? broadcast<Ints8>(2) : isY ? broadcast<Ints8>(1) : Ints8{});
+  store(&rows.originsX[first], choose(isZ, isY, o[0], o[2], o[1]));
+  store(&rows.originsY[first], choose(isZ, isY, o[1], o[0], o[2]));
+  store(&rows.originsZ[first], choose(isZ, isY, o[2], o[1], o[0]));
 }
 
 /// Writes the children that the ray enters, the farthest first, and returns their number. Needs room for kBvhLaneCount
@@ -244,11 +243,22 @@ constexpr float kEndDistance = -std::numeric_limits<float>::infinity();
 constexpr uint32_t kEnd = ~0U;
 static_assert((kEnd & kLaneBlockBit) != 0);
 
+/// Fetches a block into the cache, so that it has arrived at the next turn of the ray. For a node, fetches the first
+/// block, because a processor can hardly predict a branch here. The address of kEnd is invalid, which does no harm.
+ASDFVK_ALWAYS_INLINE inline void prefetchBlock(const LaneBvh& bvh, uint32_t reference) {
+  static_assert(kLaneBlockBit == 1U << 31);
+  const auto blockBits = static_cast<uint32_t>(static_cast<int32_t>(reference) >> 31) & ~kLaneBlockBit;
+  const uintptr_t block = reinterpret_cast<uintptr_t>(bvh.blocks.data()) + (reference & blockBits) * sizeof(LaneBlock);
+  for (uintptr_t line = block; line < block + sizeof(LaneBlock); line += 64)
+    __builtin_prefetch(reinterpret_cast<const void*>(line));
+}
+
 template <typename Floats, bool kEndsAtAnyHit>
 ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, const TraceScene* scene, RayGroup& rays,
                                       std::array<RayWalk::Stack, RayGroup::kWidth>& stacks) {
   RayRows rows;
-  prepare(rays, rows);
+  for (size_t first = 0; first < RayGroup::kWidth; first += kLaneCount<Float8>) prepare(rays, first, rows);
+  rows.limits = rays.ends;
   std::array<uint32_t, RayGroup::kWidth> running;
   std::array<float*, RayGroup::kWidth> tops;  // Distances of the entries on the top.
   size_t runningCount = 0;
@@ -280,6 +290,7 @@ ASDFVK_ALWAYS_INLINE inline void walk(const LaneBvh& bvh, const TraceScene* scen
         running[i] = running[--runningCount];
         continue;
       }
+      prefetchBlock(bvh, *stacks[ray].referenceOf(top));
       tops[ray] = top;
       ++i;
     }

@@ -10,9 +10,9 @@
 
 namespace asdfvk {
 
-/// Eight rays and their hits. Coordinates are normalised; origins are in the normalised box or near it.
+/// Rays and their hits. Coordinates are normalised; origins are in the normalised box or near it.
 struct RayGroup {
-  static constexpr size_t kWidth = 8;
+  static constexpr size_t kWidth = 32;  ///< With fewer rays, the turn of a ray comes before its data.
   using Floats = std::array<float, kWidth>;
   using Indices = std::array<uint32_t, kWidth>;
 
