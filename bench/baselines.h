@@ -23,9 +23,9 @@ struct EmbreeMode {
   const char* deviceConfig;  ///< Argument of rtcNewDevice(); may be null.
   bool isRobust;             ///< Watertight. In the fastest mode a ray can pass between two adjacent triangles.
 };
-inline constexpr std::array<EmbreeMode, 3> kEmbreeModes{{{"Embree, fast", nullptr, false},
-                                                         {"Embree, AVX2", "isa=avx2", false},  // Without AVX-512.
-                                                         {"Embree, robust", nullptr, true}}};
+inline constexpr EmbreeMode kEmbreeFast{"Embree, fast", nullptr, false};
+inline constexpr std::array<EmbreeMode, 3> kEmbreeModes{
+    {kEmbreeFast, {"Embree, AVX2", "max_isa=avx2", false}, {"Embree, robust", nullptr, true}}};
 
 /// Builds Embree's scene of medium quality from the given faces. The order of the faces has a small influence on the
 /// speed. `scene` and `cone` must outlive the result. Null if the build has no Embree.

@@ -35,7 +35,7 @@ std::string toTable(const Comparison& comparison, const Machine& machine) {
       "median ± median absolute deviation\n\n"
       "| seeds | tracer         |      Mrays/s | / {} |\n"
       "|-------|----------------|-------------:|---------------:|\n",
-      kEmbreeModes[0].name);
+      kEmbreeFast.name);
   for (const SeedComparison& seeds : comparison.seeds)
     for (const auto& [name, seconds] : seeds.trace)
       text +=

@@ -135,7 +135,7 @@ bool isFirstOfPart(size_t round, size_t roundCount, size_t partCount) {
 }  // namespace
 
 std::optional<Dispersion> SeedComparison::speedOverEmbree(const std::string& tracer) const {
-  const auto embree = trace.find(kEmbreeModes[0].name);
+  const auto embree = trace.find(kEmbreeFast.name);
   if (embree == trace.end()) return {};
   return ratioOf(embree->second, trace.at(tracer));
 }

@@ -30,7 +30,7 @@ struct SeedComparison {
   /// from file to file.
   std::map<std::pair<std::string, std::string>, Seconds> total = {};
 
-  /// Time of the first of kEmbreeModes divided by the time of the tracer. Unset without Embree.
+  /// Time of kEmbreeFast divided by the time of the tracer. Unset without Embree.
   [[nodiscard]] std::optional<Dispersion> speedOverEmbree(const std::string& tracer) const;
 };
 

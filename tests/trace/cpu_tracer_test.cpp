@@ -187,13 +187,18 @@ TEST_CASE("values of the CPU tracer have the same bits with one thread and with 
   }
 }
 
-TEST_CASE("values of the CPU tracer do not depend on the order of the seeds, nor on earlier traces") {
+TEST_CASE("values of the CPU tracer do not depend on number and order of the seeds, nor on earlier traces") {
   const TracedMesh traced(generateShape("hand", 4000).mesh);
   const Cone cone = makeCone({});
   std::vector<uint32_t> seeds = traced.seedFaces();
   std::vector<double> forward(seeds.size()), backward(seeds.size());
   const auto tracer = makeCpuTracer(traced.scene(), cone);
   tracer->trace(seeds, {forward}, {});
+  for (const size_t count : {1u, 31u, 32u, 33u}) {
+    std::vector<double> few(count);
+    tracer->trace(std::span(seeds).first(count), {few}, {});
+    CHECK(test::haveSameBits(few, {forward.begin(), forward.begin() + static_cast<ptrdiff_t>(count)}));
+  }
   std::reverse(seeds.begin(), seeds.end());
   tracer->trace(seeds, {backward}, {});
   std::reverse(backward.begin(), backward.end());

@@ -27,7 +27,6 @@ struct CpuSeed {
 class ConeGroup {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
-  static_assert(kWidth == RayGroup::kWidth);
 
   explicit ConeGroup(const CpuCones& cones);
 

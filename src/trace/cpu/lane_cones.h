@@ -9,6 +9,7 @@
 #include "cone/cone.h"
 #include "core/simd.h"
 #include "trace/cone_tracer.h"
+#include "trace/cpu/ray_walk.h"
 #include "trace/trace_scene.h"
 
 // Computes the values of a group of cones, one per lane, from the hits of their rays, in double. Coordinates are
@@ -16,7 +17,7 @@
 namespace asdfvk {
 
 struct LaneHits {
-  static constexpr size_t kWidth = 32;
+  static constexpr size_t kWidth = RayGroup::kWidth;
 
   std::array<uint32_t, kWidth> faces;  ///< kNoFace: the ray hits nothing.
   std::array<float, kWidth> distances;

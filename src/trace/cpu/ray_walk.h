@@ -12,7 +12,9 @@ namespace asdfvk {
 
 /// Rays and their hits. Coordinates are normalised; origins are in the normalised box or near it.
 struct RayGroup {
-  static constexpr size_t kWidth = 32;  ///< With fewer rays, the turn of a ray comes before its data.
+  /// With fewer rays, prefetched data arrive after the turn of the ray. With more rays, `active` has too few bits.
+  static constexpr size_t kWidth = 32;
+  static_assert(kWidth <= 32 && kWidth % kBvhLaneCount == 0);
   using Floats = std::array<float, kWidth>;
   using Indices = std::array<uint32_t, kWidth>;
 
