@@ -124,7 +124,7 @@ template <typename Holds>
       items.size(), [&](size_t i) { return items[i]; }, holds);
 }
 
-/// Returns the i in [0, count) for which holds(i) is true, ascending. Precondition: count is at most 2^32.
+/// Returns the indices i in [0, count) with holds(i), in ascending order. Precondition: count is at most 2^32.
 template <typename Holds>
 [[nodiscard]] std::vector<uint32_t> indicesInParallel(size_t count, const Holds& holds) {
   return selectInParallel(

@@ -91,7 +91,7 @@ std::vector<double> membersOf(const IsWanted& isWanted, std::span<const double> 
       });
 }
 
-/// The bucket of the number at index `rank` in ascending order.
+/// Returns the bucket that contains the number with this rank. A rank is an index in ascending order.
 size_t bucketOf(uint64_t rank, const Counts& counts) {
   size_t bucket = 0;
   for (; rank >= counts[bucket]; ++bucket) rank -= counts[bucket];

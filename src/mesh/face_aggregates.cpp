@@ -24,7 +24,7 @@ constexpr uint32_t kNoAggregate = 0xffffffff;
 
 double inRadians(double degrees) { return degrees * (std::numbers::pi / 180); }
 
-/// Consecutive faces, and the aggregates within these faces.
+/// A range of consecutive faces, and the aggregates of these faces.
 struct Block {
   uint32_t begin = 0, end = 0;
   std::vector<uint32_t> centres;     ///< One per aggregate.
@@ -34,8 +34,8 @@ struct Block {
 /// Builds the aggregates of a block one after another, in the order of the faces.
 class AggregateGrower {
  public:
-  /// aggregateOf: #F, receives the number of the aggregate of each face of the block, from 0. members: #F, receives the
-  /// faces of each aggregate, the centre first.
+  /// aggregateOf: #F. For each face of the block, receives the index of its aggregate in the block. members: #F.
+  /// Receives the faces of each aggregate; the first of them is the centre.
   AggregateGrower(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits, Block& block,
                   std::vector<uint32_t>& aggregateOf, std::vector<uint32_t>& members)
       : graph_(graph),
@@ -108,7 +108,7 @@ std::vector<Block> blocksOf(const DualGraph& graph) {
   return blocks;
 }
 
-/// Sets everything but aggregates.graph. Returns the faces of each aggregate, the centre first.
+/// Sets all members of `aggregates` except `graph`. Returns the faces of each aggregate; the first is the centre.
 Buckets<uint32_t> growAggregates(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
                                  FaceAggregates& aggregates) {
   std::vector<Block> blocks = blocksOf(graph);

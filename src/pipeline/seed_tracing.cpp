@@ -1,5 +1,6 @@
 #include "pipeline/seed_tracing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,7 @@ std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const Traced
   std::vector<uint8_t> hasValue(domain.componentCount, 0);
   for (const uint32_t face : traced.faces)
     if (std::isfinite(traced.values[face])) hasValue[domain.componentOf[face]] = 1;
+  if (std::ranges::all_of(hasValue, [](uint8_t has) { return has != 0; })) return {};
   return selectInParallel(domain.traceableFaces, [&](uint32_t face) {
     return !traced.isSeed[face] && hasValue[domain.componentOf[face]] == 0;
   });

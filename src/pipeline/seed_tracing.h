@@ -12,7 +12,7 @@
 
 namespace asdfvk {
 
-/// The traceable faces of the domain that are not seeds, in components without a value.
+/// Returns the traceable faces of the domain that are not seeds and whose component has no value.
 [[nodiscard]] std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const TracedSeeds& traced);
 
 /// Casts the rays of seeds of one computation. Its destructor releases the tracer, unless `tracers` keep it, and the

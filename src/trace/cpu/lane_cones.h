@@ -12,8 +12,8 @@
 #include "trace/cpu/ray_walk.h"
 #include "trace/trace_scene.h"
 
-// Computes the values of a group of cones, one per lane, from the hits of their rays, in double. Coordinates are
-// normalised.
+// Computes the values of a group of cones from the hits of their rays, in double. Each lane has one cone. Coordinates
+// are normalised.
 namespace asdfvk {
 
 struct LaneHits {

@@ -85,7 +85,7 @@ ASDFVK_ALWAYS_INLINE inline Float8 choose(const Ints8& isZ, const Ints8& isY, co
   return isZ ? z : isY ? y : x;
 }
 
-/// Prepares the rows of eight rays of the group.
+/// Sets the rows, except `limits`, for the eight rays from `first` on.
 ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, size_t first, RayRows& rows) {
   Float8 d[3], o[3];
   Ints8 flips{};
@@ -244,8 +244,9 @@ constexpr float kEndDistance = -std::numeric_limits<float>::infinity();
 constexpr uint32_t kEnd = ~0U;
 static_assert((kEnd & kLaneBlockBit) != 0);
 
-/// Fetches a block into the cache, because the next turn of the ray probably tests it. For a node, fetches block 0: a
-/// branch would often be predicted wrongly. The address for kEnd is invalid, but a prefetch of it has no effect.
+/// Prefetches the block that the next step of the ray probably tests. If the reference is a node, prefetches block 0.
+/// Branch-free: the kind of the reference is unpredictable. The address for kEnd is invalid; its prefetch has no
+/// effect.
 ASDFVK_ALWAYS_INLINE inline void prefetchBlock(const LaneBvh& bvh, uint32_t reference) {
   const auto index = static_cast<uintptr_t>(std::max(static_cast<int32_t>(reference ^ kLaneBlockBit), 0));
   const uintptr_t block = reinterpret_cast<uintptr_t>(bvh.blocks.data()) + index * sizeof(LaneBlock);

@@ -12,7 +12,7 @@ namespace asdfvk {
 
 /// Rays and their hits. Coordinates are normalised; origins are in the normalised box or near it.
 struct RayGroup {
-  /// With fewer rays, prefetched data arrive after the turn of the ray. With more rays, `active` has too few bits.
+  /// With eight rays, a prefetched block arrives after the next step of its ray. `active` has bits for 32 rays.
   static constexpr size_t kWidth = 32;
   static_assert(kWidth <= 32 && kWidth % kBvhLaneCount == 0);
   using Floats = std::array<float, kWidth>;
