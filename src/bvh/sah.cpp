@@ -45,7 +45,7 @@ struct Binning {
     // Slightly less than the bin count: then rounding moves no centre beyond the last bin.
     const Float4 f = static_cast<float>(count) * (1 - 0x1p-20f) / centres.extents();
     const IntsOf<Float4> isFinite = f - f == 0;
-    factor = select(isFinite & IntsOf<Float4>{-1, -1, -1, 0}, f);  // In lane 3, a box may have a face.
+    factor = select(isFinite, f);
   }
   [[nodiscard]] ASDFVK_ALWAYS_INLINE IntsOf<Float4> binsOf(const SplitBox& box) const {
     return __builtin_convertvector((box.doubledCentre() - origin) * factor, IntsOf<Float4>);
