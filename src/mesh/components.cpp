@@ -84,7 +84,7 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
     sums.back().sum += dot(a, cross(ab, ac)) / 6;
-    sums.back().noise += kVolumeNoise * length(a) * length(ab) * length(ac);
+    sums.back().noise += kVolumeNoise * std::sqrt(dot(a, a) * dot(ab, ab) * dot(ac, ac));
   }
   return sums;
 }

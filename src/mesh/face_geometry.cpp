@@ -19,23 +19,27 @@ constexpr double kQuarter = 0.25;
 
 Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - from * kQuarter; }
 
-// Edges are divided by the longest one before they are multiplied, so that tiny and huge units neither underflow nor
-// overflow.
+// Products of four lengths between these bounds neither underflow nor overflow.
+constexpr double kLeastLength = 0x1p-200, kGreatestLength = 0x1p200;
+
+// In tiny and huge units, edges are divided by the longest one before they are multiplied.
 NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
+  Vec3d ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
   double longest = 0;
   for (const Vec3d& edge : {ab, ac, bc})
     for (size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, std::abs(edge[axis]));
   if (!(longest > 0)) return {};
-  const Vec3d scaledAb = ab / longest, scaledAc = ac / longest, scaledBc = bc / longest;
-  const double longestSquared = std::max({dot(scaledAb, scaledAb), dot(scaledAc, scaledAc), dot(scaledBc, scaledBc)});
-  const Vec3d scaledCross = cross(scaledAb, scaledAc);
-  const double doubledArea = length(scaledCross);
+  const double unit = longest > kLeastLength && longest < kGreatestLength ? 1 : longest;
+  if (unit != 1)
+    for (Vec3d* edge : {&ab, &ac, &bc}) *edge = *edge / unit;
+  const double longestSquared = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  const Vec3d normal = cross(ab, ac);
+  const double doubledArea = length(normal);
   if (!(doubledArea > kDegenerateHeightRatio * longestSquared)) return {};
   // An area beyond the range of double must neither count as degenerate nor become infinite.
   using Limits = std::numeric_limits<double>;
-  const double area = 0.5 * doubledArea * (longest / kQuarter) * (longest / kQuarter);
-  return {scaledCross / doubledArea, std::clamp(area, Limits::min(), Limits::max())};
+  const double area = 0.5 * doubledArea * (unit / kQuarter) * (unit / kQuarter);
+  return {normal / doubledArea, std::clamp(area, Limits::min(), Limits::max())};
 }
 
 Box3d joined(Box3d a, const Box3d& b) {
