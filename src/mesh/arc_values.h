@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/parallel.h"
 #include "mesh/dual_graph.h"
@@ -13,18 +14,39 @@ namespace asdfvk {
 /// prefetch(g): prefetches the memory that valueOf(f, g) will read of g.
 template <typename Value, typename ValueOf, typename Prefetch>
 void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const ValueOf& valueOf, const Prefetch& prefetch) {
-  constexpr uint32_t kPrefetchDistance = 32;  // Unit: faces.
-  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
-    if (face + kPrefetchDistance < graph.faceCount())
-      for (const uint32_t neighbour : graph.neighboursOf(face + kPrefetchDistance)) prefetch(neighbour);
-    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
-      const uint32_t neighbour = graph.neighbours[arc];
-      if (neighbour < face) continue;
-      perArc[arc] = valueOf(face, neighbour);
-      // The faces may share several edges.
-      const std::span<const uint32_t> back = graph.neighboursOf(neighbour);
-      const auto [begin, end] = std::equal_range(back.begin(), back.end(), face);
-      std::fill_n(perArc.begin() + graph.offsets[neighbour] + (begin - back.begin()), end - begin, perArc[arc]);
+  constexpr size_t kBlockSize = 128;        // Unit: faces.
+  constexpr size_t kPrefetchDistance = 16;  // Unit: pairs.
+  struct Pair {
+    uint32_t arc, face, neighbour;
+  };
+  forEachRange(graph.faceCount(), kItemsPerTask / 4, [&](size_t begin, size_t end) {
+    std::vector<Pair> pairs;
+    std::vector<Value> values;
+    for (size_t first = begin; first < end; first += kBlockSize) {
+      // Pairs are listed before any value is computed, and values are stored after all are computed. Then mispredicted
+      // branches of these steps do not delay the computation.
+      const size_t last = std::min(first + kBlockSize, end);
+      pairs.resize(graph.offsets[last] - graph.offsets[first]);
+      size_t count = 0;
+      for (auto face = static_cast<uint32_t>(first); face < last; ++face)
+        for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
+          pairs[count] = {arc, face, graph.neighbours[arc]};
+          count += graph.neighbours[arc] >= face ? 1 : 0;
+        }
+      values.resize(count);
+      for (size_t i = 0; i < count; ++i) {
+        prefetch(pairs[std::min(i + kPrefetchDistance, count - 1)].neighbour);
+        values[i] = valueOf(pairs[i].face, pairs[i].neighbour);
+      }
+      for (size_t i = 0; i < count; ++i) {
+        const auto& [arc, face, neighbour] = pairs[i];
+        perArc[arc] = values[i];
+        // The faces may share several edges.
+        const std::span<const uint32_t> back = graph.neighboursOf(neighbour);
+        const auto [backBegin, backEnd] = std::equal_range(back.begin(), back.end(), face);
+        std::fill_n(perArc.begin() + graph.offsets[neighbour] + (backBegin - back.begin()), backEnd - backBegin,
+                    values[i]);
+      }
     }
   });
 }

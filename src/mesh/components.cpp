@@ -73,19 +73,24 @@ struct VolumeSum {
 std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& components, double scale, uint32_t begin,
                                   uint32_t end) {
   std::vector<VolumeSum> sums;
+  VolumeSum last{components.componentOf[begin]};
   for (uint32_t f = begin; f < end; ++f) {
     const uint32_t component = components.componentOf[f];
     if (!components.components[component].isClosed) continue;
-    if (sums.empty() || sums.back().component != component) sums.push_back({component});
+    if (last.component != component) {
+      sums.push_back(last);
+      last = {component};
+    }
     const Vec3d& origin = mesh.vertices[mesh.faces[components.components[component].firstFace][0]];
     const auto [i, j, k] = mesh.faces[f];
     // The corner is scaled before the subtraction, because differences of huge coordinates may overflow.
     const Vec3d corner = mesh.vertices[i] * scale;
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
-    sums.back().sum += dot(a, cross(ab, ac)) / 6;
-    sums.back().noise += kVolumeNoise * std::sqrt(dot(a, a) * dot(ab, ab) * dot(ac, ac));
+    last.sum += dot(a, cross(ab, ac)) / 6;
+    last.noise += kVolumeNoise * std::sqrt(dot(a, a) * dot(ab, ab) * dot(ac, ac));
   }
+  sums.push_back(last);
   return sums;
 }
 
