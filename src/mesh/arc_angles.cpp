@@ -17,8 +17,9 @@ auto signedAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g, const Ang
   const auto angle = angleOf(length(cross(ofF, ofG)), dot(ofF, ofG));
   // The barycentres are halved, so that their difference does not overflow.
   const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;
-  // Without a branch, because the condition is unpredictable.
-  const bool isConcave = (dot(ofF, between) > 0) & (dot(ofG, between) < 0);
+  // Branch-free, because the condition is unpredictable.
+  const bool isAboveF = dot(ofF, between) > 0, isAboveG = dot(ofG, between) < 0;
+  const bool isConcave = isAboveF & isAboveG;
   return isConcave ? angle : -angle;
 }
 

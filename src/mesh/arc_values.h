@@ -21,10 +21,8 @@ void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const Value
   };
   forEachRange(graph.faceCount(), kItemsPerTask / 4, [&](size_t begin, size_t end) {
     std::vector<Pair> pairs;
-    std::vector<Value> values;
     for (size_t first = begin; first < end; first += kBlockSize) {
-      // Pairs are listed before any value is computed, and values are stored after all are computed. Then mispredicted
-      // branches of these steps do not delay the computation.
+      // Three loops: mispredicted branches of the first and the last do not delay the computation of the values.
       const size_t last = std::min(first + kBlockSize, end);
       pairs.resize(graph.offsets[last] - graph.offsets[first]);
       size_t count = 0;
@@ -33,19 +31,17 @@ void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const Value
           pairs[count] = {arc, face, graph.neighbours[arc]};
           count += graph.neighbours[arc] >= face ? 1 : 0;
         }
-      values.resize(count);
       for (size_t i = 0; i < count; ++i) {
         prefetch(pairs[std::min(i + kPrefetchDistance, count - 1)].neighbour);
-        values[i] = valueOf(pairs[i].face, pairs[i].neighbour);
+        perArc[pairs[i].arc] = valueOf(pairs[i].face, pairs[i].neighbour);
       }
       for (size_t i = 0; i < count; ++i) {
         const auto& [arc, face, neighbour] = pairs[i];
-        perArc[arc] = values[i];
         // The faces may share several edges.
         const std::span<const uint32_t> back = graph.neighboursOf(neighbour);
         const auto [backBegin, backEnd] = std::equal_range(back.begin(), back.end(), face);
         std::fill_n(perArc.begin() + graph.offsets[neighbour] + (backBegin - back.begin()), backEnd - backBegin,
-                    values[i]);
+                    perArc[arc]);
       }
     }
   });

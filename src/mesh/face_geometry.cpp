@@ -19,7 +19,8 @@ constexpr double kQuarter = 0.25;
 
 Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - from * kQuarter; }
 
-// Products of four lengths between these bounds neither underflow nor overflow.
+// If the longest edge is between these bounds, products of four lengths do not overflow, and underflow only in
+// degenerate faces.
 constexpr double kLeastLength = 0x1p-200, kGreatestLength = 0x1p200;
 
 // In tiny and huge units, edges are divided by the longest one before they are multiplied.
