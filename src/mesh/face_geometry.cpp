@@ -23,14 +23,14 @@ Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - fro
 // degenerate faces.
 constexpr double kLeastLength = 0x1p-200, kGreatestLength = 0x1p200;
 
-// In tiny and huge units, edges are divided by the longest one before they are multiplied.
+// In tiny and huge units, edges are first divided by a power of two near the longest edge, which changes no digit.
 NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   Vec3d ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
   double longest = 0;
   for (const Vec3d& edge : {ab, ac, bc})
     for (size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, std::abs(edge[axis]));
   if (!(longest > 0)) return {};
-  const double unit = longest > kLeastLength && longest < kGreatestLength ? 1 : longest;
+  const double unit = longest > kLeastLength && longest < kGreatestLength ? 1 : std::ldexp(1.0, std::ilogb(longest));
   if (unit != 1)
     for (Vec3d* edge : {&ab, &ac, &bc}) *edge = *edge / unit;
   const double longestSquared = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
