@@ -24,8 +24,8 @@ struct SplitBox {
     negatedUpper = min(other.negatedUpper, negatedUpper);
   }
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 extents() const { return -(negatedUpper + lower); }
-  /// Twice the centre, with a single rounding. Lane 3 is 0. In a SplitTriangle, lane 3 of `lower` holds the face, whose
-  /// bits are usually a denormal number; multiplications of denormal numbers are slow.
+  /// Twice the centre, with a single rounding. Lane 3 is 0, although lane 3 of `lower` may hold a face (SplitTriangle).
+  /// The bits of a face are usually a denormal number, and processors multiply denormal numbers slowly.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 doubledCentre() const {
     return select(IntsOf<Float4>{-1, -1, -1, 0}, lower) - negatedUpper;
   }

@@ -23,7 +23,7 @@ Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - fro
 // degenerate faces.
 constexpr double kLeastLength = 0x1p-200, kGreatestLength = 0x1p200;
 
-// In tiny and huge units, edges are first divided by a power of two near the longest edge, which changes no digit.
+// In tiny and huge units, the edges are first divided by a power of two near the longest edge. This division is exact.
 NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   Vec3d ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
   double longest = 0;

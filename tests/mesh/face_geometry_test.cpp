@@ -73,7 +73,7 @@ TEST_CASE("a shift far from the origin leaves normals and areas") {
 
 TEST_CASE("a sliver has a normal down to the height ratio and none below it, in any direction") {
   const Vec3d along{0.48, 0.6, 0.64}, across{0.8, 0, -0.6};  // Orthonormal.
-  // Edges of 3e-60 and 2e61 are divided by the longest one, edges of 5e-60 and 9e60 are not.
+  // Below 5e-60 and above 9e60, edges are divided by a power of two.
   for (const double length : {1e-100, 3e-60, 5e-60, 1.0, 9e60, 2e61, 1e100}) {
     const auto sliver = [&](double heightRatio) {
       return computeFaceGeometry(

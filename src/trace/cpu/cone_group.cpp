@@ -34,8 +34,8 @@ void ConeGroup::clear() {
 }
 
 void ConeGroup::trace() {
-  // setFaces() reads scattered entries of primitiveFaces. Therefore these entries are prefetched, and setFaces() is
-  // called after the next ray is traced.
+  // setFaces() reads scattered entries of primitiveFaces. These entries are prefetched after each ray, and arrive while
+  // the next ray is traced. Only then is setFaces() called.
   RayGroup::Indices primitives;
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     cast(cones_.cone.directions[ray]);

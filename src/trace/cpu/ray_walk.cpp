@@ -244,9 +244,9 @@ constexpr float kEndDistance = -std::numeric_limits<float>::infinity();
 constexpr uint32_t kEnd = ~0U;
 static_assert((kEnd & kLaneBlockBit) != 0);
 
-/// Prefetches the block that the next step of the ray probably tests. If the reference is a node, prefetches block 0.
-/// Branch-free: the kind of the reference is unpredictable. The address for kEnd is invalid; its prefetch has no
-/// effect.
+/// Prefetches the referenced block, which the next step of the ray probably tests. If the reference is a node, block 0
+/// is prefetched instead, so that the function needs no branch: the kind of a reference is unpredictable. The address
+/// for kEnd is invalid; prefetching it has no effect.
 ASDFVK_ALWAYS_INLINE inline void prefetchBlock(const LaneBvh& bvh, uint32_t reference) {
   const auto index = static_cast<uintptr_t>(std::max(static_cast<int32_t>(reference ^ kLaneBlockBit), 0));
   const uintptr_t block = reinterpret_cast<uintptr_t>(bvh.blocks.data()) + index * sizeof(LaneBlock);

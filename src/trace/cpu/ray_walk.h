@@ -12,7 +12,7 @@ namespace asdfvk {
 
 /// Rays and their hits. Coordinates are normalised; origins are in the normalised box or near it.
 struct RayGroup {
-  /// With eight rays, a prefetched block arrives after the next step of its ray. `active` has bits for 32 rays.
+  /// With eight rays, the next step of a ray would begin before its prefetched block arrives. `active` has 32 bits.
   static constexpr size_t kWidth = 32;
   static_assert(kWidth <= 32 && kWidth % kBvhLaneCount == 0);
   using Floats = std::array<float, kWidth>;
