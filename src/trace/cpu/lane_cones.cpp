@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/lane_vec3.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -13,23 +14,6 @@ namespace {
 using Mask = IntsOf<Double4>;
 constexpr size_t kDoubleCount = kLaneCount<Double4>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-ASDFVK_ALWAYS_INLINE inline void transpose(Double4 (&rows)[kDoubleCount]) {
-  const Double4 even01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
-  const Double4 odd01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
-  const Double4 even23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
-  const Double4 odd23 = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
-  rows[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
-  rows[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
-  rows[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
-  rows[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
-}
-
-ASDFVK_ALWAYS_INLINE inline Double4 vectorOf(const Vec3d& v) { return Double4{v.x, v.y, v.z, 0}; }
-
-struct Vec3Double4 {
-  Double4 x, y, z;
-};
 
 ASDFVK_ALWAYS_INLINE inline Vec3Double4 loadRows(const LaneFrames::Rows& rows, size_t first) {
   return {load<Double4>(&rows[0][first]), load<Double4>(&rows[1][first]), load<Double4>(&rows[2][first])};
@@ -82,30 +66,25 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
                       seedNormal = loadRows(frames.normals, first);
     for (size_t ray = 0; ray < hits.size(); ++ray) {
       const LaneHits& hit = hits[ray];
-      Double4 normals[kDoubleCount]{}, points[kDoubleCount]{}, distance{};
+      Double4 distance{};
       Mask isHit{};
+      LaneIndices faces;
       for (size_t k = 0; k < kDoubleCount; ++k) {
         const bool isMiss = hit.faces[first + k] == kNoFace;
-        const uint32_t face = isMiss ? 0 : hit.faces[first + k];
+        faces[k] = isMiss ? 0 : hit.faces[first + k];
         isHit[k] = isMiss ? 0 : -1;
         distance[k] = hit.distances[first + k];
-        normals[k] = vectorOf(faceNormals[face]);
-        points[k] = vectorOf(barycentres[face]);
       }
-      transpose(normals);
-      transpose(points);
-      const Vec3Double4 normal{normals[0], normals[1], normals[2]};
-      const Double4 offset = normal.x * ((points[0] - unit.centre.x) * unit.scale) +
-                             normal.y * ((points[1] - unit.centre.y) * unit.scale) +
-                             normal.z * ((points[2] - unit.centre.z) * unit.scale);
+      const Vec3Double4 normal = gather(faceNormals, faces), point = gather(barycentres, faces);
+      const Double4 offset = normal.x * ((point.x - unit.centre.x) * unit.scale) +
+                             normal.y * ((point.y - unit.centre.y) * unit.scale) +
+                             normal.z * ((point.z - unit.centre.z) * unit.scale);
       const Vec3d& d = directions[ray];
       const Vec3Double4 direction{d.x * tangent.x + d.y * bitangent.x + d.z * axis.x,
                                   d.x * tangent.y + d.y * bitangent.y + d.z * axis.y,
                                   d.x * tangent.z + d.y * bitangent.z + d.z * axis.z};
-      const Double4 cosine = normal.x * direction.x + normal.y * direction.y + normal.z * direction.z;
-      const Double4 facing =
-          isPaper ? seedNormal.x * normal.x + seedNormal.y * normal.y + seedNormal.z * normal.z : -cosine;
-      const Double4 onPlane = (offset - (normal.x * origin.x + normal.y * origin.y + normal.z * origin.z)) / cosine;
+      const Double4 cosine = dot(normal, direction), facing = isPaper ? dot(seedNormal, normal) : -cosine;
+      const Double4 onPlane = (offset - dot(normal, origin)) / cosine;
       const Double4 difference = onPlane - distance;
       const Mask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
       const Double4 length = isNear ? onPlane : distance;
