@@ -3,60 +3,96 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/lane_vec3.h"
+#include "core/parallel.h"
 #include "core/prefetch.h"
-#include "mesh/arc_values.h"
 
 namespace asdfvk {
 namespace {
 
-/// signedDihedralAngle(), where angleOf(sine, cosine) is the angle between the normals.
-template <typename AngleOf>
-auto signedAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g, const AngleOf& angleOf) {
-  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return decltype(angleOf(0.0, 0.0)){0};
-  const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
-  const auto angle = angleOf(length(cross(ofF, ofG)), dot(ofF, ofG));
+/// The angle between two normals by its sine and its cosine, and whether the edge is concave.
+template <typename Real>
+struct Dihedral {
+  using Mask = decltype(Real{} < Real{});
+
+  Real sineSquared, cosine;
+  Mask isConcave;
+};
+
+template <typename Vector>
+ASDFVK_ALWAYS_INLINE inline auto dihedral(const Vector& normalF, const Vector& normalG, const Vector& barycentreF,
+                                          const Vector& barycentreG) {
+  const Vector normal = cross(normalF, normalG);
   // The barycentres are halved, so that their difference does not overflow.
-  const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;
+  const Vector between = barycentreG * 0.5 - barycentreF * 0.5;
+  using Result = Dihedral<decltype(dot(normal, normal))>;
   // Branch-free, because the condition is unpredictable.
-  const bool isAboveF = dot(ofF, between) > 0, isAboveG = dot(ofG, between) < 0;
-  const bool isConcave = isAboveF & isAboveG;
-  return isConcave ? angle : -angle;
+  const typename Result::Mask isAboveF = dot(normalF, between) > 0, isAboveG = dot(normalG, between) < 0;
+  return Result{dot(normal, normal), dot(normalF, normalG), static_cast<typename Result::Mask>(isAboveF & isAboveG)};
 }
 
 // The arc tangent is accurate for small angles, unlike the arc cosine.
 double arcTangent(double sine, double cosine) { return std::atan2(sine, cosine); }
 
-/// arcTangent() rounded to float. Small angles use a power series, which is faster. Where the error of the series could
-/// change the rounded result, the arc tangent is used.
-float roundedAngle(double sine, double cosine) {
+/// The angles between faces and neighbours, rounded to float. Small angles use a power series, which is faster. Where
+/// the error of the series could change the rounded result, the arc tangent is used.
+ASDFVK_ALWAYS_INLINE inline void setAngles(const FaceGeometry& geometry, const LaneIndices& faces,
+                                           const LaneIndices& neighbours, std::span<float> angles) {
   constexpr double kMaxTangent = 0.25, kMaxError = 1e-11;  // The first omitted term is below 1e-12 of the angle.
-  if (sine < kMaxTangent * cosine) {
-    const double t = sine / cosine, s = t * t;
-    double series = 0;
-    for (int k = 17; k > 1; k -= 2) series = s * (1.0 / k - series);
-    const double angle = t - t * series;
-    const auto low = static_cast<float>(angle * (1 - kMaxError)), high = static_cast<float>(angle * (1 + kMaxError));
-    if (low == high) return low;
+  const auto [sineSquared, cosine, isConcave] =
+      dihedral(gather(geometry.normals.data(), faces), gather(geometry.normals.data(), neighbours),
+               gather(geometry.barycentres.data(), faces), gather(geometry.barycentres.data(), neighbours));
+  const Double4 sine = squareRoots(sineSquared), t = sine / cosine, s = t * t;
+  Double4 series{};
+  for (int k = 17; k > 1; k -= 2) series = s * (1.0 / k - series);
+  const Double4 angle = t - t * series, low = angle * (1 - kMaxError), high = angle * (1 + kMaxError);
+  for (size_t lane = 0; lane < angles.size(); ++lane) {
+    float rounded = static_cast<float>(low[lane]);
+    // False for degenerate faces, whose normals are zero.
+    const bool isExact = sine[lane] < kMaxTangent * cosine[lane] && rounded == static_cast<float>(high[lane]);
+    if (!isExact) rounded = static_cast<float>(arcTangent(sine[lane], cosine[lane]));
+    angles[lane] = isConcave[lane] != 0 ? rounded : -rounded;
   }
-  return static_cast<float>(arcTangent(sine, cosine));
+}
+
+/// Sets the angles of all arcs from the faces firstFace to endFace - 1. An angle is computed in both directions: to
+/// find the arc of the other direction takes longer.
+ASDFVK_ALWAYS_INLINE inline void setAnglesFrom(uint32_t firstFace, uint32_t endFace, const DualGraph& graph,
+                                               const FaceGeometry& geometry, std::span<float> angles) {
+  constexpr uint32_t kLanes = kLaneCount<Double4>, kPrefetchDistance = 16;  // Unit: arcs.
+  const uint32_t end = graph.offsets[endFace];
+  uint32_t face = firstFace;
+  for (uint32_t arc = graph.offsets[firstFace]; arc < end; arc += kLanes) {
+    LaneIndices faces, neighbours;
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+      const uint32_t own = std::min(arc + lane, end - 1);  // Lanes beyond the end repeat the last arc.
+      const uint32_t later = graph.neighbours[std::min(own + kPrefetchDistance, end - 1)];
+      prefetchMemory(&geometry.normals[later]);
+      prefetchMemory(&geometry.barycentres[later]);
+      while (graph.offsets[face + 1] <= own) ++face;
+      faces[lane] = face;
+      neighbours[lane] = graph.neighbours[own];
+    }
+    setAngles(geometry, faces, neighbours, angles.subspan(arc, std::min(kLanes, end - arc)));
+  }
 }
 
 }  // namespace
 
 double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
-  return signedAngle(geometry, f, g, arcTangent);
+  const auto [sineSquared, cosine, isConcave] =
+      dihedral(geometry.normals[f], geometry.normals[g], geometry.barycentres[f], geometry.barycentres[g]);
+  const double angle = arcTangent(std::sqrt(sineSquared), cosine);
+  return isConcave ? angle : -angle;
 }
 
 std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, size_t{graph.faceCount()});
   std::vector<float> angles(graph.neighbours.size());
-  const auto angleOf = [&](uint32_t face, uint32_t neighbour) {
-    return signedAngle(geometry, face, neighbour, roundedAngle);
-  };
-  setForEachPair(graph, std::span(angles), angleOf, [&](uint32_t neighbour) {
-    prefetchMemory(&geometry.areas[neighbour]);
-    prefetchMemory(&geometry.normals[neighbour]);
-    prefetchMemory(&geometry.barycentres[neighbour]);
+  forEachRange(graph.faceCount(), kItemsPerTask / 4, [&](size_t begin, size_t end) {
+    dispatch<Float8>(widestInstructionSet(), [&]<typename>() ASDFVK_ALWAYS_INLINE {
+      setAnglesFrom(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), graph, geometry, angles);
+    });
   });
   return angles;
 }

@@ -8,8 +8,6 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
-#include "core/prefetch.h"
-#include "mesh/arc_values.h"
 
 namespace asdfvk {
 namespace {
@@ -99,13 +97,13 @@ std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   std::vector<double> weights(graph.neighbours.size());
   const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
-  const auto weightOf = [&](uint32_t face, uint32_t neighbour) {
-    // The difference of the halves does not overflow.
-    const Vec3d half = geometry.barycentres[neighbour] * 0.5 - geometry.barycentres[face] * 0.5;
-    return std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
-  };
-  setForEachPair(graph, std::span(weights), weightOf,
-                 [&](uint32_t neighbour) { prefetchMemory(&geometry.barycentres[neighbour]); });
+  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
+    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
+      // The difference of the halves does not overflow.
+      const Vec3d half = geometry.barycentres[graph.neighbours[arc]] * 0.5 - geometry.barycentres[face] * 0.5;
+      weights[arc] = std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
+    }
+  });
   return weights;
 }
 

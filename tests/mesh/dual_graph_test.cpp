@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/random.h"
-#include "mesh/arc_values.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
@@ -190,19 +189,4 @@ TEST_CASE("a fan of 200,000 faces around one vertex is a chain of them") {
       if (row(graph, f) != std::vector<uint32_t>{f - 1, f + 1}) ++wrongRowCount;
     CHECK(wrongRowCount == 0);
   }
-}
-
-TEST_CASE("a value for each pair of faces has the same bits in both directions") {
-  // Faces 0 and 1 share two edges, face 1 is its own neighbour, face 3 is alone.
-  const DualGraph graph{.offsets = {0, 3, 7, 9, 9}, .neighbours = {1, 1, 2, 0, 0, 1, 2, 0, 1}};
-  std::vector<double> perArc(graph.neighbours.size(), -1);
-  std::atomic<int> callCount = 0;
-  const auto valueOf = [&](uint32_t f, uint32_t g) {
-    ++callCount;
-    CHECK(f <= g);
-    return 10.0 * f + g;
-  };
-  setForEachPair(graph, std::span(perArc), valueOf, [](uint32_t) {});
-  CHECK(perArc == std::vector<double>{1, 1, 2, 1, 1, 11, 12, 2, 12});
-  CHECK(callCount == 5);
 }
