@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lane_vec3.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
@@ -17,7 +18,15 @@ struct NormalAndArea {
 // Differences of any two coordinates, multiplied by this factor, can be added in pairs without overflow.
 constexpr double kQuarter = 0.25;
 
-Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - from * kQuarter; }
+template <typename Vector>
+ASDFVK_ALWAYS_INLINE inline Vector quarterOf(const Vector& from, const Vector& to) {
+  return to * kQuarter - from * kQuarter;
+}
+
+template <typename Vector>
+ASDFVK_ALWAYS_INLINE inline Vector barycentreOf(const Vector& a, const Vector& b, const Vector& c) {
+  return (a * kQuarter + (quarterOf(a, b) + quarterOf(a, c)) / 3.0) * (1 / kQuarter);
+}
 
 // If the longest edge is between these bounds, products of four lengths do not overflow, and underflow only in
 // degenerate faces.
@@ -43,6 +52,73 @@ NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {normal / doubledArea, std::clamp(area, Limits::min(), Limits::max())};
 }
 
+void computeOne(const TriangleMesh& mesh, size_t face, FaceGeometry& geometry, Box3d& bounds) {
+  const auto [i, j, k] = mesh.faces[face];
+  const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+  geometry.barycentres[face] = barycentreOf(a, b, c);
+  bool isFiniteFace = true;
+  for (const Vec3d* corner : {&a, &b, &c}) {
+    if (isFinite(*corner)) {
+      bounds.add(*corner);
+    } else {
+      isFiniteFace = false;
+    }
+  }
+  const NormalAndArea ofFace = isFiniteFace ? normalAndArea(a, b, c) : NormalAndArea{};
+  geometry.normals[face] = ofFace.normal;
+  geometry.areas[face] = ofFace.area;
+}
+
+constexpr size_t kLanes = kLaneCount<Double4>;
+
+/// A box per lane.
+class LaneBox {
+ public:
+  ASDFVK_ALWAYS_INLINE void add(const Vec3Double4& p) {
+    min_ = {min(p.x, min_.x), min(p.y, min_.y), min(p.z, min_.z)};
+    max_ = {max(p.x, max_.x), max(p.y, max_.y), max(p.z, max_.z)};
+  }
+  ASDFVK_ALWAYS_INLINE void addTo(Box3d& box) const {
+    for (size_t lane = 0; lane < kLanes; ++lane)
+      box.add(Box3d{{min_.x[lane], min_.y[lane], min_.z[lane]}, {max_.x[lane], max_.y[lane], max_.z[lane]}});
+  }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  Vec3Double4 min_ = {Double4{} + kInfinity, Double4{} + kInfinity, Double4{} + kInfinity};
+  Vec3Double4 max_ = {Double4{} - kInfinity, Double4{} - kInfinity, Double4{} - kInfinity};
+};
+
+ASDFVK_ALWAYS_INLINE inline Double4 sumOfSizes(const Vec3Double4& v) {
+  const auto size = [](const Double4& x) ASDFVK_ALWAYS_INLINE { return x < 0 ? -x : x; };
+  return size(v.x) + size(v.y) + size(v.z);
+}
+
+/// computeOne() for four faces. Returns false, and does nothing, unless the edges of all four faces are finite and of
+/// ordinary length.
+ASDFVK_ALWAYS_INLINE inline bool computeFour(const TriangleMesh& mesh, size_t first, FaceGeometry& geometry,
+                                             LaneBox& box) {
+  LaneIndices corners[3];
+  for (size_t lane = 0; lane < kLanes; ++lane)
+    for (size_t k = 0; k < 3; ++k) corners[k][lane] = mesh.faces[first + lane][k];
+  const Vec3Double4 a = gather(mesh.vertices.data(), corners[0]), b = gather(mesh.vertices.data(), corners[1]),
+                    c = gather(mesh.vertices.data(), corners[2]);
+  const Vec3Double4 ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
+  const Double4 sizes = sumOfSizes(ab) + sumOfSizes(ac) + sumOfSizes(bc);  // At most nine times the longest.
+  if (anyLane(~((sizes > 16 * kLeastLength) & (sizes < kGreatestLength)))) return false;
+  const Vec3Double4 normal = cross(ab, ac);
+  const Double4 doubledArea = squareRoots(dot(normal, normal));
+  const auto isFaceWithArea = doubledArea > kDegenerateHeightRatio * max(max(dot(ab, ab), dot(ac, ac)), dot(bc, bc));
+  const Double4 inAreas = isFaceWithArea ? doubledArea : Double4{};
+  const auto unit = [&](const Double4& x) ASDFVK_ALWAYS_INLINE { return isFaceWithArea ? x / doubledArea : Double4{}; };
+  scatter({unit(normal.x), unit(normal.y), unit(normal.z)}, &geometry.normals[first]);
+  scatter(barycentreOf(a, b, c), &geometry.barycentres[first]);
+  store(&geometry.areas[first], inAreas * (0.5 / (kQuarter * kQuarter)));
+  for (const Vec3Double4& corner : {a, b, c}) box.add(corner);
+  return true;
+}
+
 Box3d joined(Box3d a, const Box3d& b) {
   a.add(b);
   return a;
@@ -58,22 +134,13 @@ FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
   geometry.areas.resize(faceCount);
   const auto computeRange = [&](size_t begin, size_t end) {
     Box3d bounds;
-    for (size_t f = begin; f < end; ++f) {
-      const auto [i, j, k] = mesh.faces[f];
-      const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-      geometry.barycentres[f] = (a * kQuarter + (quarterOf(a, b) + quarterOf(a, c)) / 3.0) / kQuarter;
-      bool isFiniteFace = true;
-      for (const Vec3d* corner : {&a, &b, &c}) {
-        if (isFinite(*corner)) {
-          bounds.add(*corner);
-        } else {
-          isFiniteFace = false;
-        }
-      }
-      const NormalAndArea face = isFiniteFace ? normalAndArea(a, b, c) : NormalAndArea{};
-      geometry.normals[f] = face.normal;
-      geometry.areas[f] = face.area;
-    }
+    dispatch<Float8>(widestInstructionSet(), [&]<typename>() ASDFVK_ALWAYS_INLINE {
+      LaneBox box;
+      for (size_t face = begin; face < end; face += kLanes)
+        if (face + kLanes > end || !computeFour(mesh, face, geometry, box))
+          for (size_t i = face; i < std::min(face + kLanes, end); ++i) computeOne(mesh, i, geometry, bounds);
+      box.addTo(bounds);
+    });
     return bounds;
   };
   geometry.bounds = foldInParallel<Box3d>(faceCount, computeRange, joined);

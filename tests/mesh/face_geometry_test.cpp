@@ -2,10 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <vector>
 
+#include "core/random.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
@@ -122,6 +126,34 @@ TEST_CASE("coordinates at the ends of a double's range overflow nothing") {
   CHECK(geometry.areas[0] == std::numeric_limits<double>::max());
   CHECK(geometry.barycentres[0].x == doctest::Approx(edge / 3));
   CHECK(geometry.barycentres[0].y == doctest::Approx(-edge / 3));
+}
+
+TEST_CASE("the geometry of a face does not depend on the faces beside it") {
+  Random random(5);
+  const auto coordinate = [&](double scale) { return scale * (random.real() - 0.5); };
+  const std::vector<double> scales{1e-310, 1e-70, 1e-12, 1, 1,    1,     1,
+                                   1,      1,     1,     1, 1e70, 1e300, std::numeric_limits<double>::infinity()};
+  Mesh mesh;
+  for (uint32_t face = 0; face < 2000; ++face) {
+    const double scale = scales[random.next() % scales.size()];
+    for (int corner = 0; corner < 3; ++corner)
+      mesh.vertices.push_back({coordinate(scale), coordinate(1), coordinate(scale)});
+    mesh.faces.push_back({3 * face, 3 * face + 1, 3 * face + (random.next() % 9 == 0 ? 1 : 2)});
+  }
+  const FaceGeometry geometry = computeFaceGeometry(mesh);
+  Box3d bounds;
+  const auto bits = [](const Vec3d& v) { return std::bit_cast<std::array<uint64_t, 3>>(v); };
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    const auto [i, j, k] = mesh.faces[face];
+    const FaceGeometry own = computeFaceGeometry(triangle(mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]));
+    CAPTURE(face);
+    CHECK(geometry.normals[face] == own.normals[0]);
+    CHECK(geometry.areas[face] == own.areas[0]);
+    if (isFinite(own.barycentres[0])) CHECK(bits(geometry.barycentres[face]) == bits(own.barycentres[0]));
+    bounds.add(own.bounds);
+  }
+  CHECK(geometry.bounds.min == bounds.min);
+  CHECK(geometry.bounds.max == bounds.max);
 }
 
 TEST_CASE("normalisation brings the largest half extent to 1") {
