@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "cone/cone.h"
 #include "core/check.h"
+#include "core/random.h"
 
 using namespace asdfvk;
 
@@ -34,6 +36,27 @@ TEST_CASE("the median of an even count is the mean of the middle two") {
   // 0, 0, 4, 5: median 2, mean 2.25, deviation sqrt(5.1875) = 2.2776: 5 is 3 away and is dropped. With 0 or 4 as the
   // median, other rays would stay.
   CHECK(valueOf({5, 0, 4, 0}, {1, 1, 1, 1}) == doctest::Approx(4.0 / 3));
+}
+
+TEST_CASE("the window around the median does not depend on how the median is found") {
+  Random random(3);
+  for (size_t count = 1; count <= 70; ++count)
+    for (const uint64_t differentCount : {2, 5, 1000}) {  // Few different lengths are many ties.
+      std::vector<double> lengths(count);
+      for (double& length : lengths) length = static_cast<double>(random.next() % differentCount) / 8;
+      const auto medianOf = [&](std::vector<double> values) {
+        std::sort(values.begin(), values.end());
+        return count % 2 == 1 ? values[count / 2] : 0.5 * (values[count / 2] + values[count / 2 - 1]);
+      };
+      const double median = medianOf(lengths);
+      std::vector<double> deviations;
+      for (const double length : lengths) deviations.push_back(std::abs(length - median));
+      const LengthWindow window =
+          keptWindow(lengths, {.spread = OutlierRule::Spread::MedianDeviation, .deviations = 1, .slack = 0});
+      CAPTURE(count);
+      CHECK(window.median == median);
+      CHECK(window.bound == medianOf(deviations));
+    }
 }
 
 TEST_CASE("an outlier is dropped and the weights count") {
