@@ -4,44 +4,38 @@
 #include <array>
 #include <limits>
 
+#include "core/lane_vec3.h"
 #include "core/prefetch.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr size_t kLanes = kLaneCount<Double4>;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+static_assert(kMaxRayCount % kPointGroupSize == 0);
 
-PointGroup emptyGroup() {
-  PointGroup group{};
-  for (float* coordinate : {group.x, group.y, group.z}) std::fill_n(coordinate, kPointGroupSize, kNaN);
-  std::fill_n(group.face, kPointGroupSize, kNoFace);
-  return group;
-}
+ASDFVK_ALWAYS_INLINE inline Float4 toFloats(const Double4& numbers) { return __builtin_convertvector(numbers, Float4); }
 
-struct GroupPoint {
-  const Vec3d& position;
-  const Vec3d& normal;
-  float solidAngleRatio;
-  bool isInlier;
-  uint32_t face;
-};
-
-void put(PointGroup& group, size_t lane, const GroupPoint& point) {
-  group.x[lane] = static_cast<float>(point.position.x);
-  group.y[lane] = static_cast<float>(point.position.y);
-  group.z[lane] = static_cast<float>(point.position.z);
-  group.nx[lane] = static_cast<float>(point.normal.x);
-  group.ny[lane] = static_cast<float>(point.normal.y);
-  group.nz[lane] = static_cast<float>(point.normal.z);
-  group.solidAngleRatio[lane] = point.solidAngleRatio;
-  group.isInlier[lane] = point.isInlier ? 1.0f : 0.0f;
-  group.face[lane] = point.face;
+ASDFVK_ALWAYS_INLINE inline void storeFloats(float (&x)[kPointGroupSize], float (&y)[kPointGroupSize],
+                                             float (&z)[kPointGroupSize], size_t place, const Vec3Double4& v) {
+  store(&x[place], toFloats(v.x));
+  store(&y[place], toFloats(v.y));
+  store(&z[place], toFloats(v.z));
 }
 
 }  // namespace
 
 HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits)
-    : scene_(scene), cone_(cone), hits_(hits) {}
+    : scene_(scene),
+      cone_(cone),
+      hits_(hits),
+      groupCount_((cone.directions.size() + kPointGroupSize - 1) / kPointGroupSize) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    for (const Vec3d& direction : cone.directions) directions_[axis].push_back(direction[axis]);
+  for (const double solidAngle : cone.solidAngles) solidAngles_.push_back(static_cast<float>(solidAngle));
+  for (std::vector<double>& row : directions_) row.resize(groupCount_ * kPointGroupSize, 0);
+  solidAngles_.resize(groupCount_ * kPointGroupSize, 0);
+}
 
 void HitPoints::clear() { groups_.clear(); }
 
@@ -61,45 +55,69 @@ void HitPoints::prefetchNormal(const ConeHit& hit) const {
   if (hit.face != kNoFace) prefetchMemory(&scene_.geometry.normals[hit.face]);
 }
 
-HitRange HitPoints::appendEmpty(size_t pointCount) {
-  static const PointGroup empty = emptyGroup();
-  const HitRange range{static_cast<uint32_t>(groups_.size()),
-                       static_cast<uint32_t>((pointCount + kPointGroupSize - 1) / kPointGroupSize)};
-  groups_.resize(groups_.size() + range.groupCount, empty);
-  return range;
-}
-
-// One prefetch per ray, because prefetches that immediately follow each other wait for free line fill buffers.
-HitRange HitPoints::append(uint32_t seed, uint32_t later) {
+/// Returns the median length. Prefetches one normal per ray, because prefetches that immediately follow each other wait
+/// for free line fill buffers.
+ASDFVK_ALWAYS_INLINE inline float HitPoints::fill(std::span<PointGroup> groups, uint32_t seed, uint32_t later) const {
   const std::span<const ConeHit> hits = hits_.of(seed), laterHits = hits_.of(later);
   const uint32_t seedFace = hits_.seeds[seed];
-  const Vec3d& seedNormal = scene_.geometry.normals[seedFace];
+  const Vec3d* const faceNormals = scene_.geometry.normals.data();
+  const Vec3d& seedNormal = faceNormals[seedFace];
   const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);
-  HitRange range = appendEmpty(hits.size());
-  PointGroup* const groups = &groups_[range.firstGroup];
-  std::array<double, kMaxRayCount> lengths;  // Lengths of hits that are not false.
+  const bool isPaper = cone_.definition == Definition::Paper;
+  const size_t paddedCount = groups.size() * kPointGroupSize;
+  std::array<ConeHit, kMaxRayCount> padded;
+  std::fill(std::ranges::copy(hits, padded.begin()).out, padded.begin() + static_cast<std::ptrdiff_t>(paddedCount),
+            kMiss);
+  std::array<double, kMaxRayCount> lengths, validLengths;  // NaN for a miss; valid: neither misses nor false hits.
   size_t validCount = 0;
-  for (size_t ray = 0; ray < hits.size(); ++ray) {
-    prefetchNormal(laterHits[ray]);
-    const ConeHit& hit = hits[ray];
-    if (hit.face == kNoFace) continue;
-    const Vec3d direction = frame.toWorld(cone_.directions[ray]);
-    const Vec3d& normal = scene_.geometry.normals[hit.face];
-    const auto length = static_cast<double>(hit.distance);
-    const bool isValid = !isFalseHit(cone_, seedNormal, direction, normal);
-    put(groups[ray / kPointGroupSize], ray % kPointGroupSize,
-        {origin + length * direction, normal, hit.distance * hit.distance * static_cast<float>(cone_.solidAngles[ray]),
-         isValid, hit.face});
-    lengths[validCount] = length;
-    validCount += isValid ? 1 : 0;
+  for (size_t first = 0; first < paddedCount; first += kLanes) {
+    PointGroup& group = groups[first / kPointGroupSize];
+    const size_t place = first % kPointGroupSize;
+    for (size_t ray = first; ray < std::min(first + kLanes, hits.size()); ++ray) prefetchNormal(laterHits[ray]);
+    const ConeHit* const four = &padded[first];
+    LaneIndices faces;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      group.face[place + lane] = four[lane].face;
+      faces[lane] = four[lane].face == kNoFace ? 0 : four[lane].face;
+    }
+    const Vec3Double4 normal = gather(faceNormals, faces);
+    const Double4 distance{four[0].distance, four[1].distance, four[2].distance, four[3].distance};
+    const auto isHit = distance < kInfinity;
+    const Double4 length = isHit ? distance : broadcast<Double4>(kNaN);
+    const Vec3Double4 direction = load<Double4>(&directions_[0][first]) * frame.tangent +
+                                  load<Double4>(&directions_[1][first]) * frame.bitangent +
+                                  load<Double4>(&directions_[2][first]) * frame.axis;
+    storeFloats(group.x, group.y, group.z, place, origin + length * direction);
+    storeFloats(group.nx, group.ny, group.nz, place, normal);
+    const Float4 floats = toFloats(isHit ? distance : Double4{});
+    store(&group.solidAngleRatio[place], floats * floats * load<Float4>(&solidAngles_[first]));
+    const Double4 facing = isPaper ? dot(normal, seedNormal) : -dot(direction, normal);
+    const auto isValid = isHit & (facing <= cone_.falseHitCosine);
+    store(&group.isInlier[place], toFloats(isValid ? broadcast<Double4>(1) : Double4{}));
+    store(&lengths[first], length);
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      validLengths[validCount] = length[lane];
+      validCount += isValid[lane] != 0 ? 1 : 0;
+    }
   }
-  if (validCount == 0) return range;
-  const LengthWindow window = keptWindow({lengths.data(), validCount}, cone_.outliers);
-  range.medianLength = static_cast<float>(window.median);
-  for (size_t ray = 0; ray < hits.size(); ++ray)
-    if (!window.keeps(static_cast<double>(hits[ray].distance)))
-      groups[ray / kPointGroupSize].isInlier[ray % kPointGroupSize] = 0;
+  if (validCount == 0) return 0;
+  const LengthWindow window = keptWindow({validLengths.data(), validCount}, cone_.outliers);
+  for (size_t first = 0; first < paddedCount; first += kLanes) {
+    float* const isInlier = &groups[first / kPointGroupSize].isInlier[first % kPointGroupSize];
+    const Double4 difference = load<Double4>(&lengths[first]) - window.median;
+    const auto isKept = (difference <= window.bound) & (difference >= -window.bound);
+    store(isInlier, load<Float4>(isInlier) * toFloats(isKept ? broadcast<Double4>(1) : Double4{}));
+  }
+  return static_cast<float>(window.median);
+}
+
+HitRange HitPoints::append(uint32_t seed, uint32_t later) {
+  HitRange range{static_cast<uint32_t>(groups_.size()), static_cast<uint32_t>(groupCount_)};
+  groups_.resize(groups_.size() + groupCount_);
+  dispatch<Float8>(widestInstructionSet(), [&]<typename>() ASDFVK_ALWAYS_INLINE {
+    range.medianLength = fill({&groups_[range.firstGroup], groupCount_}, seed, later);
+  });
   return range;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/unset_vector.h"
 #include "predict/prediction_kernel.h"
 #include "trace/seed_hits.h"
 
@@ -27,16 +30,19 @@ class HitPoints {
   HitRange append(uint32_t seed, uint32_t later);
   HitRange append(uint32_t seed) { return append(seed, seed); }  ///< Prefetches nothing for other seeds.
 
-  [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
+  [[nodiscard]] std::span<const PointGroup> groups() const { return groups_; }
 
  private:
   void prefetchNormal(const ConeHit& hit) const;
-  [[nodiscard]] HitRange appendEmpty(size_t pointCount);
+  [[nodiscard]] float fill(std::span<PointGroup> groups, uint32_t seed, uint32_t later) const;
 
   const TraceScene& scene_;
   const Cone& cone_;
   SeedHitsView hits_;
-  std::vector<PointGroup> groups_;
+  size_t groupCount_;                              // The groups of each seed.
+  std::array<std::vector<double>, 3> directions_;  // The rows x, y and z of the rays of the cone, padded with zeros.
+  std::vector<float> solidAngles_;
+  UnsetVector<PointGroup> groups_;
 };
 
 }  // namespace asdfvk

@@ -227,12 +227,10 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
 void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
   const std::span<const uint32_t> order = input.order;
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
-  forEachRange(blockCount, 1, [&](size_t begin, size_t end) {
-    CellPredictor predictor(input);
-    for (size_t block = begin; block < end; ++block) {
-      const size_t first = block * kBlockSize;
-      predictor.run(order.subspan(first, std::min(kBlockSize, order.size() - first)), values);
-    }
+  PerThread<CellPredictor> predictors([&] { return CellPredictor(input); });
+  forEachTask(blockCount, [&](size_t block) {
+    const size_t first = block * kBlockSize;
+    predictors.local().run(order.subspan(first, std::min(kBlockSize, order.size() - first)), values);
   });
 }
 

@@ -267,7 +267,7 @@ PredictionKernel::Rules PredictionKernel::rulesOf(const Cone& cone) {
   return rules;
 }
 
-double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
+double PredictionKernel::value(std::span<const PointGroup> groups, std::span<const WeightedRange> ranges,
                                const VirtualCone& at, float medianLength) {
   size_t groupCount = 0;
   for (const WeightedRange& range : ranges) groupCount += range.groupCount;

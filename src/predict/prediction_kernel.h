@@ -65,7 +65,7 @@ class PredictionKernel {
   /// The shape diameter in normalised units; kNoValue if no point lies in the virtual cone. ranges: ranges of `groups`.
   /// medianLength: the approximate median distance of the points; sums are over differences from this number, which
   /// reduces rounding errors.
-  [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
+  [[nodiscard]] double value(std::span<const PointGroup> groups, std::span<const WeightedRange> ranges,
                              const VirtualCone& at, float medianLength);
 
   /// Computes the weights of the seeds. weights: kPointGroupSize entries; each becomes at least kMinSeedWeight.

@@ -34,7 +34,7 @@ struct TestInput {
       if (ranges.empty()) medianLength = range.medianLength;
       ranges.push_back({range.firstGroup, range.groupCount, 1});
     }
-    groups = points.groups();
+    groups.assign(points.groups().begin(), points.groups().end());
   }
 
   void weigh(Random& random, double minWeight) {
