@@ -13,11 +13,30 @@
 namespace asdfvk {
 namespace {
 
+/// The faces whose values the equation relates: the centres of the aggregates, or all faces. Ascending.
+class EquationFaces {
+ public:
+  explicit EquationFaces(const FaceDomain& domain)
+      : centres_(domain.aggregated ? std::span(domain.aggregated->aggregates().centres) : std::span<const uint32_t>()),
+        count_(domain.aggregated ? centres_.size() : domain.componentOf.size()) {}
+  [[nodiscard]] size_t size() const { return count_; }
+  [[nodiscard]] uint32_t operator[](size_t i) const {
+    return centres_.empty() ? static_cast<uint32_t>(i) : centres_[i];
+  }
+
+ private:
+  std::span<const uint32_t> centres_;
+  size_t count_;
+};
+
 std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span<const double> constraints) {
+  const EquationFaces faces(domain);
+  const std::vector<uint32_t> known = selectInParallel(
+      faces.size(), [&](size_t i) { return faces[i]; },
+      [&](uint32_t face) { return std::isfinite(constraints[face]); });
   std::vector<ComponentValues> values(domain.componentCount);
   // In face order, so that the order of the seeds does not change the last bit.
-  for (const uint32_t face :
-       indicesInParallel(constraints.size(), [&](uint32_t i) { return std::isfinite(constraints[i]); })) {
+  for (const uint32_t face : known) {
     const double value = constraints[face];
     ComponentValues& component = values[domain.componentOf[face]];
     component.low = std::min(component.low, value);
@@ -31,8 +50,10 @@ std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span
 /// Start of the solvers: the prediction or, where there is none, the mean of the seeds of the component.
 std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
+  const EquationFaces faces(domain);
   std::vector<double> guess(domain.componentOf.size(), kNoValue);
-  forEachInParallel(guess.size(), [&](size_t face) {
+  forEachInParallel(faces.size(), [&](uint32_t i) {
+    const uint32_t face = faces[i];
     const ComponentValues& component = traced[domain.componentOf[face]];
     if (component.count > 0) guess[face] = component.mean;
     if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
@@ -52,7 +73,9 @@ double limited(const ComponentValues& component, double prediction, double value
 /// Returns the number of limited faces. predicted: #F, or empty.
 uint64_t keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                           std::span<const double> predicted, std::vector<double>& values) {
-  return countInParallel(values.size(), [&](uint32_t face) {
+  const EquationFaces faces(domain);
+  return countInParallel(faces.size(), [&](uint32_t i) {
+    const uint32_t face = faces[i];
     if (!std::isfinite(values[face])) return false;
     const double prediction = predicted.empty() ? kNoValue : predicted[face];
     const double value = limited(traced[domain.componentOf[face]], prediction, values[face]);
@@ -164,8 +187,9 @@ SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vec
 SolverReport Interpolation::solveEquation(std::span<const double> constraints, std::span<const double> predicted,
                                           const std::vector<ComponentValues>& traced, std::vector<double>& values,
                                           const RunControl& control) {
-  const uint64_t unknownCount = countInParallel(constraints.size(), [&](uint32_t face) {
-    return !std::isfinite(constraints[face]) && traced[domain_.componentOf[face]].count > 0;
+  const EquationFaces faces(domain_);
+  const uint64_t unknownCount = countInParallel(faces.size(), [&](uint32_t i) {
+    return !std::isfinite(constraints[faces[i]]) && traced[domain_.componentOf[faces[i]]].count > 0;
   });
   if (unknownCount == 0) {
     values.assign(constraints.begin(), constraints.end());
