@@ -29,25 +29,8 @@ namespace {
 // allocation, in the middle of a huge page, and the kernel would use small pages there. Only unused memory beyond this
 // size is returned to the kernel.
 constexpr int kReserveBytes = 256 << 20;
-std::atomic<bool> hasReserve = false;
-
-}  // namespace
-
-void configureHeap() {
-  hasReserve = true;
-  ::mallopt(M_TOP_PAD, kReserveBytes);
-  ::mallopt(M_MMAP_MAX, 0);
-  ::mallopt(M_ARENA_MAX, 1);
-  ::mallopt(M_TRIM_THRESHOLD, kReserveBytes);
-}
-
-}  // namespace asdfvk
-
-#if ASDFVK_HAS_OWN_OPERATORS
-namespace asdfvk {
-namespace {
-
 constexpr size_t kHugePageBytes = 2 << 20, kMinAdvisedBytes = 128 << 10;
+std::atomic<bool> hasReserve = false;
 
 /// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap. With
 /// huge pages there is a page fault for each 2 MiB instead of each 4 KiB, and the processor finds addresses faster.
@@ -60,6 +43,35 @@ void adviseHugePages(void* memory, size_t byteCount) {
                   end = std::max((address + byteCount + kMask) & ~kMask, heapEnd);
   ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
+
+/// Moves the unused memory of the heap to the border of a huge page, and requests huge pages there before its first
+/// use. The heap begins within a huge page, and a huge page of which a part is already in use remains small pages.
+void alignHeap() {
+  constexpr size_t kByteCount = 2 * kMinAdvisedBytes;  // More than malloc() has without the reserve.
+  void* const memory = std::malloc(kByteCount);
+  if (memory == nullptr) return;
+  adviseHugePages(memory, kByteCount);
+  const auto address = reinterpret_cast<uintptr_t>(memory);
+  const size_t toBorder = kHugePageBytes - (address + kByteCount) % kHugePageBytes;
+  [[maybe_unused]] static void* const neverUsed = std::realloc(memory, kByteCount + toBorder);
+}
+
+}  // namespace
+
+void configureHeap() {
+  hasReserve = true;
+  ::mallopt(M_TOP_PAD, kReserveBytes);
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_ARENA_MAX, 1);
+  ::mallopt(M_TRIM_THRESHOLD, kReserveBytes);
+  alignHeap();
+}
+
+}  // namespace asdfvk
+
+#if ASDFVK_HAS_OWN_OPERATORS
+namespace asdfvk {
+namespace {
 
 /// There may be enough memory without a reserve, for example with `ulimit -v`. Only `new` tries this, not malloc().
 template <typename Allocate>
