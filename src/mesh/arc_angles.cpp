@@ -1,5 +1,6 @@
 #include "mesh/arc_angles.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
@@ -10,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-/// The angle between two normals by its sine and its cosine, and whether the edge is concave.
+/// The angle between two normals by the square of its sine and its cosine, and whether the edge is concave.
 template <typename Real>
 struct Dihedral {
   using Mask = decltype(Real{} < Real{});
@@ -28,7 +29,9 @@ ASDFVK_ALWAYS_INLINE inline auto dihedral(const Vector& normalF, const Vector& n
   using Result = Dihedral<decltype(dot(normal, normal))>;
   // Branch-free, because the condition is unpredictable.
   const typename Result::Mask isAboveF = dot(normalF, between) > 0, isAboveG = dot(normalG, between) < 0;
-  return Result{dot(normal, normal), dot(normalF, normalG), static_cast<typename Result::Mask>(isAboveF & isAboveG)};
+  // The sum with 0 is +0 also where a degenerate face makes the cosine -0, whose arc tangent would be pi.
+  return Result{dot(normal, normal), dot(normalF, normalG) + 0.0,
+                static_cast<typename Result::Mask>(isAboveF & isAboveG)};
 }
 
 // The arc tangent is accurate for small angles, unlike the arc cosine.
@@ -59,13 +62,13 @@ ASDFVK_ALWAYS_INLINE inline void setAngles(const FaceGeometry& geometry, const L
 /// find the arc of the other direction takes longer.
 ASDFVK_ALWAYS_INLINE inline void setAnglesFrom(uint32_t firstFace, uint32_t endFace, const DualGraph& graph,
                                                const FaceGeometry& geometry, std::span<float> angles) {
-  constexpr uint32_t kLanes = kLaneCount<Double4>, kPrefetchDistance = 16;  // Unit: arcs.
-  const uint32_t end = graph.offsets[endFace];
+  constexpr size_t kLanes = kLaneCount<Double4>, kPrefetchDistance = 16;  // Unit: arcs.
+  const size_t end = graph.offsets[endFace];
   uint32_t face = firstFace;
-  for (uint32_t arc = graph.offsets[firstFace]; arc < end; arc += kLanes) {
+  for (size_t arc = graph.offsets[firstFace]; arc < end; arc += kLanes) {
     LaneIndices faces, neighbours;
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      const uint32_t own = std::min(arc + lane, end - 1);  // Lanes beyond the end repeat the last arc.
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const size_t own = std::min(arc + lane, end - 1);  // Lanes beyond the end repeat the last arc.
       const uint32_t later = graph.neighbours[std::min(own + kPrefetchDistance, end - 1)];
       prefetchMemory(&geometry.normals[later]);
       prefetchMemory(&geometry.barycentres[later]);
@@ -86,11 +89,11 @@ double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g)
   return isConcave ? angle : -angle;
 }
 
-std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry) {
+std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry, InstructionSet instructionSet) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, size_t{graph.faceCount()});
   std::vector<float> angles(graph.neighbours.size());
   forEachRange(graph.faceCount(), kItemsPerTask / 4, [&](size_t begin, size_t end) {
-    dispatch<Float8>(widestInstructionSet(), [&]<typename>() ASDFVK_ALWAYS_INLINE {
+    dispatch<Float8>(instructionSet, [&]<typename>() ASDFVK_ALWAYS_INLINE {
       setAnglesFrom(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), graph, geometry, angles);
     });
   });

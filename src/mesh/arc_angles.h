@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/simd.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
@@ -17,7 +18,8 @@ namespace asdfvk {
 [[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
 
 /// signedDihedralAngle() of each arc, in the order of graph.neighbours, rounded to float.
-[[nodiscard]] std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry);
+[[nodiscard]] std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry,
+                                           InstructionSet instructionSet = widestInstructionSet());
 
 /// The result of arcAngles(), computed at the first use. Samplers and the equation share it. Graph and geometry must
 /// outlive this object. Only one thread may use it at a time.

@@ -105,16 +105,16 @@ ASDFVK_ALWAYS_INLINE inline bool computeFour(const TriangleMesh& mesh, size_t fi
   const Vec3Double4 a = gather(mesh.vertices.data(), corners[0]), b = gather(mesh.vertices.data(), corners[1]),
                     c = gather(mesh.vertices.data(), corners[2]);
   const Vec3Double4 ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
-  const Double4 sizes = sumOfSizes(ab) + sumOfSizes(ac) + sumOfSizes(bc);  // At most nine times the longest.
+  const Double4 sizes =
+      sumOfSizes(ab) + sumOfSizes(ac) + sumOfSizes(bc);  // At most nine times the greatest coordinate.
   if (anyLane(~((sizes > 16 * kLeastLength) & (sizes < kGreatestLength)))) return false;
   const Vec3Double4 normal = cross(ab, ac);
   const Double4 doubledArea = squareRoots(dot(normal, normal));
   const auto isFaceWithArea = doubledArea > kDegenerateHeightRatio * max(max(dot(ab, ab), dot(ac, ac)), dot(bc, bc));
-  const Double4 inAreas = isFaceWithArea ? doubledArea : Double4{};
   const auto unit = [&](const Double4& x) ASDFVK_ALWAYS_INLINE { return isFaceWithArea ? x / doubledArea : Double4{}; };
-  scatter({unit(normal.x), unit(normal.y), unit(normal.z)}, &geometry.normals[first]);
-  scatter(barycentreOf(a, b, c), &geometry.barycentres[first]);
-  store(&geometry.areas[first], inAreas * (0.5 / (kQuarter * kQuarter)));
+  storeVectors(&geometry.normals[first], {unit(normal.x), unit(normal.y), unit(normal.z)});
+  storeVectors(&geometry.barycentres[first], barycentreOf(a, b, c));
+  store(&geometry.areas[first], (isFaceWithArea ? doubledArea : Double4{}) * (0.5 / (kQuarter * kQuarter)));
   for (const Vec3Double4& corner : {a, b, c}) box.add(corner);
   return true;
 }
@@ -126,7 +126,7 @@ Box3d joined(Box3d a, const Box3d& b) {
 
 }  // namespace
 
-FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
+FaceGeometry computeFaceGeometry(const TriangleMesh& mesh, InstructionSet instructionSet) {
   FaceGeometry geometry;
   const size_t faceCount = mesh.faces.size();
   geometry.barycentres.resize(faceCount);
@@ -134,7 +134,7 @@ FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
   geometry.areas.resize(faceCount);
   const auto computeRange = [&](size_t begin, size_t end) {
     Box3d bounds;
-    dispatch<Float8>(widestInstructionSet(), [&]<typename>() ASDFVK_ALWAYS_INLINE {
+    dispatch<Float8>(instructionSet, [&]<typename>() ASDFVK_ALWAYS_INLINE {
       LaneBox box;
       for (size_t face = begin; face < end; face += kLanes)
         if (face + kLanes > end || !computeFour(mesh, face, geometry, box))

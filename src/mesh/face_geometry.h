@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/box3.h"
+#include "core/simd.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -29,7 +30,8 @@ struct FaceGeometry {
 };
 
 /// Precondition: every index of a face is below the vertex count.
-[[nodiscard]] FaceGeometry computeFaceGeometry(const TriangleMesh& mesh);
+[[nodiscard]] FaceGeometry computeFaceGeometry(const TriangleMesh& mesh,
+                                               InstructionSet instructionSet = widestInstructionSet());
 
 /// The box of the vertices with finite coordinates, whether faces use them or not.
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine some rows of a small mesh.
 static_assert(kBlockRowCount % kRowsAtOnce == 0);
-constexpr size_t kLaneCount = 8;
+constexpr size_t kSumCount = 8;
 constexpr uint32_t kIterationsPerCheckpoint = 8;
 
 // Rounding lets the residual of the recurrence differ from the true residual, in float32 by about 1e-7 of the first
@@ -115,7 +115,7 @@ template <typename System>
 typename CpuCg<System>::BlockSums CpuCg<System>::sumRows(size_t begin, size_t end) const {
   const Real* weights = system_.residualWeights().data();
   // Separate sums per lane, which compilers can vectorise without reordering additions.
-  std::array<std::array<Real, kLaneCount>, std::tuple_size_v<BlockSums>> lanes{};
+  std::array<std::array<Real, kSumCount>, std::tuple_size_v<BlockSums>> lanes{};
   const auto add = [&](size_t i, size_t lane) {
     const Real p = direction_[i], product = product_[i], r = residual_[i];
     lanes[0][lane] += p * p;
@@ -126,8 +126,8 @@ typename CpuCg<System>::BlockSums CpuCg<System>::sumRows(size_t begin, size_t en
     lanes[5][lane] += r * r * weights[i];
   };
   size_t i = begin;
-  for (; i + kLaneCount <= end; i += kLaneCount)
-    for (size_t lane = 0; lane < kLaneCount; ++lane) add(i + lane, lane);
+  for (; i + kSumCount <= end; i += kSumCount)
+    for (size_t lane = 0; lane < kSumCount; ++lane) add(i + lane, lane);
   for (; i < end; ++i) add(i, 0);
   BlockSums sums{};
   for (size_t k = 0; k < sums.size(); ++k)

@@ -11,7 +11,7 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kLanes = kLaneCount<Double4>;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 static_assert(kMaxRayCount % kPointGroupSize == 0);
 
 ASDFVK_ALWAYS_INLINE inline Float4 toFloats(const Double4& numbers) { return __builtin_convertvector(numbers, Float4); }
@@ -25,10 +25,11 @@ ASDFVK_ALWAYS_INLINE inline void storeFloats(float (&x)[kPointGroupSize], float 
 
 }  // namespace
 
-HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits)
+HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits, InstructionSet instructionSet)
     : scene_(scene),
       cone_(cone),
       hits_(hits),
+      instructionSet_(instructionSet),
       groupCount_((cone.directions.size() + kPointGroupSize - 1) / kPointGroupSize) {
   for (size_t axis = 0; axis < 3; ++axis)
     for (const Vec3d& direction : cone.directions) directions_[axis].push_back(direction[axis]);
@@ -82,16 +83,16 @@ ASDFVK_ALWAYS_INLINE inline float HitPoints::fill(std::span<PointGroup> groups, 
       faces[lane] = four[lane].face == kNoFace ? 0 : four[lane].face;
     }
     const Vec3Double4 normal = gather(faceNormals, faces);
-    const Double4 distance{four[0].distance, four[1].distance, four[2].distance, four[3].distance};
-    const auto isHit = distance < kInfinity;
-    const Double4 length = isHit ? distance : broadcast<Double4>(kNaN);
+    const auto lengthOf = [](const ConeHit& hit) { return hit.face == kNoFace ? kNaN : double{hit.distance}; };
+    const Double4 length{lengthOf(four[0]), lengthOf(four[1]), lengthOf(four[2]), lengthOf(four[3])};
+    const auto isHit = length == length;
     const Vec3Double4 direction = load<Double4>(&directions_[0][first]) * frame.tangent +
                                   load<Double4>(&directions_[1][first]) * frame.bitangent +
                                   load<Double4>(&directions_[2][first]) * frame.axis;
     storeFloats(group.x, group.y, group.z, place, origin + length * direction);
     storeFloats(group.nx, group.ny, group.nz, place, normal);
-    const Float4 floats = toFloats(isHit ? distance : Double4{});
-    store(&group.solidAngleRatio[place], floats * floats * load<Float4>(&solidAngles_[first]));
+    const Float4 distance = toFloats(isHit ? length : Double4{});
+    store(&group.solidAngleRatio[place], distance * distance * load<Float4>(&solidAngles_[first]));
     const Double4 facing = isPaper ? dot(normal, seedNormal) : -dot(direction, normal);
     const auto isValid = isHit & (facing <= cone_.falseHitCosine);
     store(&group.isInlier[place], toFloats(isValid ? broadcast<Double4>(1) : Double4{}));
@@ -115,7 +116,7 @@ ASDFVK_ALWAYS_INLINE inline float HitPoints::fill(std::span<PointGroup> groups, 
 HitRange HitPoints::append(uint32_t seed, uint32_t later) {
   HitRange range{static_cast<uint32_t>(groups_.size()), static_cast<uint32_t>(groupCount_)};
   groups_.resize(groups_.size() + groupCount_);
-  dispatch<Float8>(widestInstructionSet(), [&]<typename>() ASDFVK_ALWAYS_INLINE {
+  dispatch<Float8>(instructionSet_, [&]<typename>() ASDFVK_ALWAYS_INLINE {
     range.medianLength = fill({&groups_[range.firstGroup], groupCount_}, seed, later);
   });
   return range;

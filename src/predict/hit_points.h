@@ -15,8 +15,9 @@ namespace asdfvk {
 /// The hit points of seeds in the layout of PredictionKernel.
 class HitPoints {
  public:
-  /// Scene, cone and arrays must outlive this object.
-  HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits);
+  /// Scene, cone and arrays must outlive this object. Precondition: this machine has the instruction set.
+  HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits,
+            InstructionSet instructionSet = widestInstructionSet());
 
   void clear();
 
@@ -39,9 +40,10 @@ class HitPoints {
   const TraceScene& scene_;
   const Cone& cone_;
   SeedHitsView hits_;
+  InstructionSet instructionSet_;
   size_t groupCount_;                              // The groups of each seed.
   std::array<std::vector<double>, 3> directions_;  // The rows x, y and z of the rays of the cone, padded with zeros.
-  std::vector<float> solidAngles_;
+  std::vector<float> solidAngles_;                 // Padded with zeros.
   UnsetVector<PointGroup> groups_;
 };
 

@@ -18,11 +18,11 @@ inline constexpr size_t kPointGroupSize = kLaneCount<Float16>;
 /// Hit points of rays, in normalised units. All arrays have one entry per point.
 struct alignas(64) PointGroup {
   float x[kPointGroupSize], y[kPointGroupSize], z[kPointGroupSize];     ///< NaN for a miss and for padding.
-  float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< The unit normal of the hit face.
+  float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< Unit normal of the hit face; finite.
   /// The area that the ray represents at the point, divided by the unit of Cone::solidAngles.
   float solidAngleRatio[kPointGroupSize];
   float isInlier[kPointGroupSize];  ///< 1 if the ray is not an outlier in the cone of its seed, else 0.
-  uint32_t face[kPointGroupSize];   ///< The hit face.
+  uint32_t face[kPointGroupSize];   ///< The hit face, or kNoFace.
 };
 
 /// The hit points of one seed: a range of groups.

@@ -29,8 +29,10 @@ namespace {
 // allocation, in the middle of a huge page, and the kernel would use small pages there. Only unused memory beyond this
 // size is returned to the kernel.
 constexpr int kReserveBytes = 256 << 20;
-constexpr size_t kHugePageBytes = 2 << 20, kMinAdvisedBytes = 128 << 10;
 std::atomic<bool> hasReserve = false;
+
+#if ASDFVK_HAS_OWN_OPERATORS
+constexpr size_t kHugePageBytes = 2 << 20, kMinAdvisedBytes = 128 << 10;
 
 /// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap. With
 /// huge pages there is a page fault for each 2 MiB instead of each 4 KiB, and the processor finds addresses faster.
@@ -47,14 +49,18 @@ void adviseHugePages(void* memory, size_t byteCount) {
 /// Moves the unused memory of the heap to the border of a huge page, and requests huge pages there before its first
 /// use. The heap begins within a huge page, and a huge page of which a part is already in use remains small pages.
 void alignHeap() {
-  constexpr size_t kByteCount = 2 * kMinAdvisedBytes;  // More than malloc() has without the reserve.
+  constexpr size_t kByteCount = 2 * kMinAdvisedBytes;  // More than is free, so that the heap grows by the reserve.
   void* const memory = std::malloc(kByteCount);
   if (memory == nullptr) return;
   adviseHugePages(memory, kByteCount);
   const auto address = reinterpret_cast<uintptr_t>(memory);
   const size_t toBorder = kHugePageBytes - (address + kByteCount) % kHugePageBytes;
-  [[maybe_unused]] static void* const neverUsed = std::realloc(memory, kByteCount + toBorder);
+  // Nothing uses this memory. A failure is ignored, because it costs only speed.
+  [[maybe_unused]] void* const unused = std::realloc(memory, kByteCount + toBorder);
 }
+#else
+void alignHeap() {}
+#endif
 
 }  // namespace
 
@@ -64,7 +70,8 @@ void configureHeap() {
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_ARENA_MAX, 1);
   ::mallopt(M_TRIM_THRESHOLD, kReserveBytes);
-  alignHeap();
+  static std::once_flag isAligned;
+  std::call_once(isAligned, alignHeap);
 }
 
 }  // namespace asdfvk

@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <vector>
 

@@ -22,18 +22,26 @@ Mesh openTorus() {
   return mesh;
 }
 
-/// The valid lengths that the outlier rule of cone.h keeps, from its definition.
-std::vector<bool> inliersOf(const std::vector<double>& lengths, double deviations) {
-  std::vector<double> sorted = lengths;
-  std::sort(sorted.begin(), sorted.end());
-  const size_t count = sorted.size();
-  if (count == 0) return {};
-  const double median = count % 2 == 1 ? sorted[count / 2] : 0.5 * (sorted[count / 2 - 1] + sorted[count / 2]);
-  const double mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(count);
+double medianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t count = values.size();
+  return count % 2 == 1 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
+}
+
+/// The valid lengths that the outlier rule keeps, from its definition in cone.h.
+std::vector<bool> inliersOf(const std::vector<double>& lengths, const OutlierRule& rule) {
+  if (lengths.empty()) return {};
+  const auto count = static_cast<double>(lengths.size());
+  const double median = medianOf(lengths), mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
   double squares = 0;
-  for (const double length : sorted) squares += (length - mean) * (length - mean);
+  std::vector<double> deviations;
+  for (const double length : lengths) {
+    squares += (length - mean) * (length - mean);
+    deviations.push_back(std::abs(length - median));
+  }
+  const bool isStandard = rule.spread == OutlierRule::Spread::StandardDeviation;
   const double bound =
-      deviations * std::sqrt(squares / static_cast<double>(count)) + static_cast<double>(kOutlierSlack) * median;
+      rule.deviations * (isStandard ? std::sqrt(squares / count) : medianOf(deviations)) + rule.slack * median;
   std::vector<bool> kept;
   for (const double length : lengths) kept.push_back(std::abs(length - median) <= bound);
   return kept;
@@ -41,10 +49,12 @@ std::vector<bool> inliersOf(const std::vector<double>& lengths, double deviation
 
 void checkPoints(const SeededMesh& seeded) {
   const TraceScene scene = seeded.scene();
-  HitPoints points(scene, seeded.cone, seeded.seedHits());
+  HitPoints points(scene, seeded.cone, seeded.seedHits()),
+      baseline(scene, seeded.cone, seeded.seedHits(), InstructionSet::Baseline);
   const size_t rayCount = seeded.cone.directions.size();
   for (uint32_t seed = 0; seed < seeded.seeds.size(); ++seed) {
     const HitRange range = points.append(seed);
+    CHECK(baseline.append(seed).medianLength == range.medianLength);
     CHECK(range.groupCount == (rayCount + kPointGroupSize - 1) / kPointGroupSize);
     REQUIRE(points.groups().size() == range.firstGroup + range.groupCount);
     const Vec3d& seedNormal = seeded.geometry.normals[seeded.seeds[seed]];
@@ -81,12 +91,13 @@ void checkPoints(const SeededMesh& seeded) {
         lengths.push_back(static_cast<double>(hit.distance));
       }
     }
-    const std::vector<bool> expected = inliersOf(lengths, seeded.cone.outliers.deviations);
+    const std::vector<bool> expected = inliersOf(lengths, seeded.cone.outliers);
     for (size_t i = 0; i < expected.size(); ++i) CHECK(isInlier[i] == (expected[i] ? 1.0f : 0.0f));
     if (lengths.empty()) CHECK(range.medianLength == 0);
     std::sort(lengths.begin(), lengths.end());
     if (lengths.size() % 2 == 1) CHECK(range.medianLength == static_cast<float>(lengths[lengths.size() / 2]));
   }
+  CHECK(std::ranges::equal(std::as_bytes(points.groups()), std::as_bytes(baseline.groups())));
 }
 
 }  // namespace
@@ -100,7 +111,9 @@ TEST_CASE("points follow the number of rays, their rotation and the outlier rule
   checkPoints(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = 1}));
   checkPoints(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = 8}));
   checkPoints(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = 33, .rotation = ConeRotation::Hashed}));
+  checkPoints(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = kMaxRayCount}));
   checkPoints(SeededMesh(makeAnimal(2000).mesh, 20, {.falseHitAngleDegrees = 40, .outlierDeviations = 0.5}));
+  checkPoints(SeededMesh(openTorus(), 20, {.definition = Definition::Cgal}));
 }
 
 TEST_CASE("a seed without hits has no inliers and a median length of 0") {

@@ -34,8 +34,9 @@ std::string mappingFlagsAt(const void* address) {
   return "";
 }
 
-TEST_CASE("large memory is advised to have huge pages, with and without an alignment") {
+TEST_CASE("large memory, with and without an alignment, and the heap from its start are advised to have huge pages") {
   configureHeap();
+  const std::vector<uint8_t> small(64 << 10);  // Too small for an advice of its own.
   const auto plain = std::make_unique<std::vector<uint8_t>>(8 << 20);
   const auto aligned = std::make_unique<std::vector<Wide>>(1 << 15);
   CHECK(reinterpret_cast<uintptr_t>(aligned->data()) % alignof(Wide) == 0);
@@ -44,6 +45,7 @@ TEST_CASE("large memory is advised to have huge pages, with and without an align
     MESSAGE("no huge pages on this system: the advice is not tested");
     return;
   }
+  CHECK(mappingFlagsAt(small.data() + small.size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(plain->data() + plain->size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(aligned->data() + aligned->size() / 2).find(" hg ") != std::string::npos);
 }

@@ -50,6 +50,7 @@ TEST_CASE("angles of arcs are the dihedral angles rounded to float") {
   const auto differingCount = [](const Mesh& mesh) {
     const Surface surface(mesh);
     const std::vector<float> angles = arcAngles(surface.graph, surface.geometry);
+    CHECK(arcAngles(surface.graph, surface.geometry, InstructionSet::Baseline) == angles);
     size_t count = 0, arc = 0;
     for (uint32_t face = 0; face < surface.graph.faceCount(); ++face)
       for (const uint32_t neighbour : surface.graph.neighboursOf(face))
@@ -94,6 +95,14 @@ TEST_CASE("an arc to a degenerate face is 1, and every arc is within the limits"
   const Surface squeezed(mesh);
   REQUIRE(squeezed.geometry.isDegenerate(1));
   CHECK(arcLengths(arcAngles(squeezed.graph, squeezed.geometry)) == std::vector<float>{1, 1});
+  // The product of this normal with the zero normal of the degenerate face is -0.
+  mesh.vertices = {{0, 0, 0}, {0, 1, -1}, {1, 0, -1}, {0, 0.5, -0.5}};
+  const Surface turned(mesh);
+  REQUIRE(turned.geometry.isDegenerate(1));
+  for (size_t axis = 0; axis < 3; ++axis) REQUIRE(turned.geometry.normals[0][axis] < 0);
+  CHECK(arcAngles(turned.graph, turned.geometry) == std::vector<float>{0, 0});
+  CHECK(signedDihedralAngle(turned.geometry, 0, 1) == 0);
+  CHECK(signedDihedralAngle(turned.geometry, 1, 0) == 0);
 
   const Surface folded(book(180));
   const Surface point([] {

@@ -1,6 +1,5 @@
 #include "trace/cpu/lane_cones.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -141,8 +140,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWi
       const Double4 difference = length - mean;
       squares += length < kInfinity ? difference * difference : Double4{};
     }
-    const Double4 variance = squares / count;
-    for (size_t k = 0; k < kDoubleCount; ++k) spreads[first + k] = std::sqrt(variance[k]);
+    store(&spreads[first], squareRoots(squares / count));
   }
   middles(medians);
   if (rule.spread == OutlierRule::Spread::MedianDeviation) {
