@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/options.h"
+#include "core/simd.h"
 #include "core/vec3.h"
 #include "shared/cone_rules.h"
 
@@ -46,10 +47,12 @@ struct Cone {
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
 /// Whether a hit is false. Paper: the normals of hit face and seed face differ by less than the false-hit angle. Cgal:
-/// the angle between the ray and the normal of the hit face is not acute.
-[[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& direction,
-                                     const Vec3d& hitNormal) {
-  const double cosine = cone.definition == Definition::Paper ? dot(seedNormal, hitNormal) : -dot(direction, hitNormal);
+/// the angle between the ray and the normal of the hit face is not acute. Vectors may also be those of lane_vec3.h; the
+/// result is then a mask.
+template <typename SeedVector = Vec3d, typename Vector = Vec3d>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline auto isFalseHit(const Cone& cone, const SeedVector& seedNormal,
+                                                          const Vector& direction, const Vector& hitNormal) {
+  const auto cosine = cone.definition == Definition::Paper ? dot(hitNormal, seedNormal) : -dot(direction, hitNormal);
   return cosine > cone.falseHitCosine;
 }
 

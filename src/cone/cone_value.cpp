@@ -15,8 +15,9 @@ namespace {
 // Up to this count, medianByCounting() is faster than std::nth_element().
 constexpr size_t kMaxCountedLengths = 64;
 
-/// takeMedian() without unpredictable branches: counts for each length how many lengths are less. Length k of the
-/// sorted lengths is the greatest with a count of at most k. Precondition: 1 to kMaxCountedLengths lengths.
+/// The same result as takeMedian(), without unpredictable branches. For each length, the function counts the shorter
+/// lengths. In sorted order, length k (from 0) is the greatest length whose count is at most k. Precondition: 1 to
+/// kMaxCountedLengths lengths.
 ASDFVK_ALWAYS_INLINE inline double medianByCounting(std::span<const double> lengths) {
   using Counts = IntsOf<Double4>;
   constexpr size_t kLanes = kLaneCount<Double4>, kVectors = 2;  // Two sums that do not wait for each other.

@@ -60,7 +60,7 @@ ASDFVK_ALWAYS_INLINE inline Vec3Double4 gather(const Vec3d* vectors, const LaneI
   return {Double4{a.x, b.x, c.x, d.x}, Double4{a.y, b.y, c.y, d.y}, Double4{a.z, b.z, c.z, d.z}};
 }
 
-/// vectors: one entry per lane.
+/// Stores lane i in vectors[i].
 ASDFVK_ALWAYS_INLINE inline void storeVectors(Vec3d* vectors, const Vec3Double4& v) {
   for (size_t lane = 0; lane < kLaneCount<Double4>; ++lane) vectors[lane] = {v.x[lane], v.y[lane], v.z[lane]};
 }

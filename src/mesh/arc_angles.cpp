@@ -29,7 +29,7 @@ ASDFVK_ALWAYS_INLINE inline auto dihedral(const Vector& normalF, const Vector& n
   using Result = Dihedral<decltype(dot(normal, normal))>;
   // Branch-free, because the condition is unpredictable.
   const typename Result::Mask isAboveF = dot(normalF, between) > 0, isAboveG = dot(normalG, between) < 0;
-  // The sum with 0 is +0 also where a degenerate face makes the cosine -0, whose arc tangent would be pi.
+  // At a degenerate face the cosine can be -0, and the arc tangent would be pi. The sum of -0 and 0 is +0.
   return Result{dot(normal, normal), dot(normalF, normalG) + 0.0,
                 static_cast<typename Result::Mask>(isAboveF & isAboveG)};
 }
@@ -58,8 +58,8 @@ ASDFVK_ALWAYS_INLINE inline void setAngles(const FaceGeometry& geometry, const L
   }
 }
 
-/// Sets the angles of all arcs from the faces firstFace to endFace - 1. An angle is computed in both directions: to
-/// find the arc of the other direction takes longer.
+/// Sets the angles of all arcs that begin at the faces firstFace to endFace - 1. The angle between two faces is
+/// computed twice, once per direction, because finding the arc of the opposite direction takes longer.
 ASDFVK_ALWAYS_INLINE inline void setAnglesFrom(uint32_t firstFace, uint32_t endFace, const DualGraph& graph,
                                                const FaceGeometry& geometry, std::span<float> angles) {
   constexpr size_t kLanes = kLaneCount<Double4>, kPrefetchDistance = 16;  // Unit: arcs.

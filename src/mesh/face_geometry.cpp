@@ -86,13 +86,14 @@ class LaneBox {
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  Vec3Double4 min_ = {Double4{} + kInfinity, Double4{} + kInfinity, Double4{} + kInfinity};
-  Vec3Double4 max_ = {Double4{} - kInfinity, Double4{} - kInfinity, Double4{} - kInfinity};
+  Vec3Double4 min_ = {broadcast<Double4>(kInfinity), broadcast<Double4>(kInfinity), broadcast<Double4>(kInfinity)};
+  Vec3Double4 max_ = {broadcast<Double4>(-kInfinity), broadcast<Double4>(-kInfinity), broadcast<Double4>(-kInfinity)};
 };
 
-ASDFVK_ALWAYS_INLINE inline Double4 sumOfSizes(const Vec3Double4& v) {
-  const auto size = [](const Double4& x) ASDFVK_ALWAYS_INLINE { return x < 0 ? -x : x; };
-  return size(v.x) + size(v.y) + size(v.z);
+/// The sum of the absolute coordinates.
+ASDFVK_ALWAYS_INLINE inline Double4 l1Norm(const Vec3Double4& v) {
+  const auto absolute = [](const Double4& x) ASDFVK_ALWAYS_INLINE { return x < 0 ? -x : x; };
+  return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
 /// computeOne() for four faces. Returns false, and does nothing, unless the edges of all four faces are finite and of
@@ -105,9 +106,10 @@ ASDFVK_ALWAYS_INLINE inline bool computeFour(const TriangleMesh& mesh, size_t fi
   const Vec3Double4 a = gather(mesh.vertices.data(), corners[0]), b = gather(mesh.vertices.data(), corners[1]),
                     c = gather(mesh.vertices.data(), corners[2]);
   const Vec3Double4 ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
-  const Double4 sizes =
-      sumOfSizes(ab) + sumOfSizes(ac) + sumOfSizes(bc);  // At most nine times the greatest coordinate.
-  if (anyLane(~((sizes > 16 * kLeastLength) & (sizes < kGreatestLength)))) return false;
+  // The sum is at least the greatest absolute coordinate, and at most nine times as large. It is NaN or infinite if a
+  // corner is not finite.
+  const Double4 norm = l1Norm(ab) + l1Norm(ac) + l1Norm(bc);
+  if (anyLane(~((norm > 16 * kLeastLength) & (norm < kGreatestLength)))) return false;
   const Vec3Double4 normal = cross(ab, ac);
   const Double4 doubledArea = squareRoots(dot(normal, normal));
   const auto isFaceWithArea = doubledArea > kDegenerateHeightRatio * max(max(dot(ab, ab), dot(ac, ac)), dot(bc, bc));

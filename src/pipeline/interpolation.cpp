@@ -13,7 +13,8 @@
 namespace asdfvk {
 namespace {
 
-/// The faces whose values the equation relates: the centres of the aggregates, or all faces. Ascending.
+/// The faces that are nodes of the equation: the centres of the aggregates or, without aggregates, all faces.
+/// Ascending.
 class EquationFaces {
  public:
   explicit EquationFaces(const FaceDomain& domain)

@@ -16,6 +16,7 @@ static_assert(kMaxRayCount % kPointGroupSize == 0);
 
 ASDFVK_ALWAYS_INLINE inline Float4 toFloats(const Double4& numbers) { return __builtin_convertvector(numbers, Float4); }
 
+/// Rounds the vectors to float, and stores them from entry `place` on.
 ASDFVK_ALWAYS_INLINE inline void storeFloats(float (&x)[kPointGroupSize], float (&y)[kPointGroupSize],
                                              float (&z)[kPointGroupSize], size_t place, const Vec3Double4& v) {
   store(&x[place], toFloats(v.x));
@@ -65,12 +66,12 @@ ASDFVK_ALWAYS_INLINE inline float HitPoints::fill(std::span<PointGroup> groups, 
   const Vec3d& seedNormal = faceNormals[seedFace];
   const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);
-  const bool isPaper = cone_.definition == Definition::Paper;
   const size_t paddedCount = groups.size() * kPointGroupSize;
   std::array<ConeHit, kMaxRayCount> padded;
   std::fill(std::ranges::copy(hits, padded.begin()).out, padded.begin() + static_cast<std::ptrdiff_t>(paddedCount),
             kMiss);
-  std::array<double, kMaxRayCount> lengths, validLengths;  // NaN for a miss; valid: neither misses nor false hits.
+  std::array<double, kMaxRayCount> lengths;       // NaN for a miss.
+  std::array<double, kMaxRayCount> validLengths;  // Without misses and false hits.
   size_t validCount = 0;
   for (size_t first = 0; first < paddedCount; first += kLanes) {
     PointGroup& group = groups[first / kPointGroupSize];
@@ -93,8 +94,7 @@ ASDFVK_ALWAYS_INLINE inline float HitPoints::fill(std::span<PointGroup> groups, 
     storeFloats(group.nx, group.ny, group.nz, place, normal);
     const Float4 distance = toFloats(isHit ? length : Double4{});
     store(&group.solidAngleRatio[place], distance * distance * load<Float4>(&solidAngles_[first]));
-    const Double4 facing = isPaper ? dot(normal, seedNormal) : -dot(direction, normal);
-    const auto isValid = isHit & (facing <= cone_.falseHitCosine);
+    const auto isValid = isHit & ~isFalseHit(cone_, seedNormal, direction, normal);
     store(&group.isInlier[place], toFloats(isValid ? broadcast<Double4>(1) : Double4{}));
     store(&lengths[first], length);
     for (size_t lane = 0; lane < kLanes; ++lane) {

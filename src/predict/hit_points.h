@@ -41,9 +41,9 @@ class HitPoints {
   const Cone& cone_;
   SeedHitsView hits_;
   InstructionSet instructionSet_;
-  size_t groupCount_;                              // The groups of each seed.
-  std::array<std::vector<double>, 3> directions_;  // The rows x, y and z of the rays of the cone, padded with zeros.
-  std::vector<float> solidAngles_;                 // Padded with zeros.
+  size_t groupCount_;                              // Number of groups per seed.
+  std::array<std::vector<double>, 3> directions_;  // Rows x, y, z: the rays of the cone, padded with zeros.
+  std::vector<float> solidAngles_;                 // One per ray, padded with zeros.
   UnsetVector<PointGroup> groups_;
 };
 

@@ -46,17 +46,17 @@ void adviseHugePages(void* memory, size_t byteCount) {
   ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
-/// Moves the unused memory of the heap to the border of a huge page, and requests huge pages there before its first
-/// use. The heap begins within a huge page, and a huge page of which a part is already in use remains small pages.
+/// Requests huge pages for the unused part of the heap, and lets this part begin at the boundary of a huge page. The
+/// kernel maps no huge page where a small page is already mapped, as at the start of the heap.
 void alignHeap() {
   constexpr size_t kByteCount = 2 * kMinAdvisedBytes;  // More than is free, so that the heap grows by the reserve.
   void* const memory = std::malloc(kByteCount);
   if (memory == nullptr) return;
   adviseHugePages(memory, kByteCount);
   const auto address = reinterpret_cast<uintptr_t>(memory);
-  const size_t toBorder = kHugePageBytes - (address + kByteCount) % kHugePageBytes;
+  const size_t toBoundary = kHugePageBytes - (address + kByteCount) % kHugePageBytes;
   // Nothing uses this memory. A failure is ignored, because it costs only speed.
-  [[maybe_unused]] void* const unused = std::realloc(memory, kByteCount + toBorder);
+  [[maybe_unused]] void* const unused = std::realloc(memory, kByteCount + toBoundary);
 }
 #else
 void alignHeap() {}

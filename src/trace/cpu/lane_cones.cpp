@@ -57,8 +57,6 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
   const Vec3d* const barycentres = scene_.geometry.barycentres.data();
   const Normalization unit = scene_.bvh.normalization;
   std::array<double, kWidth>* const lengths = lengths_.data();
-  const double falseHitCosine = cone_.falseHitCosine;
-  const bool isPaper = cone_.definition == Definition::Paper;
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
     const Vec3Double4 tangent = loadRows(frames.tangents, first), bitangent = loadRows(frames.bitangents, first),
                       axis = loadRows(frames.axes, first), origin = loadRows(frames.origins, first),
@@ -82,12 +80,11 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
       const Vec3Double4 direction{d.x * tangent.x + d.y * bitangent.x + d.z * axis.x,
                                   d.x * tangent.y + d.y * bitangent.y + d.z * axis.y,
                                   d.x * tangent.z + d.y * bitangent.z + d.z * axis.z};
-      const Double4 cosine = dot(normal, direction), facing = isPaper ? dot(seedNormal, normal) : -cosine;
-      const Double4 onPlane = (offset - dot(normal, origin)) / cosine;
+      const Double4 onPlane = (offset - dot(normal, origin)) / dot(normal, direction);
       const Double4 difference = onPlane - distance;
       const Mask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
       const Double4 length = isNear ? onPlane : distance;
-      const Mask counts = isHit & (facing <= falseHitCosine);
+      const Mask counts = isHit & ~isFalseHit(cone_, seedNormal, direction, normal);
       store(&lengths[ray][first], counts ? length : broadcast<Double4>(kInfinity));
     }
   }
