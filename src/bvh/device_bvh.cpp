@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "bvh/wide_bvh.h"
-#include "core/parallel.h"
 #include "core/prefetch.h"
 
 namespace asdfvk {
@@ -30,12 +27,19 @@ OctahedralNormal encodeNormal(const Vec3d& n) {
   return {static_cast<float>(isUp ? u : foldedU), static_cast<float>(isUp ? v : foldedV)};
 }
 
-UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveFaces, const Bvh& bvh,
-                                            const TriangleMesh& mesh, const FaceGeometry& geometry) {
-  UnsetVector<DeviceTriangle> triangles(primitiveFaces.size());
-  forEachInParallel(primitiveFaces.size(), [&](size_t primitive) {
+}  // namespace
+
+uint64_t maxBlockCount(const Bvh& bvh) {
+  const uint64_t innerCount = bvh.nodes.size() / 2;  // Each inner node has two children and becomes a node or a leaf.
+  return std::max(std::max<uint64_t>(1, innerCount) * kWideNodeTexelCount,
+                  uint64_t{bvh.primitiveFaces.size()} * kBvhTriangleTexelCount);
+}
+
+void encodeTriangles(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry,
+                     std::span<const uint32_t> primitiveFaces, std::span<DeviceTriangle> triangles) {
+  for (size_t primitive = 0; primitive < triangles.size(); ++primitive) {
     const uint32_t face = primitiveFaces[primitive];
-    if (primitive + kPrefetchDistance < primitiveFaces.size()) {
+    if (primitive + kPrefetchDistance < triangles.size()) {
       const uint32_t later = primitiveFaces[primitive + kPrefetchDistance];
       prefetchMemory(&mesh.faces[later]);
       prefetchMemory(&geometry.normals[later]);
@@ -45,22 +49,7 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveF
     };
     const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
     triangles[primitive] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
-  });
-  return triangles;
-}
-
-}  // namespace
-
-uint64_t maxBlockCount(const Bvh& bvh) {
-  const uint64_t innerCount = bvh.nodes.size() / 2;  // Each inner node has two children and becomes a node or a leaf.
-  return std::max(std::max<uint64_t>(1, innerCount) * kWideNodeTexelCount,
-                  uint64_t{bvh.primitiveFaces.size()} * kBvhTriangleTexelCount);
-}
-
-DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry) {
-  if (bvh.nodes.empty()) return {};
-  WideBvh wide = encodeWideBvh(bvh);
-  return {std::move(wide.nodes), encodeTriangles(wide.primitiveFaces, bvh, mesh, geometry)};
+  }
 }
 
 }  // namespace asdfvk

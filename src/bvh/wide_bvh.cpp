@@ -292,6 +292,7 @@ DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<u
 }
 
 WideBvh encodeWideBvh(const Bvh& bvh) {
+  if (bvh.nodes.empty()) return {};
   WideBvh wide = WideEncoder(bvh.nodes, bvh.primitiveFaces).take();
   ASDFVK_CHECK_OP(wide.depth, <=, kMaxBvhDepth);
   return wide;

@@ -106,7 +106,7 @@ struct WideBvh {
   uint32_t depth = 0;                    ///< Levels below the root, at most kMaxBvhDepth.
 };
 
-/// Precondition: `bvh` has a node. Parallel, with the same result for any thread count.
+/// Empty for an empty Bvh. Parallel, with the same result for any thread count.
 [[nodiscard]] WideBvh encodeWideBvh(const Bvh& bvh);
 
 }  // namespace asdfvk

@@ -1,7 +1,6 @@
 #include "process/heap.h"
 
 #include <malloc.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,8 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+
+#include "core/huge_pages.h"
 
 // The address sanitizer checks its own operators.
 #if defined(__SANITIZE_ADDRESS__)
@@ -32,18 +33,13 @@ constexpr int kReserveBytes = 256 << 20;
 std::atomic<bool> hasReserve = false;
 
 #if ASDFVK_HAS_OWN_OPERATORS
-constexpr size_t kHugePageBytes = 2 << 20, kMinAdvisedBytes = 128 << 10;
+constexpr size_t kMinAdvisedBytes = 128 << 10;
 
-/// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap. With
-/// huge pages there is a page fault for each 2 MiB instead of each 4 KiB, and the processor finds addresses faster.
-/// Failures are ignored, because they cost only speed.
+/// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap.
 void adviseHugePages(void* memory, size_t byteCount) {
   if (byteCount < kMinAdvisedBytes) return;
-  constexpr uintptr_t kMask = kHugePageBytes - 1;
-  const auto address = reinterpret_cast<uintptr_t>(memory);
-  const uintptr_t heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0)) & ~kMask, begin = address & ~kMask,
-                  end = std::max((address + byteCount + kMask) & ~kMask, heapEnd);
-  ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const auto begin = reinterpret_cast<uintptr_t>(memory), heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0));
+  requestHugePages(memory, std::max(byteCount, (heapEnd & ~(kHugePageBytes - 1)) - begin));
 }
 
 /// Requests huge pages for the unused part of the heap, and lets this part begin at the boundary of a huge page. The

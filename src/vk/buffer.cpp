@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "core/huge_pages.h"
 #include "core/parallel.h"
 #include "vk/buffer_pool.h"
 #include "vk/command_list.h"
@@ -49,28 +50,32 @@ VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<co
   return result;
 }
 
-/// Copies on several threads. One thread does not saturate the memory, and the first write to a page of new memory
-/// takes longer than the copy.
-void copyInParallel(std::span<const std::byte> from, std::byte* to) {
+/// Writes items on several threads. One thread does not saturate the memory, and the first write to a page of new
+/// memory takes longer than a copy. first: the first item of `bytes`.
+void writeInParallel(std::span<std::byte> bytes, size_t first, size_t itemByteCount, const WriteItems& write) {
   constexpr size_t kBlockByteCount = size_t{1} << 20;
-  forEachTask((from.size() + kBlockByteCount - 1) / kBlockByteCount, [&](size_t block) {
-    const std::span<const std::byte> own = from.subspan(block * kBlockByteCount);
-    std::memcpy(to + block * kBlockByteCount, own.data(), std::min(own.size(), kBlockByteCount));
+  const size_t blockItemCount = std::max<size_t>(1, kBlockByteCount / itemByteCount),
+               blockByteCount = blockItemCount * itemByteCount;
+  forEachTask((bytes.size() + blockByteCount - 1) / blockByteCount, [&](size_t block) {
+    const std::span<std::byte> own = bytes.subspan(block * blockByteCount);
+    write(first + block * blockItemCount, own.first(std::min(own.size(), blockByteCount)));
   });
 }
 
-/// Calls copyPiece(commands, staging, begin, byteCount) for each piece. staging: mapped memory for one piece.
+/// Calls copyPiece(commands, staging, begin, byteCount) for each piece of whole items. staging: mapped memory for one
+/// piece.
 template <typename CopyPiece>
-void forEachPiece(const Device& device, uint64_t byteCount, const CopyPiece& copyPiece) {
+void forEachPiece(const Device& device, uint64_t byteCount, size_t itemByteCount, const CopyPiece& copyPiece) {
   constexpr uint64_t kMinPieceByteCount = 64u << 10;
   if (byteCount == 0) return;
-  const uint64_t pieceByteCount = std::bit_ceil(std::clamp(byteCount, kMinPieceByteCount, kMaxPieceByteCount));
-  const PooledBuffer staging(device, pieceByteCount,
+  const uint64_t stagingByteCount = std::bit_ceil(std::clamp(byteCount, kMinPieceByteCount, kMaxPieceByteCount));
+  const PooledBuffer staging(device, stagingByteCount,
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                              MemoryKind::HostVisible);
   CommandList commands(device);
-  for (uint64_t begin = 0; begin < byteCount; begin += kMaxPieceByteCount)
-    copyPiece(commands, *staging, begin, std::min(kMaxPieceByteCount, byteCount - begin));
+  const uint64_t pieceByteCount = kMaxPieceByteCount / itemByteCount * itemByteCount;
+  for (uint64_t begin = 0; begin < byteCount; begin += pieceByteCount)
+    copyPiece(commands, *staging, begin, std::min(pieceByteCount, byteCount - begin));
 }
 
 }  // namespace
@@ -106,6 +111,8 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
     void* pointer = nullptr;
     requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
     guard.mapped_ = static_cast<std::byte*>(pointer);
+    // The memory of a CPU device is memory of the process, which the driver allocates in small pages.
+    if (device.facts().kind == DeviceKind::Cpu && byteCount >= kHugePageBytes) requestHugePages(pointer, byteCount);
     guard.isCached_ = (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
   }
   *this = std::move(guard);
@@ -151,18 +158,27 @@ TexelView::TexelView(const Device& device, const Buffer& buffer) : device_(devic
 }
 
 Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage, MemoryKind kind) {
-  Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
+  return uploadWritten(device, bytes.size(), 1, usage, kind, [&](size_t first, std::span<std::byte> to) {
+    std::memcpy(to.data(), &bytes[first], to.size());
+  });
+}
+
+Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCount, VkBufferUsageFlags usage,
+                     MemoryKind kind, const WriteItems& write) {
+  const uint64_t byteCount = uint64_t{itemCount} * itemByteCount;
+  Buffer buffer(device, std::max<uint64_t>(byteCount, 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
   if (buffer.mapped() != nullptr) {
-    copyInParallel(bytes, buffer.mapped());
+    writeInParallel({buffer.mapped(), byteCount}, 0, itemByteCount, write);
     return buffer;
   }
-  forEachPiece(device, bytes.size(), [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
-    copyInParallel(bytes.subspan(begin, count), staging.mapped());
-    commands.begin();
-    commands.copy(staging, 0, buffer, begin, count);
-    commands.barrier();
-    commands.submitAndWait();
-  });
+  forEachPiece(device, byteCount, itemByteCount,
+               [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
+                 writeInParallel({staging.mapped(), count}, begin / itemByteCount, itemByteCount, write);
+                 commands.begin();
+                 commands.copy(staging, 0, buffer, begin, count);
+                 commands.barrier();
+                 commands.submitAndWait();
+               });
   return buffer;
 }
 
@@ -171,13 +187,16 @@ void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::b
     std::ranges::copy(std::span(buffer.mapped(), bytes.size()), bytes.begin());
     return;
   }
-  forEachPiece(device, bytes.size(), [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
-    commands.begin();
-    commands.copy(buffer, begin, staging, 0, count);
-    commands.barrier();
-    commands.submitAndWait();
-    copyInParallel(std::span(staging.mapped(), count), &bytes[begin]);
-  });
+  forEachPiece(device, bytes.size(), 1,
+               [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
+                 commands.begin();
+                 commands.copy(buffer, begin, staging, 0, count);
+                 commands.barrier();
+                 commands.submitAndWait();
+                 writeInParallel(bytes.subspan(begin, count), 0, 1, [&](size_t first, std::span<std::byte> to) {
+                   std::memcpy(to.data(), staging.mapped() + first, to.size());
+                 });
+               });
 }
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/function_ref.h"
 #include "vk/device.h"
 
 namespace asdfvk {
@@ -68,6 +69,21 @@ inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
 /// A device-local buffer with the given bytes, but at least 16 bytes, because an empty buffer cannot be bound.
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);
+
+/// Writes the items from `first` on. bytes: the memory of consecutive items, which may be uncached.
+using WriteItems = FunctionRef<void(size_t first, std::span<std::byte> bytes)>;
+/// The same buffer with items that several threads write directly to mapped memory.
+[[nodiscard]] Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCount,
+                                   VkBufferUsageFlags usage, MemoryKind kind, const WriteItems& write);
+
+/// The same, with write(first, items).
+template <typename Item, typename Write>
+[[nodiscard]] Buffer uploadItems(const Device& device, size_t itemCount, VkBufferUsageFlags usage, const Write& write) {
+  return uploadWritten(device, itemCount, sizeof(Item), usage, MemoryKind::DeviceLocal,
+                       [&](size_t first, std::span<std::byte> bytes) {
+                         write(first, std::span(reinterpret_cast<Item*>(bytes.data()), bytes.size() / sizeof(Item)));
+                       });
+}
 
 /// Copies the first bytes of a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT to the host.
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);

@@ -8,6 +8,7 @@
 
 #include "bvh_invariants.h"
 #include "bvh_meshes.h"
+#include "device_hierarchy.h"
 
 using namespace asdfvk;
 
@@ -16,7 +17,7 @@ namespace {
 using Texel = std::array<uint32_t, 4>;
 
 template <typename T>
-std::vector<Texel> texelsOf(const UnsetVector<T>& items) {
+std::vector<Texel> texelsOf(const std::vector<T>& items) {
   std::vector<Texel> texels(items.size() * sizeof(T) / sizeof(Texel));
   if (!items.empty()) std::memcpy(texels.data(), items.data(), items.size() * sizeof(T));
   return texels;
@@ -46,7 +47,7 @@ TEST_CASE("the device's texels decode to the triangles") {
   const Mesh mesh = soup(1000, 2);
   const Bvh bvh = buildOver(mesh);
   const FaceGeometry geometry = computeFaceGeometry(mesh);
-  const std::vector<Texel> texels = texelsOf(encodeDeviceBvh(bvh, mesh, geometry).triangles);
+  const std::vector<Texel> texels = texelsOf(encodeForDevice(bvh, mesh, geometry).triangles);
   REQUIRE(texels.size() == 3 * mesh.faces.size());
   for (size_t primitive = 0; primitive < mesh.faces.size(); ++primitive) {
     const uint32_t face = texels[3 * primitive][3];

@@ -8,16 +8,16 @@
 #include <cstring>
 #include <numeric>
 
-#include "bvh/device_bvh.h"
 #include "bvh_invariants.h"
 #include "bvh_meshes.h"
+#include "device_hierarchy.h"
 
 using namespace asdfvk;
 
 namespace {
 
-DeviceBvh encodeWide(const Mesh& mesh, const BvhOptions& options = {}) {
-  return encodeDeviceBvh(buildOver(mesh, options), mesh, computeFaceGeometry(mesh));
+DeviceHierarchy encodeWide(const Mesh& mesh, const BvhOptions& options = {}) {
+  return encodeForDevice(buildOver(mesh, options), mesh, computeFaceGeometry(mesh));
 }
 
 struct Walked {
@@ -50,11 +50,11 @@ struct Entered {
 };
 
 // path: the slots entered on the way from the root.
-void walk(const DeviceBvh& bvh, uint32_t index, std::vector<Entered>& path, Walked& walked) {
-  REQUIRE(index < bvh.nodes.size());
+void walk(const DeviceHierarchy& bvh, uint32_t index, std::vector<Entered>& path, Walked& walked) {
+  REQUIRE(index < bvh.wide.nodes.size());
   REQUIRE(++walked.nodeVisits[index] == 1);
   walked.depth = std::max(walked.depth, static_cast<uint32_t>(path.size()));
-  const DeviceWideNode& node = bvh.nodes[index];
+  const DeviceWideNode& node = bvh.wide.nodes[index];
   uint32_t child = node.childBase, triangle = node.triangleBase;
   for (uint32_t slot = 0; slot < 8; ++slot) {
     const uint32_t bits = node.childBits >> 4 * slot & 15;
@@ -69,7 +69,7 @@ void walk(const DeviceBvh& bvh, uint32_t index, std::vector<Entered>& path, Walk
         const DeviceTriangle& t = bvh.triangles[triangle];
         for (const vec3& corner : {t.v0, t.v1, t.v2})
           for (const Entered& entered : path)
-            walked.cornersOutside += distanceOutside(bvh.nodes[entered.node], entered.slot, corner) > -0x1p-20;
+            walked.cornersOutside += distanceOutside(bvh.wide.nodes[entered.node], entered.slot, corner) > -0x1p-20;
       }
     } else {
       for (size_t axis = 0; axis < 3; ++axis) REQUIRE(plane(node, axis, slot, 0) > plane(node, axis, slot, 1));
@@ -79,8 +79,8 @@ void walk(const DeviceBvh& bvh, uint32_t index, std::vector<Entered>& path, Walk
 }
 
 void checkWide(const Mesh& mesh, const BvhOptions& options = {}) {
-  const DeviceBvh bvh = encodeWide(mesh, options);
-  Walked walked{std::vector<int>(bvh.nodes.size()), std::vector<int>(bvh.triangles.size()), 0, 0};
+  const DeviceHierarchy bvh = encodeWide(mesh, options);
+  Walked walked{std::vector<int>(bvh.wide.nodes.size()), std::vector<int>(bvh.triangles.size()), 0, 0};
   std::vector<Entered> path;
   walk(bvh, 0, path, walked);
   CHECK(walked.cornersOutside == 0);
@@ -158,19 +158,20 @@ TEST_CASE("a wide hierarchy of far, flat, huge, tiny and equal triangles keeps i
 }
 
 TEST_CASE("the wide layout of an empty hierarchy is empty") {
-  const DeviceBvh bvh = encodeDeviceBvh(Bvh{}, Mesh{}, FaceGeometry{});
+  const WideBvh bvh = encodeWideBvh(Bvh{});
   CHECK(bvh.nodes.empty());
-  CHECK(bvh.triangles.empty());
+  CHECK(bvh.primitiveFaces.empty());
 }
 
 TEST_CASE("the bits of a wide hierarchy do not depend on the number of threads") {
   const Mesh mesh = sheet(100);
-  const DeviceBvh expected = encodeWide(mesh);
+  const DeviceHierarchy expected = encodeWide(mesh);
   for (const size_t threadCount : {1, 2, 3}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
-    const DeviceBvh bvh = encodeWide(mesh);
-    REQUIRE(bvh.nodes.size() == expected.nodes.size());
-    CHECK(std::memcmp(bvh.nodes.data(), expected.nodes.data(), sizeof(DeviceWideNode) * bvh.nodes.size()) == 0);
+    const DeviceHierarchy bvh = encodeWide(mesh);
+    REQUIRE(bvh.wide.nodes.size() == expected.wide.nodes.size());
+    CHECK(std::memcmp(bvh.wide.nodes.data(), expected.wide.nodes.data(),
+                      sizeof(DeviceWideNode) * bvh.wide.nodes.size()) == 0);
     REQUIRE(bvh.triangles.size() == expected.triangles.size());
     CHECK(std::memcmp(bvh.triangles.data(), expected.triangles.data(), 48 * bvh.triangles.size()) == 0);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "asdf_vk/error.h"
+#include "bvh/device_bvh.h"
 #include "generate/shapes.h"
 #include "spirv/trace_packet.comp.h"
 #include "spirv/trace_rays.comp.h"
@@ -134,10 +135,10 @@ TEST_CASE("a device that does not end long loops has no iteration guard of its o
 TEST_CASE("a hierarchy that exceeds the limit of one fetch is read by the other, unless a fetch is requested") {
   const TracedMesh traced(generateShape("torus", 2000).mesh);
   const uint64_t blockCount = maxBlockCount(traced.scene().bvh);
-  const DeviceBvh encoded = encodeDeviceBvh(traced.scene().bvh, traced.mesh, traced.geometry);
+  const WideBvh encoded = encodeWideBvh(traced.scene().bvh);
   CHECK(encoded.nodes.size() * sizeof(DeviceWideNode) <= 16 * blockCount);
-  CHECK(encoded.triangles.size() * sizeof(DeviceTriangle) <= 16 * blockCount);
-  CHECK(blockCount <= 6 * encoded.triangles.size());
+  CHECK(encoded.primitiveFaces.size() * sizeof(DeviceTriangle) <= 16 * blockCount);
+  CHECK(blockCount <= 6 * encoded.primitiveFaces.size());
 
   DeviceFacts facts;
   const auto fetchWith = [&](uint64_t texelCount, uint64_t storageByteCount, std::optional<BvhFetch> requested) {

@@ -13,7 +13,6 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "core/unset_vector.h"
 #include "predict/prediction_kernel.h"
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
@@ -74,11 +73,12 @@ ComputePipelineDescription describeFaces(Definition definition) {
 
 Buffer uploadFaces(const Device& device, const TraceScene& scene) {
   requireStorageRange(device, scene.geometry.areas.size() * sizeof(PredictionFace));
-  UnsetVector<PredictionFace> faces(scene.geometry.areas.size());
-  forEachInParallel(faces.size(), [&](uint32_t face) {
-    faces[face] = {toGlsl(scene.originOf(face)), scene.representatives[face], toGlsl(scene.geometry.normals[face]), 0};
-  });
-  return uploadBuffer(device, std::as_bytes(std::span(faces)), kStorage);
+  return uploadItems<PredictionFace>(
+      device, scene.geometry.areas.size(), kStorage, [&](size_t first, std::span<PredictionFace> faces) {
+        for (auto face = static_cast<uint32_t>(first); face < first + faces.size(); ++face)
+          faces[face - first] = {toGlsl(scene.originOf(face)), scene.representatives[face],
+                                 toGlsl(scene.geometry.normals[face]), 0};
+      });
 }
 
 class VulkanPredictor final : public DevicePredictor {

@@ -24,10 +24,10 @@ uint32_t codeOf(const TraceScene& scene, uint32_t face, uint32_t triangle) {
 
 }  // namespace
 
-DeviceSeeds::DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle> triangles)
-    : codes_(scene.representatives.size(), kNoFace), triangleCount_(static_cast<uint32_t>(triangles.size())) {
+DeviceSeeds::DeviceSeeds(const TraceScene& scene, std::span<const uint32_t> primitiveFaces)
+    : codes_(scene.representatives.size(), kNoFace), triangleCount_(static_cast<uint32_t>(primitiveFaces.size())) {
   const std::span<const uint32_t> representatives = scene.representatives;
-  forEachInParallel(triangles.size(), [&](uint32_t i) { codes_[triangles[i].faceIndex] = i; });
+  forEachInParallel(primitiveFaces.size(), [&](uint32_t i) { codes_[primitiveFaces[i]] = i; });
   // Sets the entries of copies first. These entries are read from the entry of the representative, which must still be
   // the triangle.
   forEachInParallel(codes_.size(), [&](uint32_t face) {

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "bvh/device_bvh.h"
 #include "core/unset_vector.h"
 #include "trace/trace_scene.h"
 
@@ -20,8 +19,8 @@ struct DeviceCone {
 /// four accesses: to triangles, representatives, areas and normals of the mesh.
 class DeviceSeeds {
  public:
-  /// triangles: the triangles of the hierarchy on the device.
-  DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle> triangles);
+  /// primitiveFaces: the faces of the triangles on the device.
+  DeviceSeeds(const TraceScene& scene, std::span<const uint32_t> primitiveFaces);
 
   /// The cones of these faces in the order of their triangles, because neighbouring cones traverse the same nodes.
   /// Cones that the device cannot trace come last, in any order.

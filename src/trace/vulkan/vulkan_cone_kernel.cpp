@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "bvh/device_bvh.h"
 #include "shared/cone_hit.h"
 #include "spirv/cone_origins.comp.h"
 #include "spirv/trace_packet.comp.h"
@@ -71,9 +72,25 @@ Buffer uploadRays(const Device& device, const Cone& cone) {
 
 bool fetchesTexels(const VulkanConeKernel& kernel) { return kernel.choice().fetch == BvhFetch::Texel; }
 
-Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte> bytes) {
-  if (!fetchesTexels(kernel)) requireStorageRange(kernel.device(), bytes.size());
-  return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
+/// Usage of the buffers of the hierarchy. Throws Error{DeviceLimit} for a storage buffer that is too large.
+VkBufferUsageFlags hierarchyUsage(const VulkanConeKernel& kernel, uint64_t byteCount) {
+  if (fetchesTexels(kernel)) return kTexelUsage;
+  requireStorageRange(kernel.device(), byteCount);
+  return kStorageUsage;
+}
+
+Buffer uploadNodes(const VulkanConeKernel& kernel, const WideBvh& wide) {
+  const auto bytes = std::as_bytes(std::span(wide.nodes));
+  return uploadBuffer(kernel.device(), bytes, hierarchyUsage(kernel, bytes.size()));
+}
+
+Buffer uploadTriangles(const VulkanConeKernel& kernel, const TraceScene& scene, const WideBvh& wide) {
+  const std::span<const uint32_t> faces = wide.primitiveFaces;
+  return uploadItems<DeviceTriangle>(
+      kernel.device(), faces.size(), hierarchyUsage(kernel, faces.size() * sizeof(DeviceTriangle)),
+      [&](size_t first, std::span<DeviceTriangle> triangles) {
+        encodeTriangles(scene.bvh, scene.mesh, scene.geometry, faces.subspan(first), triangles);
+      });
 }
 
 uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
@@ -124,10 +141,10 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
   return largest;
 }
 
-ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
+ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const TraceScene& scene, const WideBvh& wide, const Cone& cone)
     : fetchesTexels_(fetchesTexels(kernel)),
-      nodes_(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.nodes)))),
-      triangles_(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
+      nodes_(uploadNodes(kernel, wide)),
+      triangles_(uploadTriangles(kernel, scene, wide)),
       rays_(uploadRays(kernel.device(), cone)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
       nodeTexels_(kernel.device(), fetchesTexels_ ? nodes_ : nothing_),

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "bvh/device_bvh.h"
+#include "bvh/wide_bvh.h"
 #include "cone/cone.h"
 #include "shared/cone_layout.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
@@ -65,7 +65,7 @@ class VulkanConeKernel {
 class ConeBuffers {
  public:
   /// Throws Error{DeviceLimit} if the scene exceeds the limits of the device.
-  ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
+  ConeBuffers(const VulkanConeKernel& kernel, const TraceScene& scene, const WideBvh& wide, const Cone& cone);
 
   /// The first bindings of every traversal kernel: nodes and triangles as texels, then as storage.
   [[nodiscard]] std::vector<Binding> hierarchyBindings() const;

@@ -28,7 +28,7 @@ constexpr size_t kChunksInFlight = 2;
 class VulkanTracer final : public ConeTracer {
  public:
   VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
-      : kernel_(kernel), scene_(scene), cone_(cone), buffers_(kernel, encode(), cone) {
+      : kernel_(kernel), scene_(scene), cone_(cone), buffers_(kernel, scene, encode(), cone) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
     ASDFVK_CHECK(cone.definition == kernel.definition());
   }
@@ -69,10 +69,10 @@ class VulkanTracer final : public ConeTracer {
   double encodeSeconds() const override { return encodeSeconds_; }
 
  private:
-  DeviceBvh encode() {
+  WideBvh encode() {
     const Stopwatch watch;
-    DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry);
-    seeds_.emplace(scene_, bvh.triangles);
+    WideBvh bvh = encodeWideBvh(scene_.bvh);
+    seeds_.emplace(scene_, bvh.primitiveFaces);
     encodeSeconds_ = watch.seconds();
     return bvh;
   }
