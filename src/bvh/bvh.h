@@ -26,7 +26,7 @@ struct BvhNode {
 /// A binary bounding volume hierarchy. nodes[0] is the root; `nodes` is empty without triangles.
 struct Bvh {
   UnsetVector<BvhNode> nodes;
-  std::vector<uint32_t> primitiveFaces;  ///< Face index of each primitive. No face occurs twice.
+  UnsetVector<uint32_t> primitiveFaces;  ///< Face index of each primitive. No face occurs twice.
   uint32_t depth = 0;                    ///< Levels below the root.
   Normalization normalization;
 };

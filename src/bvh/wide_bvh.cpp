@@ -63,19 +63,31 @@ int exponentFor(double extent) {
 
 constexpr float kNone = -1e30f;
 
-// Index of the greatest of eight numbers. The index replaces the last three bits of each number, for which no precision
-// is required.
-uint32_t indexOfMax(const Float4& low, const Float4& high) {
+// In registers: a vector waits for each of its lanes that was written to memory alone.
+struct EightNumbers {
   using Ints = IntsOf<Float4>;
-  const Ints indices = {0, 1, 2, 3};
-  const auto tagged = [](const Float4& numbers, const Ints& tags) {
-    return std::bit_cast<Float4>((std::bit_cast<Ints>(numbers) & ~7) | tags);
-  };
-  const Float4 greatest = max(tagged(low, indices), tagged(high, indices + 4));
-  return std::bit_cast<uint32_t>(std::max(std::max(float{greatest[0]}, float{greatest[1]}),
-                                          std::max(float{greatest[2]}, float{greatest[3]}))) &
-         7;
-}
+  static constexpr Ints kLowIndices = {0, 1, 2, 3}, kHighIndices = {4, 5, 6, 7};
+
+  Float4 low, high;
+
+  EightNumbers(const Float4& l, const Float4& h) : low(l), high(h) {}
+  // The index replaces the last three bits of each number, for which no precision is required.
+  [[nodiscard]] uint32_t indexOfMax() const {
+    const auto tagged = [](const Float4& numbers, const Ints& indices) {
+      return std::bit_cast<Float4>((std::bit_cast<Ints>(numbers) & ~7) | indices);
+    };
+    const Float4 greatest = max(tagged(low, kLowIndices), tagged(high, kHighIndices));
+    return std::bit_cast<uint32_t>(std::max(std::max(float{greatest[0]}, float{greatest[1]}),
+                                            std::max(float{greatest[2]}, float{greatest[3]}))) &
+           7;
+  }
+  void set(uint32_t index, float number) {
+    const auto at = broadcast<Ints>(static_cast<int32_t>(index));
+    const auto all = broadcast<Float4>(number);
+    low = kLowIndices == at ? all : low;
+    high = kHighIndices == at ? all : high;
+  }
+};
 
 uint32_t floorOf(double notNegative) { return static_cast<uint32_t>(notNegative); }
 uint32_t ceilOf(double notNegative) {
@@ -242,22 +254,23 @@ std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> childre
   for (const Box3f& child : children) all.add(child);
   const Vec3f centre = all.centre();
   std::array<Vec3f, kWideChildCount> offsets;
-  std::array<float, kWideChildCount> distances;
-  distances.fill(kNone);
+  std::array<float, kWideChildCount> offsetLengths;
+  offsetLengths.fill(kNone);
   for (size_t child = 0; child < children.size(); ++child) {
     const Vec3f& offset = offsets[child] = children[child].centre() - centre;
-    distances[child] = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
+    offsetLengths[child] = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
   }
   const Float4 xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
   std::array<uint32_t, kWideChildCount> slots{};
-  std::array<float, kWideChildCount> penalties{};  // kNone for assigned slots.
+  EightNumbers distances(load<Float4>(&offsetLengths[0]), load<Float4>(&offsetLengths[4]));
+  EightNumbers penalties(Float4{}, Float4{});  // kNone for assigned slots.
   for (size_t i = 0; i < children.size(); ++i) {
-    const uint32_t child = indexOfMax(load<Float4>(&distances[0]), load<Float4>(&distances[4]));
-    distances[child] = kNone;
+    const uint32_t child = distances.indexOfMax();
+    distances.set(child, kNone);
     const auto [x, y, z] = offsets[child];
     const Float4 along = x * xSigns + y * ySigns;
-    slots[child] = indexOfMax(along - z + load<Float4>(&penalties[0]), along + z + load<Float4>(&penalties[4]));
-    penalties[slots[child]] = kNone;
+    slots[child] = EightNumbers(along - z + penalties.low, along + z + penalties.high).indexOfMax();
+    penalties.set(slots[child], kNone);
   }
   return slots;
 }

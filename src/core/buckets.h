@@ -9,14 +9,15 @@
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
+#include "core/unset_vector.h"
 
 namespace asdfvk {
 
 /// Entries grouped into numbered buckets, in the layout of compressed sparse rows.
 template <typename Entry>
 struct Buckets {
-  std::vector<uint32_t> offsets;  ///< #buckets+1
-  std::vector<Entry> entries;     ///< In the order of the buckets, ascending within each bucket.
+  UnsetVector<uint32_t> offsets;  ///< #buckets+1
+  UnsetVector<Entry> entries;     ///< In the order of the buckets, ascending within each bucket.
 
   [[nodiscard]] uint32_t bucketCount() const { return static_cast<uint32_t>(offsets.size() - 1); }
   [[nodiscard]] std::span<const Entry> operator[](uint32_t bucket) const {

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "core/parallel.h"
+#include "core/unset_vector.h"
 
 namespace asdfvk {
 
@@ -45,7 +45,7 @@ class DisjointSets {
   [[nodiscard]] std::atomic_ref<uint32_t> parentOf(uint32_t item) { return std::atomic_ref<uint32_t>(parents_[item]); }
   [[nodiscard]] uint32_t load(uint32_t item) { return parentOf(item).load(std::memory_order_relaxed); }
 
-  std::vector<uint32_t> parents_;  ///< The parent of an item is never above the item.
+  UnsetVector<uint32_t> parents_;  ///< The parent of an item is never above the item.
 };
 
 }  // namespace asdfvk

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/function_ref.h"
+#include "core/unset_vector.h"
 
 /// Parallel loops by TBB. Only parallel.cpp includes TBB, because the headers of TBB have 94,000 lines. Therefore
 /// parallel.cpp also defines BackgroundTask and ThreadLimit.
@@ -61,6 +62,14 @@ void forEachTask(size_t count, const Body& body) {
   forEachRange(count, 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) body(i);
   });
+}
+
+/// `count` copies of a value.
+template <typename T>
+[[nodiscard]] UnsetVector<T> filledInParallel(size_t count, const T& value) {
+  UnsetVector<T> copies(count);
+  forEachInParallel(count, [&](size_t i) { copies[i] = value; });
+  return copies;
 }
 
 /// Reduction of [0, count). fold(begin, end) computes the value of each block of kBlockSize items, in parallel.

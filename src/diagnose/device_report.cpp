@@ -127,7 +127,8 @@ struct TestEquation {
   }
 
   const DualGraph& graph;
-  std::vector<double> weights, constraints;
+  UnsetVector<double> weights;
+  std::vector<double> constraints;
   std::vector<uint32_t> componentOf;
 };
 

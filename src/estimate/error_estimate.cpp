@@ -135,13 +135,15 @@ void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measur
 
 EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& input) {
   EstimatedErrors result;
-  result.expected.assign(input.result.size(), 0);
   const double range = tracedRange(input);
   const std::vector<Measurement> measured = measureErrors(input);
   // Faces with inclusion probability 1 represent only themselves.
   const auto representativeCount =
       std::count_if(measured.begin(), measured.end(), [](const Measurement& m) { return m.weight > 0; });
-  if (representativeCount < 2 || !(range > 0)) return result;
+  if (representativeCount < 2 || !(range > 0)) {
+    result.expected = filledInParallel(input.result.size(), 0.0);
+    return result;
+  }
 
   const double unit = unitOf(range);
   double errorSum = 0, indicatorSum = 0;
@@ -156,9 +158,11 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& in
   const double ratioDeviation = std::sqrt(squareSum * sampleSize / (sampleSize - 1)) / indicatorSum;
   const double gain = gainBySeeds(input), gainDeviation = 1 - gain;
 
+  result.expected.resize(input.result.size());
   const auto expectIn = [&](size_t begin, size_t end) {
     ExpectedSums sums;
     for (size_t face = begin; face < end; ++face) {
+      result.expected[face] = 0;
       if (std::isnan(input.result[face])) continue;
       const double traced = input.traced.values[face], indicator = indicatorOf(input, face);
       const bool isInterpolated = std::isnan(traced);

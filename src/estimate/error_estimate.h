@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "asdf_vk/report.h"
+#include "core/unset_vector.h"
 #include "estimate/held_out.h"
 #include "mesh/mesh.h"
 #include "trace/traced_seeds.h"
@@ -25,7 +26,7 @@ struct EstimateInput {
 
 struct EstimatedErrors {
   ErrorEstimate estimate;
-  std::vector<double> expected;  ///< #F, in the unit of the mesh; 0 where a face has no value.
+  UnsetVector<double> expected;  ///< #F, in the unit of the mesh; 0 where a face has no value.
 };
 
 /// Error of the result, from the errors at held-out faces. estimate.heldOutCount is 0 in two cases: fewer than two

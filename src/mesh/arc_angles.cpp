@@ -89,9 +89,9 @@ double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g)
   return isConcave ? angle : -angle;
 }
 
-std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry, InstructionSet instructionSet) {
+UnsetVector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry, InstructionSet instructionSet) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, size_t{graph.faceCount()});
-  std::vector<float> angles(graph.neighbours.size());
+  UnsetVector<float> angles(graph.neighbours.size());
   forEachRange(graph.faceCount(), kItemsPerTask / 4, [&](size_t begin, size_t end) {
     dispatch<Float8>(instructionSet, [&]<typename>() ASDFVK_ALWAYS_INLINE {
       setAnglesFrom(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), graph, geometry, angles);

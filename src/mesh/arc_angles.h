@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "core/simd.h"
+#include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
@@ -18,7 +18,7 @@ namespace asdfvk {
 [[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
 
 /// signedDihedralAngle() of each arc, in the order of graph.neighbours, rounded to float.
-[[nodiscard]] std::vector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry,
+[[nodiscard]] UnsetVector<float> arcAngles(const DualGraph& graph, const FaceGeometry& geometry,
                                            InstructionSet instructionSet = widestInstructionSet());
 
 /// The result of arcAngles(), computed at the first use. Samplers and the equation share it. Graph and geometry must
@@ -32,7 +32,7 @@ class ArcAngles {
     return angles_;
   }
   /// Like get(), and releases the memory. A later use computes the angles again.
-  [[nodiscard]] std::vector<float> take() {
+  [[nodiscard]] UnsetVector<float> take() {
     (void)get();
     return std::exchange(angles_, {});
   }
@@ -40,7 +40,7 @@ class ArcAngles {
  private:
   const DualGraph& graph_;
   const FaceGeometry& geometry_;
-  std::vector<float> angles_;
+  UnsetVector<float> angles_;
 };
 
 }  // namespace asdfvk

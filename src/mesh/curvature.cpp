@@ -37,7 +37,7 @@ std::vector<double> vertexAngleDefects(const TriangleMesh& mesh) {
   const auto mark = [&](uint32_t vertex) {
     std::atomic_ref<uint8_t>(isOnBoundary[vertex]).store(1, std::memory_order_relaxed);
   };
-  const std::vector<EdgeKind> kinds = surveyEdges(mesh).edgeKinds;
+  const UnsetVector<EdgeKind> kinds = surveyEdges(mesh).edgeKinds;
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
     for (size_t i = 0; i < 3; ++i) {
       if (kinds[size_t{3} * f + i] != EdgeKind::Boundary) continue;

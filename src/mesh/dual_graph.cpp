@@ -31,8 +31,8 @@ class Survey {
             countInParallel(mesh.vertices.size(), [&](uint32_t v) { return !isFinite(mesh.vertices[v]); }) == 0),
         hasDistinctVertices_(
             countInParallel(mesh.faces.size(), [&](uint32_t f) { return !hasDistinctVertices(mesh.faces[f]); }) == 0),
-        across_(3 * mesh.faces.size(), kNoNeighbour),
-        kinds_(3 * mesh.faces.size(), EdgeKind::Regular) {}
+        across_(filledInParallel(3 * mesh.faces.size(), kNoNeighbour)),
+        kinds_(filledInParallel(3 * mesh.faces.size(), EdgeKind::Regular)) {}
 
   EdgeSurvey run() {
     visitEdges();
@@ -106,6 +106,7 @@ class Survey {
   DualGraph closedGraph() {
     DualGraph graph;
     graph.offsets.resize(mesh_.faces.size() + 1);
+    graph.offsets[0] = 0;
     forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
       graph.offsets[f + 1] = 3 * (f + 1);
       std::sort(&across_[size_t{3} * f], &across_[size_t{3} * f] + 3);
@@ -117,9 +118,11 @@ class Survey {
   DualGraph anyGraph(std::vector<Arc> furtherArcs) {
     sortInParallel(furtherArcs.begin(), furtherArcs.end());
     DualGraph graph;
-    std::vector<uint32_t>& offsets = graph.offsets;
-    offsets.assign(mesh_.faces.size() + 1, 0);
+    UnsetVector<uint32_t>& offsets = graph.offsets;
+    offsets.resize(mesh_.faces.size() + 1);
+    offsets[0] = 0;
     forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      offsets[f + 1] = 0;
       for (size_t i = 0; i < 3; ++i) offsets[f + 1] += across_[size_t{3} * f + i] < kMany ? 1 : 0;
     });
     for (const auto& [face, neighbour] : furtherArcs) ++offsets[face + 1];
@@ -151,8 +154,8 @@ class Survey {
 
   const TriangleMesh& mesh_;
   bool hasFiniteVertices_, hasDistinctVertices_;
-  std::vector<uint32_t> across_;  ///< #F x 3: the face on the other side of each edge.
-  std::vector<EdgeKind> kinds_;   ///< See EdgeSurvey::edgeKinds.
+  UnsetVector<uint32_t> across_;  ///< #F x 3: the face on the other side of each edge.
+  UnsetVector<EdgeKind> kinds_;   ///< See EdgeSurvey::edgeKinds.
   PerThread<Findings> findings_;
 };
 

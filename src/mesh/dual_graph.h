@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/unset_vector.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -16,8 +16,8 @@ inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 /// have two arcs in each direction. Compressed rows: the neighbours of face f are neighbours[offsets[f]] ..
 /// neighbours[offsets[f + 1] - 1], in ascending order.
 struct DualGraph {
-  std::vector<uint32_t> offsets;     ///< #F+1
-  std::vector<uint32_t> neighbours;  ///< Face indices.
+  UnsetVector<uint32_t> offsets;     ///< #F+1
+  UnsetVector<uint32_t> neighbours;  ///< Face indices.
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(offsets.size() - 1); }
   [[nodiscard]] std::span<const uint32_t> neighboursOf(uint32_t face) const {
@@ -38,7 +38,7 @@ struct EdgeSurvey {
   DualGraph graph;  ///< See buildDualGraph().
   /// #F x 3: entry 3 f + i is the kind of the edge from corner i of face f to the next corner. The kind is Regular if f
   /// is not proper.
-  std::vector<EdgeKind> edgeKinds;
+  UnsetVector<EdgeKind> edgeKinds;
   uint64_t boundaryEdgeCount = 0;
   uint64_t nonManifoldEdgeCount = 0;
   uint64_t inconsistentEdgeCount = 0;

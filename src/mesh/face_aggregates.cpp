@@ -37,7 +37,7 @@ class AggregateGrower {
   /// aggregateOf: #F. For each face of the block, receives the index of its aggregate in the block. members: #F.
   /// Receives the faces of each aggregate; the first of them is the centre.
   AggregateGrower(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits, Block& block,
-                  std::vector<uint32_t>& aggregateOf, std::vector<uint32_t>& members)
+                  std::span<uint32_t> aggregateOf, std::span<uint32_t> members)
       : graph_(graph),
         geometry_(geometry),
         limits_(limits),
@@ -47,6 +47,7 @@ class AggregateGrower {
         memberEnd_(block.begin) {}
 
   void growAll() {
+    std::ranges::fill(aggregateOf_.subspan(block_.begin, block_.end - block_.begin), kNoAggregate);
     for (uint32_t face = block_.begin; face < block_.end; ++face)
       if (aggregateOf_[face] == kNoAggregate) grow(face);
   }
@@ -80,7 +81,7 @@ class AggregateGrower {
   const AggregateLimits limits_;
   const double minCosine_ = std::cos(inRadians(kMaxAngleDegrees));
   Block& block_;
-  std::vector<uint32_t>&aggregateOf_, &members_;
+  std::span<uint32_t> aggregateOf_, members_;
   uint32_t memberEnd_;
   double maxLength_ = 0;  // Greatest distance of a face from the centre of the current aggregate.
 };
@@ -112,15 +113,16 @@ std::vector<Block> blocksOf(const DualGraph& graph) {
 Buckets<uint32_t> growAggregates(const DualGraph& graph, const FaceGeometry& geometry, const AggregateLimits& limits,
                                  FaceAggregates& aggregates) {
   std::vector<Block> blocks = blocksOf(graph);
-  aggregates.aggregateOf.assign(graph.faceCount(), kNoAggregate);
-  Buckets<uint32_t> members{{}, std::vector<uint32_t>(graph.faceCount())};
+  aggregates.aggregateOf.resize(graph.faceCount());
+  Buckets<uint32_t> members{{}, UnsetVector<uint32_t>(graph.faceCount())};
   forEachTask(blocks.size(), [&](size_t i) {
     AggregateGrower(graph, geometry, limits, blocks[i], aggregates.aggregateOf, members.entries).growAll();
   });
   std::vector<uint32_t> first(1, 0);  // The first aggregate of each block.
   for (const Block& block : blocks) first.push_back(first.back() + static_cast<uint32_t>(block.centres.size()));
   aggregates.centres.resize(first.back());
-  members.offsets.assign(first.back() + size_t{1}, 0);
+  members.offsets.resize(first.back() + size_t{1});
+  members.offsets[0] = 0;
   forEachTask(blocks.size(), [&](size_t i) {
     std::ranges::copy(blocks[i].centres, aggregates.centres.begin() + first[i]);
     std::ranges::copy(blocks[i].memberEnds, members.offsets.begin() + first[i] + 1);
@@ -138,8 +140,9 @@ void connect(const DualGraph& graph, const Buckets<uint32_t>& members, FaceAggre
   constexpr uint32_t kBlockSize = 4096;
   const auto aggregateCount = static_cast<uint32_t>(aggregates.centres.size());
   std::vector<std::vector<uint32_t>> blocks((aggregateCount + kBlockSize - 1) / kBlockSize);
-  std::vector<uint32_t>& offsets = aggregates.graph.offsets;
-  offsets.assign(aggregateCount + size_t{1}, 0);
+  UnsetVector<uint32_t>& offsets = aggregates.graph.offsets;
+  offsets.resize(aggregateCount + size_t{1});
+  offsets[0] = 0;
   forEachTask(blocks.size(), [&](size_t block) {
     std::vector<uint32_t>& rows = blocks[block];
     for (auto aggregate = static_cast<uint32_t>(block) * kBlockSize;
@@ -178,13 +181,14 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
   forEachInParallel(values.size(), [&](uint32_t face) {
     if (!aggregates.isCentre(face)) values[face] = values[aggregates.centreOf(face)];
   });
-  std::vector<double> next(values.size());
-  const auto relax = [&](uint32_t face, uint32_t begin, uint32_t end) {
-    const double own = values[face];
+  UnsetVector<double> other(values.size());
+  static_assert(kSweepCount % 2 == 0);  // The last sweep writes to `values`.
+  const auto relax = [&](uint32_t face, std::span<const double> from, std::span<double> to, size_t begin, size_t end) {
+    const double own = from[face];
     double sum = 0, weightSum = 0;  // Differences are summed instead of values, so that equal values remain equal.
     double least = 0, greatest = 0;
     for (const uint32_t neighbour : graph.neighboursOf(face)) {
-      const double difference = (neighbour >= begin && neighbour < end ? next : values)[neighbour] - own;
+      const double difference = (neighbour >= begin && neighbour < end ? to : from)[neighbour] - own;
       if (!std::isfinite(difference)) continue;
       const double versine = 1 - dot(geometry.normals[face], geometry.normals[neighbour]);
       const double weight = 1 / (1 + perVersine * versine);
@@ -193,18 +197,19 @@ void spreadFromCentres(const DualGraph& graph, const FaceGeometry& geometry, con
       least = std::min(least, difference);
       greatest = std::max(greatest, difference);
     }
-    if (weightSum > 0) next[face] = own + std::clamp(kRelaxation * sum / weightSum, least, greatest);
+    if (weightSum > 0) to[face] = own + std::clamp(kRelaxation * sum / weightSum, least, greatest);
   };
-  for (int sweep = 0; sweep < kSweepCount; ++sweep, std::swap(values, next))
+  std::span<double> from = values, to = other;
+  for (int sweep = 0; sweep < kSweepCount; ++sweep, std::swap(from, to))
     forEachTask((values.size() + kSweepBlockSize - 1) / kSweepBlockSize, [&](size_t block) {
       const size_t begin = block * kSweepBlockSize, end = std::min(begin + kSweepBlockSize, values.size());
-      std::copy_n(&values[begin], end - begin, &next[begin]);
+      std::copy_n(&from[begin], end - begin, &to[begin]);
       for (size_t face = begin; face < end; ++face) {
         if (const size_t later = face + kPrefetchDistance; later < end)
           for (const uint32_t neighbour : graph.neighboursOf(static_cast<uint32_t>(later)))
             prefetchMemory(&geometry.normals[neighbour]);
-        if (!aggregates.isCentre(static_cast<uint32_t>(face)) && std::isfinite(values[face]))
-          relax(static_cast<uint32_t>(face), static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
+        if (!aggregates.isCentre(static_cast<uint32_t>(face)) && std::isfinite(from[face]))
+          relax(static_cast<uint32_t>(face), from, to, begin, end);
       }
     });
 }

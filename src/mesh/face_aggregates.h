@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
@@ -15,7 +16,7 @@ namespace asdfvk {
 struct FaceAggregates {
   std::vector<uint32_t> centres;      ///< #A: a face of each aggregate, ascending.
   std::vector<uint32_t> sizes;        ///< #A: number of faces.
-  std::vector<uint32_t> aggregateOf;  ///< #F
+  UnsetVector<uint32_t> aggregateOf;  ///< #F
   DualGraph graph;                    ///< #A nodes. There is an arc between two aggregates that share an edge.
 
   [[nodiscard]] uint32_t centreOf(uint32_t face) const { return centres[aggregateOf[face]]; }

@@ -8,6 +8,7 @@
 
 #include "core/box3.h"
 #include "core/simd.h"
+#include "core/unset_vector.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -18,10 +19,10 @@ inline constexpr double kDegenerateHeightRatio = 1e-10;
 
 /// Geometry of the faces, #F entries each, in the unit of the mesh.
 struct FaceGeometry {
-  std::vector<Vec3d> barycentres;  ///< A barycentre is finite only if all corners are finite.
+  UnsetVector<Vec3d> barycentres;  ///< A barycentre is finite only if all corners are finite.
   /// Unit vectors by the right-hand rule over the order of the corners; zero for a degenerate face.
-  std::vector<Vec3d> normals;
-  std::vector<double> areas;  ///< 0 for a degenerate face.
+  UnsetVector<Vec3d> normals;
+  UnsetVector<double> areas;  ///< 0 for a degenerate face.
   Box3d bounds;               ///< Bounding box of the finite vertices that faces use.
 
   /// Whether the face has zero area (see kDegenerateHeightRatio) or a non-finite corner. Such a face neither casts rays

@@ -48,7 +48,8 @@ std::vector<double> lengthLimits(const PreparedMesh& prepared) {
 DualGraph onCentres(const FaceAggregates& aggregates) {
   DualGraph graph;
   const std::vector<uint32_t>& centres = aggregates.centres;
-  graph.offsets.assign(aggregates.aggregateOf.size() + 1, 0);
+  graph.offsets.resize(aggregates.aggregateOf.size() + 1);
+  graph.offsets[0] = 0;
   forEachInParallel(centres.size(), [&](uint32_t aggregate) {
     const size_t end = aggregate + 1 < centres.size() ? centres[aggregate + 1] : aggregates.aggregateOf.size();
     for (size_t face = centres[aggregate]; face < end; ++face)
@@ -80,8 +81,8 @@ std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared
   return savesTime && centreCount >= kMinAggregatesPerSeed * seedCount ? std::move(aggregated) : nullptr;
 }
 
-std::vector<uint32_t> AggregatedMesh::representedCounts() const {
-  std::vector<uint32_t> counts(aggregates_.aggregateOf.size(), 0);
+UnsetVector<uint32_t> AggregatedMesh::representedCounts() const {
+  UnsetVector<uint32_t> counts(aggregates_.aggregateOf.size());
   forEachInParallel(aggregates_.centres.size(),
                     [&](uint32_t i) { counts[aggregates_.centres[i]] = aggregates_.sizes[i]; });
   return counts;

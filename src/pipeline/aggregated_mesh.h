@@ -19,8 +19,8 @@ class AggregatedMesh {
     return {graph_, componentOf, components.size(), traceableFaces_, {}, this};
   }
   [[nodiscard]] const FaceAggregates& aggregates() const { return aggregates_; }
-  /// #F: the number of faces that a centre represents; 0 for other faces.
-  [[nodiscard]] std::vector<uint32_t> representedCounts() const;
+  /// #F: the number of faces that a centre represents; unset for other faces.
+  [[nodiscard]] UnsetVector<uint32_t> representedCounts() const;
   /// Sets the values of the faces that are not centres, see spreadFromCentres(). Their indicator, #F or empty, becomes
   /// that of their centre.
   void spread(std::vector<double>& values, std::vector<double>& indicator) const;

@@ -86,7 +86,7 @@ void removeErrorsOutside(const PreparedMesh& prepared, const FaceDomain& domain,
 
 std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
                             SegmentedValues&& segmented) {
-  const std::vector<double>& areas = prepared.geometry.areas;
+  const std::span<const double> areas = prepared.geometry.areas;
   std::vector<Field> fields;
   fields.push_back(makeField("sdf", valuesOfInputFaces(prepared.mesh, values, areas)));
   fields.push_back(makeField("seed", seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)));

@@ -62,7 +62,7 @@ class Interpolation {
   ArcAngles& arcAngles_;
   const Options& options_;
   EquationSolver& solver_;
-  std::vector<double> weights_;  ///< One per arc of the dual graph; computed at first use, so that they take no memory
+  UnsetVector<double> weights_;  ///< One per arc of the dual graph; computed at first use, so that they take no memory
                                  ///< while rays are traced.
 };
 

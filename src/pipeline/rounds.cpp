@@ -286,7 +286,7 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
       return !traced_.isSeed[face] && !std::binary_search(extremes.begin(), extremes.end(), face);
     });
     const AggregatedMesh* const aggregated = computation_.domain.aggregated;
-    const std::vector<uint32_t> counts = aggregated ? aggregated->representedCounts() : std::vector<uint32_t>();
+    const UnsetVector<uint32_t> counts = aggregated ? aggregated->representedCounts() : UnsetVector<uint32_t>();
     heldOut = sampleHeldOut(candidates, indicator, shares.heldOut,
                             heldOutSeed(options_.randomSeed, heldOut_.faces.size()), counts);
     faces = extremes;

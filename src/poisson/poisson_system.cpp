@@ -87,15 +87,15 @@ void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, s
 
 }  // namespace
 
-std::vector<double> featureWeights(std::span<const float> arcAngles) {
-  std::vector<double> weights(arcAngles.size());
+UnsetVector<double> featureWeights(std::span<const float> arcAngles) {
+  UnsetVector<double> weights(arcAngles.size());
   forEachInParallel(weights.size(), [&](size_t arc) { weights[arc] = featureWeight(arcAngles[arc]); });
   return weights;
 }
 
-std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry) {
+UnsetVector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
-  std::vector<double> weights(graph.neighbours.size());
+  UnsetVector<double> weights(graph.neighbours.size());
   const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
   forEachInParallel(graph.faceCount(), [&](uint32_t face) {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {

@@ -22,11 +22,11 @@ inline constexpr double kConvexScaleDegrees = 8;
 ///
 /// ArcWeights::Feature: 1 / (1 + (a / s)^2), where a is the dihedral angle and s is kConcaveScaleDegrees or
 /// kConvexScaleDegrees. No unit. arcAngles: see arcAngles().
-[[nodiscard]] std::vector<double> featureWeights(std::span<const float> arcAngles);
+[[nodiscard]] UnsetVector<double> featureWeights(std::span<const float> arcAngles);
 /// ArcWeights::Distance: 1 / distance of the barycentres (ASDF paper, section 4.1). Unit: 1 / length. Distances below
 /// 1e-9 of the diagonal of the bounding box are replaced by this bound, which keeps the matrix finite for coincident
 /// barycentres.
-[[nodiscard]] std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry);
+[[nodiscard]] UnsetVector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry);
 
 /// A u = b for the unknown faces of an interpolation. A is symmetric, positive definite and an M-matrix: its
 /// off-diagonal entries are minus the weights. Rows are compressed, columns strictly ascending.

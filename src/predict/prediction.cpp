@@ -35,7 +35,7 @@ class CellPredictor {
     appendHits(cells);
     for (size_t i = 0; i < cells.size(); ++i) {
       nextFaces_ = {};
-      if (i + 1 < cells.size()) nextFaces_ = input_.cells.faces[cells[i + 1]];
+      if (i + 1 < cells.size()) nextFaces_ = input_.cells[cells[i + 1]];
       runCell(cells[i], values);
     }
   }
@@ -150,7 +150,7 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 /// Copies the values of faces that were in this cell in the earlier prediction, if the contributing seeds are
 /// unchanged. Puts the other faces into remainingFaces_.
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
-  const std::span<const uint32_t> faces = input_.cells.faces[cell];
+  const std::span<const uint32_t> faces = input_.cells[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
   if (!input_.hasEarlierSeeds(cell)) return;
   std::erase_if(remainingFaces_, [&](uint32_t face) {
@@ -210,7 +210,7 @@ double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
 
 /// The cells in the order of their seeds in the hierarchy. In this order, neighbours in space are close to each other.
 std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds, const SeedCells& cells) {
-  const std::vector<uint32_t>& faces = scene.bvh.primitiveFaces;
+  const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
   const auto cellAt = [&](size_t primitive) {
     const uint32_t cell = cells.cellOf[faces[primitive]];
     return cell != kNoCell && seeds[cell] == faces[primitive] ? cell : kNoCell;
@@ -237,7 +237,7 @@ void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
 /// Gives each new cell those faces around its seed that are nearer to this seed than to the seed of their current cell.
 /// Returns these faces, ascending.
 std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
-                                 std::span<const uint32_t> newCells, std::vector<uint32_t>& cellOf) {
+                                 std::span<const uint32_t> newCells, std::span<uint32_t> cellOf) {
   const auto squaredDistance = [&](uint32_t face, uint32_t cell) {
     return comparableSquare(geometry.barycentres[face] - geometry.barycentres[seeds[cell]]);
   };
@@ -275,7 +275,7 @@ Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const 
                         {},
                         NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
   const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
-  const PredictionInput input{scene, cone, hits, cells, prediction.nearest, options, order, earlier};
+  const PredictionInput input{scene, cone, hits, cells.faces, prediction.nearest, options, order, earlier};
   if (device != nullptr)
     device->predict(input, prediction.values, control);
   else
@@ -292,19 +292,15 @@ std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& gr
     if (const uint32_t seed = hits.seeds[cell]; seed != kNoFace && prediction.cellOf[seed] != cell)
       newCells.push_back(cell);
   // A copy, so that a failure of the device leaves the prediction unchanged.
-  std::vector<uint32_t> cellOf = prediction.cellOf;
+  UnsetVector<uint32_t> cellOf = prediction.cellOf;
   const std::vector<uint32_t> claimed = claimFaces(graph, scene.geometry, hits.seeds, newCells, cellOf);
-  SeedCells cells{std::vector<uint32_t>(graph.faceCount(), kNoCell),
-                  sortIntoBuckets<uint32_t>(hits.seeds.size(), claimed.size(),
-                                            [&](uint32_t i, const auto& put) { put(cellOf[claimed[i]], claimed[i]); })};
+  const Buckets<uint32_t> cells = sortIntoBuckets<uint32_t>(
+      hits.seeds.size(), claimed.size(), [&](uint32_t i, const auto& put) { put(cellOf[claimed[i]], claimed[i]); });
   std::vector<ReplacedValue> replaced;
   replaced.reserve(claimed.size());
-  for (const uint32_t face : claimed) {
-    cells.cellOf[face] = cellOf[face];
-    replaced.push_back({face, std::exchange(prediction.values[face], kNoValue)});
-  }
+  for (const uint32_t face : claimed) replaced.push_back({face, std::exchange(prediction.values[face], kNoValue)});
   NearestCells nearest = prediction.nearest;
-  nearest.update(newCells, cells.faces, cellOf, graph, scene.geometry, hits.seeds);
+  nearest.update(newCells, cells, cellOf, graph, scene.geometry, hits.seeds);
   const Prediction none;
   const PredictionInput input{scene, cone, hits, cells, nearest, options, newCells, none};
   try {

@@ -28,7 +28,7 @@ struct Prediction {
   /// #F, seeds included, in the unit of the mesh; kNoValue if a face is degenerate, belongs to no cell, or has no hit
   /// point in its cone.
   std::vector<double> values;
-  std::vector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
+  UnsetVector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
@@ -37,7 +37,7 @@ struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
   const SeedHitsView& hits;
-  const SeedCells& cells;  ///< The cells of the faces that are to be predicted.
+  const Buckets<uint32_t>& cells;  ///< The faces of each cell that are to be predicted.
   const NearestCells& nearest;
   const PredictionOptions& options;
   /// The cells that are not empty, in an order in which neighbours in space are close to each other.

@@ -26,9 +26,9 @@ bool claim(uint32_t& cellOfFace, uint32_t cell) {
 }
 
 /// Breadth-first search. All faces at one distance from the seeds are processed in parallel.
-std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uint32_t> seeds) {
+UnsetVector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uint32_t> seeds) {
   ASDFVK_CHECK_OP(seeds.size(), <, size_t{kClaimed} - 1);
-  std::vector<uint32_t> cellOf(graph.faceCount(), kNoCell);
+  UnsetVector<uint32_t> cellOf = filledInParallel(graph.faceCount(), kNoCell);
   std::vector<uint32_t> front;
   for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
     if (seeds[cell] == kNoFace) continue;
@@ -62,7 +62,7 @@ std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uin
 SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds) {
   SeedCells cells;
   cells.cellOf = floodFromSeeds(graph, seeds);
-  const std::vector<uint32_t>& cellOf = cells.cellOf;
+  const std::span<const uint32_t> cellOf = cells.cellOf;
   cells.faces = sortIntoBuckets<uint32_t>(seeds.size(), graph.faceCount(), [&](uint32_t face, const auto& put) {
     if (cellOf[face] != kNoCell) put(cellOf[face], face);
   });

@@ -26,7 +26,7 @@ inline constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
 /// Voronoi cells of the seeds on the dual graph: each face belongs to the seed that is the fewest steps away. A cell
 /// has the index of its seed.
 struct SeedCells {
-  std::vector<uint32_t> cellOf;  ///< #F; kNoCell in a component without a seed.
+  UnsetVector<uint32_t> cellOf;  ///< #F; kNoCell in a component without a seed.
   Buckets<uint32_t> faces;       ///< #S: the faces of each cell, ascending, including the seed.
 };
 

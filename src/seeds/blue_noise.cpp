@@ -77,7 +77,7 @@ double jitterOf(uint32_t face, uint32_t neighbour) {
 }
 
 // Arcs at faces of average density keep their length, except for the jitter.
-void stretch(std::vector<float>& lengths, const DualGraph& graph, std::span<const double> density) {
+void stretch(std::span<float> lengths, const DualGraph& graph, std::span<const double> density) {
   double mean = 0;
   for (double d : density) {
     ASDFVK_CHECK(d > 0 && std::isfinite(d));
@@ -103,7 +103,7 @@ std::vector<uint32_t> blueNoiseSeeds(const SeedDomain& domain, uint64_t count, s
 std::vector<uint32_t> weightedBlueNoiseSeeds(const SeedDomain& domain, std::span<const double> density, uint64_t count,
                                              std::span<const uint32_t> existing, uint64_t randomSeed) {
   ASDFVK_CHECK_OP(density.size(), ==, domain.graph.faceCount());
-  std::vector<float> lengths = arcLengths(domain.arcAngles.get());
+  UnsetVector<float> lengths = arcLengths(domain.arcAngles.get());
   stretch(lengths, domain.graph, density);
   return blueNoise(domain, lengths, count, existing, randomSeed);
 }

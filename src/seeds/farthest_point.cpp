@@ -14,7 +14,7 @@ std::vector<uint32_t> farthestPointSeeds(const SeedDomain& domain, uint64_t coun
   if (count >= waiting.size()) return waiting;
   Random random(randomSeed);
   random.shuffle(std::span<uint32_t>(waiting));
-  const std::vector<float> lengths = arcLengths(domain.arcAngles.get());
+  const UnsetVector<float> lengths = arcLengths(domain.arcAngles.get());
   SurfaceDistances distances(domain.graph, lengths);
   distances.add(existing, SurfaceDistances::kUnreached);
   std::vector<uint32_t> seeds =

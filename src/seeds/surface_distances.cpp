@@ -29,8 +29,8 @@ constexpr int kMaxQueueRounds = 64;
 
 }  // namespace
 
-std::vector<float> arcLengths(std::span<const float> arcAngles) {
-  std::vector<float> lengths(arcAngles.size());
+UnsetVector<float> arcLengths(std::span<const float> arcAngles) {
+  UnsetVector<float> lengths(arcAngles.size());
   forEachInParallel(lengths.size(), [&](size_t arc) { lengths[arc] = limitedLength(lengthAcross(arcAngles[arc])); });
   return lengths;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/prefetch.h"
+#include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
 
 /// Distances between faces along the arcs of the dual graph.
@@ -24,7 +25,7 @@ inline constexpr float kMaxArcLength = 0x1p+20f;
 /// The length of each arc, in the order of graph.neighbours and equal in both directions. It is sqrt(1 + (a / s)^2),
 /// where a is the dihedral angle of the edge and s one of the constants above. Lengths have no unit; the length is 1
 /// between coplanar faces. arcAngles: see arcAngles(). A degenerate face counts as coplanar with its neighbours.
-[[nodiscard]] std::vector<float> arcLengths(std::span<const float> arcAngles);
+[[nodiscard]] UnsetVector<float> arcLengths(std::span<const float> arcAngles);
 
 /// The distance of each face to the nearest of a growing set of seeds. The search for shortest paths from a new seed
 /// does not enter faces that are at least as near to an older seed. The time of a new seed is proportional to the

@@ -15,7 +15,7 @@ constexpr size_t kFaceCount = 64;
 }  // namespace
 
 TracerCheck checkTracer(ConeTracer& tracer, const TraceScene& scene, const Cone& cone) {
-  const std::vector<uint32_t>& traceable = scene.bvh.primitiveFaces;
+  const std::span<const uint32_t> traceable = scene.bvh.primitiveFaces;
   std::vector<uint32_t> faces(std::min(kFaceCount, traceable.size()));
   for (size_t i = 0; i < faces.size(); ++i) faces[i] = traceable[i * traceable.size() / faces.size()];
   std::vector<double> values(faces.size()), expected(faces.size());

@@ -23,7 +23,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const
                    const RunControl& stopOnly)
     : scene_(scene), opposing_(opposing), nodes_(scene.bvh.nodes.size()), wallOf_(scene.mesh.faceCount()) {
   const Buckets<uint32_t> copies = groupCopies(scene.representatives);
-  const std::vector<uint32_t>& primitives = scene.bvh.primitiveFaces;
+  const std::span<const uint32_t> primitives = scene.bvh.primitiveFaces;
   std::vector<uint32_t> wallOfPrimitive(primitives.size() + 1);
   for (size_t i = 0; i < primitives.size(); ++i)
     wallOfPrimitive[i + 1] = wallOfPrimitive[i] + static_cast<uint32_t>(copies[primitives[i]].size());

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/function_ref.h"
+#include "core/unset_vector.h"
 #include "vk/device.h"
 
 namespace asdfvk {
@@ -87,5 +88,15 @@ template <typename Item, typename Write>
 
 /// Copies the first bytes of a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT to the host.
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
+
+/// The first items of such a buffer: its mapped memory if reads are cached, otherwise `copy`.
+template <typename Item>
+[[nodiscard]] std::span<const Item> readItems(const Device& device, const Buffer& buffer, size_t itemCount,
+                                              UnsetVector<Item>& copy) {
+  if (buffer.mapped() != nullptr && buffer.isCached()) return buffer.mappedAs<const Item>().first(itemCount);
+  copy.resize(itemCount);
+  downloadBuffer(device, buffer, std::as_writable_bytes(std::span(copy)));
+  return copy;
+}
 
 }  // namespace asdfvk

@@ -33,7 +33,7 @@ inline bool holdsBox(const BvhNode& outer, const BvhNode& inner) {
 /// Checks all invariants of a hierarchy over exactly the faces `expectedFaces` (ascending).
 inline void checkInvariants(const Bvh& bvh, const Mesh& mesh, const std::vector<uint32_t>& expectedFaces,
                             const BvhOptions& options = {}) {
-  std::vector<uint32_t> faces = bvh.primitiveFaces;
+  std::vector<uint32_t> faces(bvh.primitiveFaces.begin(), bvh.primitiveFaces.end());
   std::sort(faces.begin(), faces.end());
   CHECK(faces == expectedFaces);
   CHECK(bvh.nodes.empty() == expectedFaces.empty());

@@ -20,7 +20,8 @@ struct SampleProblem {
   Mesh mesh;
   FaceGeometry geometry;
   DualGraph graph;
-  std::vector<double> weights, constraints, guide;
+  UnsetVector<double> weights;
+  std::vector<double> constraints, guide;
   std::vector<uint32_t> heldOut;
 
   explicit SampleProblem(Mesh source)

@@ -58,7 +58,8 @@ TEST_CASE("an OpenMesh mesh becomes the same vertices and faces in handle order"
 TEST_CASE("values are written to a double face property by handle") {
   DoubleMesh mesh = toOpenMesh<DoubleMesh>(shapes::cube());
   computeOnOpenMesh(mesh, [](const Mesh& plain) {
-    std::vector<double> values = computeFaceGeometry(plain).areas;
+    const UnsetVector<double> areas = computeFaceGeometry(plain).areas;
+    std::vector<double> values(areas.begin(), areas.end());
     for (size_t f = 0; f < values.size(); ++f) values[f] += static_cast<double>(f);
     return values;
   });

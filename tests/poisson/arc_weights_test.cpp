@@ -24,7 +24,7 @@ HandGraph roof(double degrees, double rise) {
 
 TEST_CASE("Distance weights are 1 / distance, as in the paper") {
   const HandGraph hand = roof(30, 0);
-  CHECK(distanceWeights(hand.graph, hand.geometry) == std::vector<double>{0.5, 0.5, 0.2, 0.2});
+  CHECK(distanceWeights(hand.graph, hand.geometry) == UnsetVector<double>{0.5, 0.5, 0.2, 0.2});
 }
 
 TEST_CASE("Feature weights are 1/2 at 3 degrees on a concave and at 8 on a convex edge, and 1 on a flat one") {
@@ -41,7 +41,7 @@ TEST_CASE("Feature weights are 1/2 at 3 degrees on a concave and at 8 on a conve
     const double degrees = angle;
     CAPTURE(degrees);
     const HandGraph hand = roof(degrees, rise);
-    const std::vector<double> weights = featureWeights(arcAngles(hand.graph, hand.geometry));
+    const UnsetVector<double> weights = featureWeights(arcAngles(hand.graph, hand.geometry));
     CHECK(weights[0] == doctest::Approx(weight));
     CHECK(weights[1] == weights[0]);
     CHECK(weights[2] == 1);
@@ -52,7 +52,7 @@ TEST_CASE("an edge of a degenerate face has the Feature weight of a flat one") {
   HandGraph hand = roof(90, 3);
   hand.geometry.areas[1] = 0;
   hand.geometry.normals[1] = {};
-  CHECK(featureWeights(arcAngles(hand.graph, hand.geometry)) == std::vector<double>{1, 1, 1, 1});
+  CHECK(featureWeights(arcAngles(hand.graph, hand.geometry)) == UnsetVector<double>{1, 1, 1, 1});
 }
 
 TEST_CASE("weights are positive, finite and have the same bits in both directions, for any mesh and unit") {
@@ -66,7 +66,7 @@ TEST_CASE("weights are positive, finite and have the same bits in both direction
         geometry.bounds = {};
         for (const Vec3d& p : geometry.barycentres) geometry.bounds.add(p);
         const DualGraph& graph = problem.graph;
-        const std::vector<double> weights = weightsOf(kind, graph, geometry);
+        const UnsetVector<double> weights = weightsOf(kind, graph, geometry);
         REQUIRE(weights.size() == graph.neighbours.size());
         for (uint32_t f = 0; f < graph.faceCount(); ++f)
           for (uint32_t arc = graph.offsets[f]; arc < graph.offsets[f + 1]; ++arc) {
@@ -87,7 +87,7 @@ TEST_CASE("the weight of a distance that overflows is positive") {
 
 TEST_CASE("the divergence is the sum computed by hand, over the neighbours with a value") {
   const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}, {2, 0, 4}}, {{0, 1}, {1, 2}, {1, 3}});
-  const std::vector<double> weights = distanceWeights(hand.graph, hand.geometry);
+  const UnsetVector<double> weights = distanceWeights(hand.graph, hand.geometry);
   CHECK(divergenceOf(hand.graph, weights, std::vector<double>{1, 3, 8, 7}) ==
         std::vector<double>{-1, 0.5 * 2 + 0.2 * -5 + 0.25 * -4, 1, 1});
   CHECK(divergenceOf(hand.graph, weights, std::vector<double>{1, 3, kNoValue, 7}) == std::vector<double>{-1, 0, 0, 1});

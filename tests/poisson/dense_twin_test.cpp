@@ -87,11 +87,11 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
     std::vector<std::vector<double>> numbers[3];
     for (const size_t threadCount : {1, 2, 3}) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
-      const std::vector<double> weights = weightsOf(kind, problem.graph, problem.geometry);
+      const UnsetVector<double> weights = weightsOf(kind, problem.graph, problem.geometry);
       const std::vector<double> divergence = divergenceOf(problem.graph, weights, field);
       PoissonSystem system =
           buildPoissonSystem(problem.graph, weights, problem.values, divergence, searchComponents(problem.graph));
-      numbers[threadCount - 1] = {weights, divergence};
+      numbers[threadCount - 1] = {{weights.begin(), weights.end()}, divergence};
       for (const auto& ofSystem : {system.entries, system.diagonal, system.rightHandSide})
         numbers[threadCount - 1].emplace_back(ofSystem.begin(), ofSystem.end());
     }

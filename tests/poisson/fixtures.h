@@ -63,7 +63,7 @@ struct HandGraph {
       graph.neighbours.insert(graph.neighbours.end(), row.begin(), row.end());
       graph.offsets.push_back(static_cast<uint32_t>(graph.neighbours.size()));
     }
-    geometry.barycentres = barycentres;
+    geometry.barycentres.assign(barycentres.begin(), barycentres.end());
     geometry.normals.assign(barycentres.size(), {0, 0, 1});
     geometry.areas.assign(barycentres.size(), 1.0);
     for (const Vec3d& p : barycentres) geometry.bounds.add(p);
@@ -100,15 +100,16 @@ inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& 
 /// An interpolation, and its system by which solutions are judged.
 struct Equation {
   DualGraph graph;
-  std::vector<double> weights, constraints, divergence, firstGuess;
+  UnsetVector<double> weights;
+  std::vector<double> constraints, divergence, firstGuess;
   std::vector<uint32_t> componentOf;
   PoissonSystem system;
 
   /// firstGuess: empty for the mean of the constraints.
-  Equation(DualGraph theGraph, std::vector<double> theWeights, std::vector<double> theConstraints,
+  Equation(DualGraph theGraph, std::span<const double> theWeights, std::vector<double> theConstraints,
            std::vector<double> theDivergence = {}, std::vector<double> theFirstGuess = {})
       : graph(std::move(theGraph)),
-        weights(std::move(theWeights)),
+        weights(theWeights.begin(), theWeights.end()),
         constraints(std::move(theConstraints)),
         divergence(std::move(theDivergence)),
         firstGuess(std::move(theFirstGuess)),

@@ -140,7 +140,7 @@ TEST_CASE("a solver on a graph finishes on the CPU where float32 does not reach 
   const test::ValidatedDevice device;
   if (!test::hasBuffersForSolvers(*device)) return;
   const SampleProblem sample("torus", torus(40, 20));
-  const std::vector<double> weights = distanceWeights(sample.graph, sample.geometry);
+  const UnsetVector<double> weights = distanceWeights(sample.graph, sample.geometry);
   const GraphCase given = randomCase(sample.graph, searchComponents(sample.graph), 3, {true, true});
   const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
   const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(sample.graph, weights);
@@ -160,7 +160,7 @@ TEST_CASE("on a device, too, constraints of 0 give 0, and faces without a path t
   const test::ValidatedDevice device;
   if (!test::hasBuffersForSolvers(*device)) return;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 0, 0}, {6, 0, 0}, {9, 9, 9}}, {{0, 1}, {1, 2}, {3, 4}});
-  const std::vector<double> weights = distanceWeights(hand.graph, hand.geometry);
+  const UnsetVector<double> weights = distanceWeights(hand.graph, hand.geometry);
   const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
   const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(hand.graph, weights);
   GraphCase given{.constraints = {0, kNoValue, 0, kNoValue, kNoValue, kNoValue},
@@ -272,7 +272,7 @@ TEST_CASE("the relative result of a solver on a graph does not depend on the uni
   const test::ValidatedDevice device;
   if (!test::hasBuffersForSolvers(*device)) return;
   const SampleProblem sample("torus", torus(40, 20));
-  const std::vector<double> weights = distanceWeights(sample.graph, sample.geometry);
+  const UnsetVector<double> weights = distanceWeights(sample.graph, sample.geometry);
   const GraphCase given = randomCase(sample.graph, searchComponents(sample.graph), 3, {true, false});
   const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
   const std::vector<double> expected = valuesOnCpu(sample.graph, weights, given);
@@ -283,7 +283,7 @@ TEST_CASE("the relative result of a solver on a graph does not depend on the uni
       GraphCase scaled = given;
       for (std::vector<double>* const array : {&scaled.constraints, &scaled.firstGuess, &scaled.guide})
         for (double& value : *array) value *= unitOfValues;
-      std::vector<double> scaledWeights = weights;
+      UnsetVector<double> scaledWeights = weights;
       for (double& weight : scaledWeights) weight *= unitOfWeights;
       const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(sample.graph, scaledWeights);
       std::vector<double> values = scaled.constraints;
@@ -300,7 +300,7 @@ TEST_CASE("a component of small values is solved beside one of large values") {
   if (!test::hasBuffersForSolvers(*device)) return;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 0, 0}, {10, 0, 0}, {11, 0, 0}},
                        {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
-  const std::vector<double> weights = distanceWeights(hand.graph, hand.geometry);
+  const UnsetVector<double> weights = distanceWeights(hand.graph, hand.geometry);
   const GraphCase given{.constraints = {1, kNoValue, 3, 0.001, kNoValue, 0.003},
                         .firstGuess = {2, 2, 2, 0.002, 0.0021, 0.002},
                         .guide = {1, 2, 3, kNoValue, kNoValue, kNoValue},
@@ -319,7 +319,7 @@ TEST_CASE("a graph beyond a limit of the device is refused") {
   facts.maxStorageBufferRange = 1000;
   const Device device(instance.physicalDevices().front(), facts);
   const SampleProblem sample("torus", torus(40, 20));
-  const std::vector<double> weights = distanceWeights(sample.graph, sample.geometry);
+  const UnsetVector<double> weights = distanceWeights(sample.graph, sample.geometry);
   const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &device);
   test::requireFailure([&] { (void)solver->onGraph(sample.graph, weights); }, ErrorCode::EquationLimit,
                        "1600 unknowns");

@@ -83,10 +83,10 @@ inline std::vector<SampleProblem> sampleProblems() {
 struct Setting {
   const SampleProblem& problem;
   ArcWeights kind;
-  std::vector<double> weights;  ///< One per arc.
+  UnsetVector<double> weights;  ///< One per arc.
 };
 
-inline std::vector<double> weightsOf(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
+inline UnsetVector<double> weightsOf(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
   return kind == ArcWeights::Feature ? featureWeights(arcAngles(graph, geometry)) : distanceWeights(graph, geometry);
 }
 

@@ -185,7 +185,7 @@ TEST_CASE("with coincident faces float32 may not converge, but the residual does
 TEST_CASE("a solver starts from the first guess") {
   SolversUnderTest solvers;
   const SampleProblem problem("torus", torus(14, 10));
-  const std::vector<double> weights = featureWeights(arcAngles(problem.graph, problem.geometry));
+  const UnsetVector<double> weights = featureWeights(arcAngles(problem.graph, problem.geometry));
   const DenseTwin twin(problem.graph, weights, problem.values, {});
   std::vector<double> guess(problem.values.size(), 1.25);
   const auto build = [&] { return Equation(problem.graph, weights, problem.values, {}, guess); };

@@ -38,7 +38,7 @@ PoissonSystem unevenSystem() {
   std::vector<double> values(graph.faceCount(), kNoValue);
   for (double& value : values)
     if (random.index(8) == 0) value = 1 + random.real();
-  const HandGraph hand(geometry.barycentres, edges);
+  const HandGraph hand({geometry.barycentres.begin(), geometry.barycentres.end()}, edges);
   return distanceSystem(hand.graph, hand.geometry, values);
 }
 

@@ -354,7 +354,7 @@ TEST_CASE("added seeds have cells of the faces that are nearer to them, and othe
 }
 
 TEST_CASE("faces as far from an added seed as from their own are claimed alike in every unit") {
-  std::vector<std::vector<uint32_t>> cells;
+  std::vector<UnsetVector<uint32_t>> cells;
   for (const double unit : {1.0, 0.001, 25.4, 1 + 1e-13}) {
     const SeededMesh seeded(shapes::scaledAndShifted(shapes::box({3, 2, 1}, 20), unit), 300);
     std::vector<uint32_t> fewer = seeded.seeds;

@@ -75,7 +75,7 @@ void checkCells(const DualGraph& graph, const std::vector<uint32_t>& seeds) {
   for (uint32_t face = 0; face < timesListed.size(); ++face)
     CHECK(timesListed[face] == (cells.cellOf[face] == kNoCell ? 0 : 1));
 
-  const NearestCells touched(cells, graph, {.barycentres = std::vector<Vec3d>(graph.faceCount())}, seeds, 200);
+  const NearestCells touched(cells, graph, {.barycentres = UnsetVector<Vec3d>(graph.faceCount(), Vec3d{})}, seeds, 200);
   std::set<std::pair<uint32_t, uint32_t>> listed;
   size_t listedCount = 0;
   for (uint32_t cell = 0; cell < seeds.size(); ++cell)

@@ -49,7 +49,7 @@ TEST_CASE("the dihedral angle is 0 when flat, positive when concave, negative wh
 TEST_CASE("angles of arcs are the dihedral angles rounded to float") {
   const auto differingCount = [](const Mesh& mesh) {
     const Surface surface(mesh);
-    const std::vector<float> angles = arcAngles(surface.graph, surface.geometry);
+    const UnsetVector<float> angles = arcAngles(surface.graph, surface.geometry);
     CHECK(arcAngles(surface.graph, surface.geometry, InstructionSet::Baseline) == angles);
     size_t count = 0, arc = 0;
     for (uint32_t face = 0; face < surface.graph.faceCount(); ++face)
@@ -72,7 +72,7 @@ TEST_CASE("angles of arcs are the dihedral angles rounded to float") {
 TEST_CASE("an arc is 1 when flat, and sqrt 2 at 10 degrees concave and 20 convex, at any scale") {
   const auto lengthAt = [](double degrees) {
     const Surface surface(book(degrees));
-    const std::vector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
+    const UnsetVector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
     REQUIRE(lengths.size() == 2);
     CHECK(lengths[0] == lengths[1]);
     for (double scale : {1e-12, 1e12}) {
@@ -94,13 +94,13 @@ TEST_CASE("an arc to a degenerate face is 1, and every arc is within the limits"
   mesh.vertices[3] = {0, 0.5, 0};
   const Surface squeezed(mesh);
   REQUIRE(squeezed.geometry.isDegenerate(1));
-  CHECK(arcLengths(arcAngles(squeezed.graph, squeezed.geometry)) == std::vector<float>{1, 1});
+  CHECK(arcLengths(arcAngles(squeezed.graph, squeezed.geometry)) == UnsetVector<float>{1, 1});
   // The product of this normal with the zero normal of the degenerate face is -0.
   mesh.vertices = {{0, 0, 0}, {0, 1, -1}, {1, 0, -1}, {0, 0.5, -0.5}};
   const Surface turned(mesh);
   REQUIRE(turned.geometry.isDegenerate(1));
   for (size_t axis = 0; axis < 3; ++axis) REQUIRE(turned.geometry.normals[0][axis] < 0);
-  CHECK(arcAngles(turned.graph, turned.geometry) == std::vector<float>{0, 0});
+  CHECK(arcAngles(turned.graph, turned.geometry) == UnsetVector<float>{0, 0});
   CHECK(signedDihedralAngle(turned.geometry, 0, 1) == 0);
   CHECK(signedDihedralAngle(turned.geometry, 1, 0) == 0);
 
@@ -127,7 +127,7 @@ TEST_CASE("coordinates whose squares overflow or underflow leave every arc finit
 
 TEST_CASE("on a cube the arcs across its edges are long and the others are 1") {
   const Surface& cube = generatedSurface("cube", 1200);
-  const std::vector<float> lengths = arcLengths(arcAngles(cube.graph, cube.geometry));
+  const UnsetVector<float> lengths = arcLengths(arcAngles(cube.graph, cube.geometry));
   const auto flat = std::count_if(lengths.begin(), lengths.end(), [](float arc) { return arc < 1.0001f; });
   const auto edge = std::count_if(lengths.begin(), lengths.end(),
                                   [](float arc) { return std::abs(arc - std::sqrt(1 + 4.5 * 4.5)) < 1e-4; });
@@ -142,7 +142,7 @@ TEST_CASE("both directions of an arc have the length of their angle, also where 
   mesh.faces = {{0, 1, 2}, {0, 2, 1}, {0, 1, 3}, {1, 0, 4}};
   const Surface folded(mesh);
   for (const Surface* surface : {&folded, &generatedSurface("hand", 1000)}) {
-    const std::vector<float> lengths = arcLengths(arcAngles(surface->graph, surface->geometry));
+    const UnsetVector<float> lengths = arcLengths(arcAngles(surface->graph, surface->geometry));
     for (uint32_t face = 0; face < surface->graph.faceCount(); ++face) {
       for (uint32_t arc = surface->graph.offsets[face]; arc < surface->graph.offsets[face + 1]; ++arc) {
         const double angle = signedDihedralAngle(surface->geometry, face, surface->graph.neighbours[arc]) / kDegree;

@@ -10,7 +10,7 @@ using namespace asdfvk;
 
 TEST_CASE("darts leave gaps where more than the requested number fit at the start radius") {
   const Surface surface(strip(100));
-  const std::vector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
+  const UnsetVector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
   const auto thrown = [&](uint64_t count, float startRadius) {
     SurfaceDistances distances(surface.graph, lengths);
     distances.add({}, startRadius);

@@ -47,7 +47,7 @@ TEST_CASE("the covering radius is at most the smallest distance between seeds") 
   for (const char* shape : {"torus", "sphere", "cube", "hand"}) {
     CAPTURE(shape);
     const Surface& surface = generatedSurface(shape, 4000);
-    const std::vector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
+    const UnsetVector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
     for (double share : {0.002, 0.02, 0.1, 0.3}) {
       CAPTURE(share);
       const auto count = static_cast<uint64_t>(share * static_cast<double>(surface.candidates.size()));
@@ -79,7 +79,7 @@ TEST_CASE("at 10 % of the faces blue-noise seeds are at least 3 hops apart, and 
 
 TEST_CASE("seeds fill the gaps between existing ones") {
   const Surface& sphere = generatedSurface("sphere", 4000);
-  const std::vector<float> lengths = arcLengths(arcAngles(sphere.graph, sphere.geometry));
+  const UnsetVector<float> lengths = arcLengths(arcAngles(sphere.graph, sphere.geometry));
   // All faces of the northern half are seeds, so that the new seeds are in the southern half, away from the equator.
   const auto north = facesWith(sphere, [](const Vec3d& at) { return at.z > 0; });
   for (SampleSeeds* sampler : kSpacingSamplers) {
@@ -100,7 +100,7 @@ TEST_CASE("seeds fill the gaps between existing ones") {
 
 TEST_CASE("seeds added in rounds keep the spacing of seeds selected at once") {
   const Surface& torus = generatedSurface("torus", 4000);
-  const std::vector<float> lengths = arcLengths(arcAngles(torus.graph, torus.geometry));
+  const UnsetVector<float> lengths = arcLengths(arcAngles(torus.graph, torus.geometry));
   for (SampleSeeds* sampler : kSpacingSamplers) {
     std::vector<uint32_t> all;
     for (uint64_t round = 0; round < 4; ++round) {
@@ -143,7 +143,7 @@ TEST_CASE("farthest points of a strip are the ends and the middle for any random
 
 TEST_CASE("there are more seeds where the surface bends") {
   const Surface& cube = generatedSurface("cube", 4000);
-  const std::vector<float> lengths = arcLengths(arcAngles(cube.graph, cube.geometry));
+  const UnsetVector<float> lengths = arcLengths(arcAngles(cube.graph, cube.geometry));
   std::vector<uint8_t> isAtEdge(cube.graph.faceCount(), 0);
   for (uint32_t face = 0; face < cube.graph.faceCount(); ++face)
     for (uint32_t arc = cube.graph.offsets[face]; arc < cube.graph.offsets[face + 1]; ++arc)

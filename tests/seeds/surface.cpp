@@ -38,7 +38,7 @@ Mesh strip(uint32_t faceCount) {
   return mesh;
 }
 
-std::vector<float> hops(const DualGraph& graph) { return std::vector<float>(graph.neighbours.size(), 1.0f); }
+UnsetVector<float> hops(const DualGraph& graph) { return UnsetVector<float>(graph.neighbours.size(), 1.0f); }
 
 std::vector<float> distancesToNearest(const DualGraph& graph, std::span<const float> arcLengths,
                                       std::span<const uint32_t> seeds) {

@@ -28,7 +28,7 @@ const Surface& generatedSurface(const char* name, uint64_t faceCount);
 asdfvk::Mesh strip(uint32_t faceCount);
 
 /// 1 per arc: distances count mesh edges.
-std::vector<float> hops(const asdfvk::DualGraph& graph);
+asdfvk::UnsetVector<float> hops(const asdfvk::DualGraph& graph);
 /// Distance along the arcs from each face to the nearest seed, infinite without a seed: relaxes all arcs until nothing
 /// changes.
 std::vector<float> distancesToNearest(const asdfvk::DualGraph& graph, std::span<const float> arcLengths,

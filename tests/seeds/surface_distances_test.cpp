@@ -12,7 +12,7 @@ using namespace asdfvk;
 
 TEST_CASE("distances to a growing set of seeds equal the definition up to the limit") {
   const Surface& hand = generatedSurface("hand", 3000);
-  for (const std::vector<float>& lengths : {hops(hand.graph), arcLengths(arcAngles(hand.graph, hand.geometry))}) {
+  for (const UnsetVector<float>& lengths : {hops(hand.graph), arcLengths(arcAngles(hand.graph, hand.geometry))}) {
     SurfaceDistances distances(hand.graph, lengths);
     Random random(6);
     std::vector<uint32_t> seeds;
@@ -60,7 +60,7 @@ TEST_CASE("distances over more arcs than the queue visits, with arcs of very dif
 
 TEST_CASE("each ball lists all faces of the component once, nearest first") {
   const Surface surface(shapes::joined(generatedSurface("torus", 500).mesh, strip(5)));
-  const std::vector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
+  const UnsetVector<float> lengths = arcLengths(arcAngles(surface.graph, surface.geometry));
   SurfaceBall ball(surface.graph, lengths);
   const uint32_t islandBegin = surface.graph.faceCount() - 5;
   for (uint32_t centre : {0u, 77u, islandBegin + 2, 78u}) {

@@ -7,7 +7,7 @@ namespace asdfvk {
 /// The value that a seed's hits give by coneValue(), in the mesh's unit.
 inline double valueOfHits(const TracedMesh& traced, const Cone& cone, uint32_t seedFace,
                           std::span<const ConeHit> hits) {
-  const std::vector<Vec3d>& normals = traced.geometry.normals;
+  const std::span<const Vec3d> normals = traced.geometry.normals;
   const ConeFrame frame = seedConeFrame(traced.scene(), cone, seedFace);
   std::vector<double> lengths, weights;
   for (size_t ray = 0; ray < hits.size(); ++ray) {

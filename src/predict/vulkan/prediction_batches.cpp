@@ -14,10 +14,10 @@ PredictionBatches::PredictionBatches(const PredictionInput& input)
       placeOf_(input.hits.seeds.size(), kNoSeed) {
   forEachInParallel(input.order.size(), [&](size_t i) {
     const uint32_t cell = input.order[i];
-    const std::span<const uint32_t> faces = input.cells.faces[cell];
+    const std::span<const uint32_t> faces = input.cells[cell];
     hasEarlierSeeds_[cell] = input.hasEarlierSeeds(cell) ? 1 : 0;
     faceCounts_[cell] = static_cast<uint32_t>(
-        hasEarlierSeeds_[cell] ? std::ranges::count_if(faces, [&](uint32_t face) { return !isKept(face); })
+        hasEarlierSeeds_[cell] ? std::ranges::count_if(faces, [&](uint32_t face) { return !isKept(cell, face); })
                                : static_cast<std::ptrdiff_t>(faces.size()));
   });
   for (const uint32_t count : faceCounts_) faceCount_ += count;
@@ -58,14 +58,14 @@ void PredictionBatches::addSeeds(uint32_t cell) {
 
 template <typename Visit>
 void PredictionBatches::forEachFace(const Part& part, const Visit& visit) const {
-  const std::span<const uint32_t> faces = input_.cells.faces[part.cell];
+  const std::span<const uint32_t> faces = input_.cells[part.cell];
   if (faceCounts_[part.cell] == faces.size()) {
     std::ranges::for_each(faces.subspan(part.firstFace, part.faceCount), visit);
     return;
   }
   uint32_t index = 0;
   for (const uint32_t face : faces) {
-    if (isKept(face)) continue;
+    if (isKept(part.cell, face)) continue;
     if (index >= part.firstFace + part.faceCount) break;
     if (index++ >= part.firstFace) visit(face);
   }

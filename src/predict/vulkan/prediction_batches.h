@@ -21,9 +21,8 @@ class PredictionBatches {
   /// The input must outlive this object.
   explicit PredictionBatches(const PredictionInput& input);
 
-  /// Whether the earlier value of a face in a cell is kept.
-  [[nodiscard]] bool isKept(uint32_t face) const {
-    const uint32_t cell = input_.cells.cellOf[face];
+  /// Whether a face of the cell keeps its earlier value.
+  [[nodiscard]] bool isKept(uint32_t cell, uint32_t face) const {
     return hasEarlierSeeds_[cell] && input_.earlier.cellOf[face] == cell;
   }
   /// Share of the faces that were in batches so far, 0 to 1.

@@ -107,12 +107,15 @@ class VulkanPredictor final : public DevicePredictor {
     if (input.order.empty()) return;
     PredictionBatches batches(input);
     predictBatches(input, batches, control);
-    std::vector<uint32_t> lengths(values.size());
-    downloadBuffer(kernels_.device(), values_, std::as_writable_bytes(std::span(lengths)));
-    forEachInParallel(values.size(), [&](uint32_t face) {
-      if (input.cells.cellOf[face] == kNoCell) return;
-      const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
-      values[face] = batches.isKept(face) ? input.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
+    UnsetVector<uint32_t> copy;
+    const std::span<const uint32_t> lengths = readItems(kernels_.device(), values_, values.size(), copy);
+    forEachInParallel(input.order.size(), [&](size_t i) {
+      const uint32_t cell = input.order[i];
+      for (const uint32_t face : input.cells[cell]) {
+        const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
+        values[face] =
+            batches.isKept(cell, face) ? input.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
+      }
     });
   }
 
@@ -145,7 +148,7 @@ class VulkanPredictor final : public DevicePredictor {
   void reserve(const PredictionInput& input) {
     const size_t seedCount =
         std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, input.hits.seeds.size()));
-    const size_t faceCount = std::min(batchSize_.maxFaceCount, input.cells.cellOf.size());
+    const size_t faceCount = std::min(batchSize_.maxFaceCount, input.cells.entries.size());
     if (memory_ && memory_->seedCount >= seedCount && memory_->faceCount >= faceCount) return;
     memory_.reset();
     memory_.emplace(kernels_, faces_, values_, seedCount, faceCount);
