@@ -25,24 +25,25 @@ struct Sharing {
 
 // Vectorised over i; loops over the number k of children from the left side. Of equal costs, the least k counts. More
 // than maxLeftCount children from the left side are never cheaper.
-Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
-                      const std::array<float, kWideChildCount>& right) {
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
+                                                  const std::array<float, kWideChildCount>& right) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   std::array<float, 2 * kWideChildCount> padded;  // At least one child comes from the right side.
   std::fill_n(padded.begin(), kWideChildCount, kInfinity);
   std::copy(right.begin(), right.end(), padded.begin() + kWideChildCount);
   Sharing sharing;
-  for (size_t half = 0; half < kWideChildCount; half += 4) {
-    Float4 least = broadcast<Float4>(kInfinity);
-    IntsOf<Float4> leftCount{};
+  for (size_t first = 0; first < kWideChildCount; first += kLaneCount<Floats>) {
+    Floats least = broadcast<Floats>(kInfinity);
+    IntsOf<Floats> leftCount{};
     for (uint32_t k = 1; k <= maxLeftCount; ++k) {
-      const Float4 cost = load<Float4>(&padded[kWideChildCount + half - k]) + left[k - 1];
-      const IntsOf<Float4> isLess = cost < least;
+      const Floats cost = load<Floats>(&padded[kWideChildCount + first - k]) + left[k - 1];
+      const IntsOf<Floats> isLess = cost < least;
       least = isLess ? cost : least;
-      leftCount = isLess ? broadcast<IntsOf<Float4>>(static_cast<int32_t>(k)) : leftCount;
+      leftCount = isLess ? broadcast<IntsOf<Floats>>(static_cast<int32_t>(k)) : leftCount;
     }
-    store(&sharing.costs[half], least);
-    store(&sharing.leftCounts[half], leftCount);
+    store(&sharing.costs[first], least);
+    store(&sharing.leftCounts[first], leftCount);
   }
   return sharing;
 }
@@ -173,8 +174,8 @@ class WideEncoder {
 
 }  // namespace
 
-WideCollapse::WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs)
-    : nodes_(nodes), costs_(costs), choices_(nodes.size()) {
+WideCollapse::WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs, InstructionSet instructionSet)
+    : nodes_(nodes), costs_(costs), instructionSet_(instructionSet), choices_(nodes.size()) {
   ASDFVK_CHECK(!nodes.empty());
   Forests forests;
   chooseFrom(0, 0, forests);
@@ -205,7 +206,9 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
   choice.primitives = {leftPrimitives.first, leftPrimitives.count + rightPrimitives.count};
   const uint32_t maxLeftCount =
       nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftPrimitives.count, kWideChildCount - 1);
-  const Sharing sharing = shareChildren(left.costs, maxLeftCount, right.costs);
+  const Sharing sharing = dispatch<Float8>(instructionSet_, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
+    return shareChildren<Floats>(left.costs, maxLeftCount, right.costs);
+  });
   const auto nodeCount = [&](uint32_t childCount) {
     const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
     return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "core/random.h"
 
 namespace asdfvk {
@@ -15,14 +16,14 @@ class InclusionProbabilities {
   InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
                          std::span<const uint32_t> representedCounts)
       : representedCounts_(representedCounts), densities_(candidates.size()) {
-    double greatest = 0;
-    for (const uint32_t face : candidates) greatest = std::max(greatest, indicator[face]);
-    for (size_t i = 0; i < candidates.size(); ++i) {
+    const auto greatest =
+        maxInParallel<double>(candidates.size(), [&](uint32_t i) { return indicator[candidates[i]]; });
+    forEachInParallel(candidates.size(), [&](size_t i) {
       // Relative to the greatest indicator, so that the power neither overflows nor underflows in any unit of length.
       // By square roots, because std::pow() has different bits on different systems.
       const double relative = indicator[candidates[i]] / greatest;
       densities_[i] = relative * std::sqrt(std::sqrt(std::sqrt(relative))) * representedCountOf(candidates[i]);
-    }
+    });
     for (bool grows = true; grows;) {  // Repeated until no further probability reaches 1.
       double sum = 0, remaining = static_cast<double>(count);
       for (size_t i = 0; i < densities_.size(); ++i)

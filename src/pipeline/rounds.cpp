@@ -34,7 +34,7 @@ constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.75, kHeldOutTrace
                  kPredictedProgress = 0.87;
 
 std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
-  std::sort(faces.begin(), faces.end());
+  sortInParallel(faces.begin(), faces.end());
   return faces;
 }
 

@@ -1,6 +1,7 @@
 #include "poisson/poisson_system.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -108,11 +109,13 @@ UnsetVector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
 }
 
 std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf, std::span<const double> constraints) {
-  std::vector<uint8_t> isConstrained;  // One entry per component.
-  for (size_t face = 0; face < constraints.size(); ++face) {
-    if (componentOf[face] >= isConstrained.size()) isConstrained.resize(componentOf[face] + size_t{1}, 0);
-    if (std::isfinite(constraints[face])) isConstrained[componentOf[face]] = 1;
-  }
+  const size_t componentCount =
+      maxInParallel<size_t>(componentOf.size(), [&](uint32_t face) { return componentOf[face] + size_t{1}; });
+  std::vector<uint8_t> isConstrained(componentCount, 0);
+  forEachInParallel(constraints.size(), [&](size_t face) {
+    if (std::isfinite(constraints[face]))
+      std::atomic_ref(isConstrained[componentOf[face]]).store(1, std::memory_order_relaxed);
+  });
   std::vector<uint8_t> isReachable(constraints.size());
   forEachInParallel(constraints.size(), [&](size_t face) { isReachable[face] = isConstrained[componentOf[face]]; });
   return isReachable;

@@ -191,6 +191,18 @@ TEST_CASE("the collapse is the cheapest there is") {
   }
 }
 
+TEST_CASE("the collapse is the same on every instruction set") {
+  const Bvh bvh = buildOver(sheet(40), {1, 16});
+  const WideCollapse expected(bvh.nodes, {}, InstructionSet::Baseline), widest(bvh.nodes);
+  for (uint32_t node = 0; node < bvh.nodes.size(); ++node) {
+    const WideChildren one = expected.childrenOf(node), other = widest.childrenOf(node);
+    REQUIRE(std::ranges::equal(one.all(), other.all(), [](const WideChild& a, const WideChild& b) {
+      return a.node == b.node && a.isLeaf == b.isLeaf;
+    }));
+    REQUIRE(expected.nodeCountBelow(node) == widest.nodeCountBelow(node));
+  }
+}
+
 TEST_CASE("children take the slots of the octants they are in") {
   std::vector<Box3f> boxes;
   for (const uint32_t octant : {3u, 0u, 7u, 5u, 6u, 1u, 2u, 4u}) {

@@ -104,6 +104,36 @@ TEST_CASE("copies in pieces are exact for all sizes, and the pool keeps their me
   CHECK(counted.allocationCount() == 2);  // The buffers themselves.
 }
 
+TEST_CASE("items are written once, directly or in pieces of whole items, and read back") {
+  struct Item {
+    uint32_t index, square, none;  // 12 bytes, which do not divide a piece.
+  };
+  const auto check = [](const Device& device, bool isMapped) {
+    for (const size_t count : {size_t{0}, size_t{1}, size_t{1000}, size_t{2 * kMaxPieceByteCount / sizeof(Item) + 7}}) {
+      std::vector<uint8_t> timesWritten(count, 0);
+      const Buffer buffer =
+          uploadItems<Item>(device, count, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, [&](size_t first, std::span<Item> items) {
+            for (size_t i = 0; i < items.size(); ++i) {
+              const auto index = static_cast<uint32_t>(first + i);
+              items[i] = {index, index * index, 0};
+              ++timesWritten[index];
+            }
+          });
+      CHECK((buffer.mapped() != nullptr) == isMapped);
+      UnsetVector<Item> copy;
+      const std::span<const Item> items = readItems(device, buffer, count, copy);
+      REQUIRE(items.size() == count);
+      CHECK(copy.size() == (isMapped ? 0 : count));
+      size_t wrongCount = 0;
+      for (uint32_t i = 0; i < count; ++i)
+        wrongCount += timesWritten[i] == 1 && items[i].index == i && items[i].square == i * i ? 0 : 1;
+      CHECK(wrongCount == 0);
+    }
+  };
+  check(*test::ValidatedDevice(), true);
+  check(*test::ValidatedDevice::changed(test::useSeparateMemory), false);
+}
+
 TEST_CASE("a shared buffer transfers in its direction on devices with and without memory of their own") {
   const auto check = [](const Device& device) {
     const std::vector<uint32_t> words = numbers(1000);

@@ -12,6 +12,7 @@
 #include "asdf_vk/error.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "core/stopwatch.h"
 #include "predict/prediction_kernel.h"
 #include "shared/cone_hit.h"
@@ -175,7 +176,10 @@ class VulkanPredictor final : public DevicePredictor {
     const size_t rayCount = kernels_.rayCount();
     const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
     const std::span<ConeHit> hits = memory_->hits.onHost<ConeHit>();
+    constexpr size_t kDistance = 8;  // The normals of the seeds are far from each other in memory.
     forEachInParallel(seeds.size(), [&](uint32_t i) {
+      if (i + kDistance < seeds.size())
+        prefetchMemory(&scene_.geometry.normals[input.hits.seeds[seeds[i + kDistance]]]);
       const uint32_t face = input.hits.seeds[seeds[i]];
       const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face};
       std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
