@@ -68,7 +68,8 @@ void forEachTask(size_t count, const Body& body) {
 template <typename T>
 [[nodiscard]] UnsetVector<T> filledInParallel(size_t count, const T& value) {
   UnsetVector<T> copies(count);
-  forEachRange(count, kItemsPerTask, [&](size_t begin, size_t end) { std::fill(&copies[begin], &copies[end], value); });
+  forEachRange(count, kItemsPerTask,
+               [&](size_t begin, size_t end) { std::fill(copies.data() + begin, copies.data() + end, value); });
   return copies;
 }
 

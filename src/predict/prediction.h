@@ -32,7 +32,7 @@ struct Prediction {
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
-/// Input of the prediction of all faces. Has references and views only.
+/// Input of a prediction. Has references and views only.
 struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
@@ -54,7 +54,7 @@ class DevicePredictor {
  public:
   virtual ~DevicePredictor() = default;
 
-  /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
+  /// Writes the values of all faces in input.cells. values: #F. Two calls with the same hits give the same bits.
   /// Throws Error{Cancelled} between submissions, and Error of kind Device, for example if there are more neighbours
   /// than the device supports.
   virtual void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) = 0;

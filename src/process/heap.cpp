@@ -38,8 +38,11 @@ constexpr size_t kMinAdvisedBytes = 128 << 10;
 /// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap.
 void adviseHugePages(void* memory, size_t byteCount) {
   if (byteCount < kMinAdvisedBytes) return;
-  const auto begin = reinterpret_cast<uintptr_t>(memory), heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0));
-  requestHugePages(memory, std::max(byteCount, (heapEnd & ~(kHugePageBytes - 1)) - begin));
+  constexpr uintptr_t kMask = kHugePageBytes - 1;
+  const auto address = reinterpret_cast<uintptr_t>(memory);
+  const uintptr_t heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0)) & ~kMask, begin = address & ~kMask,
+                  end = std::max((address + byteCount + kMask) & ~kMask, heapEnd);
+  requestHugePages(reinterpret_cast<void*>(begin), end - begin);
 }
 
 /// Requests huge pages for the unused part of the heap, and lets this part begin at the boundary of a huge page. The

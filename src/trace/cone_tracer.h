@@ -72,7 +72,8 @@ class ConeTracer {
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;
 
-  /// Seconds that the constructor took to encode the hierarchy for a device, without the upload; 0 without a device.
+  /// Seconds that the constructor took to encode the nodes of the hierarchy for a device. Its triangles are encoded
+  /// during the upload. 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }
 };
 

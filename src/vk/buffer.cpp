@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "core/huge_pages.h"
 #include "core/parallel.h"
 #include "vk/buffer_pool.h"
@@ -112,7 +113,7 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
     requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
     guard.mapped_ = static_cast<std::byte*>(pointer);
     // The memory of a CPU device is memory of the process, which the driver allocates in small pages.
-    if (device.facts().kind == DeviceKind::Cpu && byteCount >= kHugePageBytes) requestHugePages(pointer, byteCount);
+    if (device.facts().kind == DeviceKind::Cpu) requestHugePages(pointer, byteCount);
     guard.isCached_ = (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
   }
   *this = std::move(guard);
@@ -165,6 +166,7 @@ Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBu
 
 Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCount, VkBufferUsageFlags usage,
                      MemoryKind kind, const WriteItems& write) {
+  ASDFVK_CHECK(itemByteCount > 0 && itemByteCount <= kMaxPieceByteCount);
   const uint64_t byteCount = uint64_t{itemCount} * itemByteCount;
   Buffer buffer(device, std::max<uint64_t>(byteCount, 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
   if (buffer.mapped() != nullptr) {

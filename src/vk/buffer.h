@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "core/function_ref.h"
 #include "core/unset_vector.h"
@@ -71,15 +72,18 @@ inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);
 
-/// Writes the items from `first` on. bytes: the memory of consecutive items, which may be uncached.
+/// Writes the items from `first` on. Several threads call it at once. bytes: the memory of consecutive items, of which
+/// every byte is to be written in ascending order, and none read, because the memory may be uncached.
 using WriteItems = FunctionRef<void(size_t first, std::span<std::byte> bytes)>;
-/// The same buffer with items that several threads write directly to mapped memory.
+/// The same buffer with items that are written directly to its mapped memory or, if it has none, to pieces of whole
+/// items, which are copied. An item has at most kMaxPieceByteCount.
 [[nodiscard]] Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCount,
                                    VkBufferUsageFlags usage, MemoryKind kind, const WriteItems& write);
 
 /// The same, with write(first, items).
 template <typename Item, typename Write>
 [[nodiscard]] Buffer uploadItems(const Device& device, size_t itemCount, VkBufferUsageFlags usage, const Write& write) {
+  static_assert(std::is_trivially_copyable_v<Item>);
   return uploadWritten(device, itemCount, sizeof(Item), usage, MemoryKind::DeviceLocal,
                        [&](size_t first, std::span<std::byte> bytes) {
                          write(first, std::span(reinterpret_cast<Item*>(bytes.data()), bytes.size() / sizeof(Item)));

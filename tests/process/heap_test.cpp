@@ -35,6 +35,7 @@ std::string mappingFlagsAt(const void* address) {
 }
 
 TEST_CASE("large memory, with and without an alignment, and the heap from its start are advised to have huge pages") {
+  const auto mapped = std::make_unique<std::vector<uint8_t>>(64 << 20);  // Not in the heap, but above it.
   configureHeap();
   const std::vector<uint8_t> small(64 << 10);  // Too small for an advice of its own.
   const auto plain = std::make_unique<std::vector<uint8_t>>(8 << 20);
@@ -46,6 +47,7 @@ TEST_CASE("large memory, with and without an alignment, and the heap from its st
     return;
   }
   CHECK(mappingFlagsAt(small.data() + small.size() / 2).find(" hg ") != std::string::npos);
+  CHECK(mappingFlagsAt(mapped->data() + mapped->size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(plain->data() + plain->size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(aligned->data() + aligned->size() / 2).find(" hg ") != std::string::npos);
 }

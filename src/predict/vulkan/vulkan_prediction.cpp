@@ -110,13 +110,14 @@ class VulkanPredictor final : public DevicePredictor {
     predictBatches(input, batches, control);
     UnsetVector<uint32_t> copy;
     const std::span<const uint32_t> lengths = readItems(kernels_.device(), values_, values.size(), copy);
-    forEachInParallel(input.order.size(), [&](size_t i) {
-      const uint32_t cell = input.order[i];
-      for (const uint32_t face : input.cells[cell]) {
-        const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
-        values[face] =
-            batches.isKept(cell, face) ? input.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
-      }
+    constexpr size_t kGrain = 64;  // A cell may have many faces.
+    forEachRange(input.order.size(), kGrain, [&](size_t begin, size_t end) {
+      for (const uint32_t cell : input.order.subspan(begin, end - begin))
+        for (const uint32_t face : input.cells[cell]) {
+          const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
+          values[face] =
+              batches.isKept(cell, face) ? input.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
+        }
     });
   }
 
@@ -176,10 +177,10 @@ class VulkanPredictor final : public DevicePredictor {
     const size_t rayCount = kernels_.rayCount();
     const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
     const std::span<ConeHit> hits = memory_->hits.onHost<ConeHit>();
-    constexpr size_t kDistance = 8;  // The normals of the seeds are far from each other in memory.
+    constexpr size_t kPrefetchDistance = 8;  // The normals of the seeds are far from each other in memory.
     forEachInParallel(seeds.size(), [&](uint32_t i) {
-      if (i + kDistance < seeds.size())
-        prefetchMemory(&scene_.geometry.normals[input.hits.seeds[seeds[i + kDistance]]]);
+      if (i + kPrefetchDistance < seeds.size())
+        prefetchMemory(&scene_.geometry.normals[input.hits.seeds[seeds[i + kPrefetchDistance]]]);
       const uint32_t face = input.hits.seeds[seeds[i]];
       const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face};
       std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
