@@ -64,14 +64,13 @@ int exponentFor(double extent) {
 
 constexpr float kNone = -1e30f;
 
-// In registers: a vector waits for each of its lanes that was written to memory alone.
+// Eight numbers in registers. In memory, the load of a vector would wait for the store of a single number.
 struct EightNumbers {
   using Ints = IntsOf<Float4>;
   static constexpr Ints kLowIndices = {0, 1, 2, 3}, kHighIndices = {4, 5, 6, 7};
 
   Float4 low, high;
 
-  EightNumbers(const Float4& l, const Float4& h) : low(l), high(h) {}
   // The index replaces the last three bits of each number, for which no precision is required.
   [[nodiscard]] uint32_t indexOfMax() const {
     const auto tagged = [](const Float4& numbers, const Ints& indices) {
@@ -265,14 +264,14 @@ std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> childre
   }
   const Float4 xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
   std::array<uint32_t, kWideChildCount> slots{};
-  EightNumbers distances(load<Float4>(&offsetLengths[0]), load<Float4>(&offsetLengths[4]));
-  EightNumbers penalties(Float4{}, Float4{});  // kNone for assigned slots.
+  EightNumbers distances{load<Float4>(&offsetLengths[0]), load<Float4>(&offsetLengths[4])};
+  EightNumbers penalties{};  // kNone for assigned slots.
   for (size_t i = 0; i < children.size(); ++i) {
     const uint32_t child = distances.indexOfMax();
     distances.set(child, kNone);
     const auto [x, y, z] = offsets[child];
     const Float4 along = x * xSigns + y * ySigns;
-    slots[child] = EightNumbers(along - z + penalties.low, along + z + penalties.high).indexOfMax();
+    slots[child] = EightNumbers{along - z + penalties.low, along + z + penalties.high}.indexOfMax();
     penalties.set(slots[child], kNone);
   }
   return slots;

@@ -29,7 +29,8 @@ ASDFVK_ALWAYS_INLINE inline auto dihedral(const Vector& normalF, const Vector& n
   using Result = Dihedral<decltype(dot(normal, normal))>;
   // Branch-free, because the condition is unpredictable.
   const typename Result::Mask isAboveF = dot(normalF, between) > 0, isAboveG = dot(normalG, between) < 0;
-  // At a degenerate face the cosine can be -0, and the arc tangent would be pi. The sum of -0 and 0 is +0.
+  // At a degenerate face, the sine is 0 and the cosine 0 or -0. With -0 the angle would be pi. The sum of -0 and 0 is
+  // +0.
   return Result{dot(normal, normal), dot(normalF, normalG) + 0.0,
                 static_cast<typename Result::Mask>(isAboveF & isAboveG)};
 }

@@ -6,6 +6,7 @@
 
 #include "core/disjoint_sets.h"
 #include "core/parallel.h"
+#include "core/raise_flag.h"
 #include "mesh/face_geometry.h"
 
 namespace asdfvk {
@@ -46,15 +47,14 @@ void judgeClosedness(const TriangleMesh& mesh, const EdgeSurvey& edges, Componen
   }
   const size_t count = result.components.size();
   std::vector<uint8_t> hasProperFace(count, 0), isOpen(count, 0), isInconsistent(count, 0);
-  const auto raise = [](uint8_t& flag) { std::atomic_ref<uint8_t>(flag).store(1, std::memory_order_relaxed); };
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
     if (!hasDistinctVertices(mesh.faces[f]) || !mesh.hasFiniteCorners(f)) return;
     const uint32_t component = result.componentOf[f];
-    raise(hasProperFace[component]);
+    raiseFlag(hasProperFace[component]);
     for (size_t i = 0; i < 3; ++i) {
       const EdgeKind kind = edges.edgeKinds[size_t{3} * f + i];
-      if (kind == EdgeKind::Inconsistent) raise(isInconsistent[component]);
-      if (kind == EdgeKind::Boundary || kind == EdgeKind::NonManifold) raise(isOpen[component]);
+      if (kind == EdgeKind::Inconsistent) raiseFlag(isInconsistent[component]);
+      if (kind == EdgeKind::Boundary || kind == EdgeKind::NonManifold) raiseFlag(isOpen[component]);
     }
   });
   for (size_t i = 0; i < count; ++i) {

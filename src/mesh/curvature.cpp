@@ -1,13 +1,13 @@
 #include "mesh/curvature.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 
 #include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/raise_flag.h"
 #include "mesh/dual_graph.h"
 
 namespace asdfvk {
@@ -34,15 +34,12 @@ double angleAt(const Vec3d& apex, const Vec3d& b, const Vec3d& c) {
 std::vector<double> vertexAngleDefects(const TriangleMesh& mesh) {
   const auto takesPart = [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); };
   std::vector<uint8_t> isOnBoundary(mesh.vertices.size(), 0);
-  const auto mark = [&](uint32_t vertex) {
-    std::atomic_ref<uint8_t>(isOnBoundary[vertex]).store(1, std::memory_order_relaxed);
-  };
   const UnsetVector<EdgeKind> kinds = surveyEdges(mesh).edgeKinds;
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
     for (size_t i = 0; i < 3; ++i) {
       if (kinds[size_t{3} * f + i] != EdgeKind::Boundary) continue;
-      mark(mesh.faces[f][i]);
-      mark(mesh.faces[f][(i + 1) % 3]);
+      raiseFlag(isOnBoundary[mesh.faces[f][i]]);
+      raiseFlag(isOnBoundary[mesh.faces[f][(i + 1) % 3]]);
     }
   });
   const Buckets<uint32_t> facesOf =

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
+#include "core/raise_flag.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -15,10 +15,7 @@ namespace {
 uint64_t countUnreferencedVertices(const TriangleMesh& mesh) {
   std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
-    for (const uint32_t vertex : mesh.faces[f]) {
-      const std::atomic_ref<uint8_t> used(isUsed[vertex]);
-      if (!used.load(std::memory_order_relaxed)) used.store(1, std::memory_order_relaxed);
-    }
+    for (const uint32_t vertex : mesh.faces[f]) raiseFlag(isUsed[vertex]);
   });
   return countInParallel(isUsed.size(), [&](uint32_t vertex) { return !isUsed[vertex]; });
 }

@@ -19,7 +19,7 @@ class AggregatedMesh {
     return {graph_, componentOf, components.size(), traceableFaces_, {}, this};
   }
   [[nodiscard]] const FaceAggregates& aggregates() const { return aggregates_; }
-  /// #F: the number of faces that a centre represents; unset for other faces.
+  /// #F: for a centre, the number of faces of its aggregate; unset for other faces.
   [[nodiscard]] UnsetVector<uint32_t> representedCounts() const;
   /// Sets the values of the faces that are not centres, see spreadFromCentres(). Their indicator, #F or empty, becomes
   /// that of their centre.

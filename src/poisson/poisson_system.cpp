@@ -1,7 +1,6 @@
 #include "poisson/poisson_system.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
+#include "core/raise_flag.h"
 
 namespace asdfvk {
 namespace {
@@ -113,9 +113,7 @@ std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf, std::
       maxInParallel<size_t>(componentOf.size(), [&](uint32_t face) { return componentOf[face] + size_t{1}; });
   std::vector<uint8_t> isConstrained(componentCount, 0);
   forEachInParallel(constraints.size(), [&](size_t face) {
-    if (!std::isfinite(constraints[face])) return;
-    const std::atomic_ref flag(isConstrained[componentOf[face]]);
-    if (flag.load(std::memory_order_relaxed) == 0) flag.store(1, std::memory_order_relaxed);
+    if (std::isfinite(constraints[face])) raiseFlag(isConstrained[componentOf[face]]);
   });
   std::vector<uint8_t> isReachable(constraints.size());
   forEachInParallel(constraints.size(), [&](size_t face) { isReachable[face] = isConstrained[componentOf[face]]; });

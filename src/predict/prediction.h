@@ -37,7 +37,7 @@ struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
   const SeedHitsView& hits;
-  const Buckets<uint32_t>& cells;  ///< The faces of each cell that are to be predicted.
+  const Buckets<uint32_t>& cells;  ///< For each cell, its faces that are to be predicted.
   const NearestCells& nearest;
   const PredictionOptions& options;
   /// The cells that are not empty, in an order in which neighbours in space are close to each other.

@@ -112,9 +112,9 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
     void* pointer = nullptr;
     requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
     guard.mapped_ = static_cast<std::byte*>(pointer);
-    // The memory of a CPU device is memory of the process, which the driver allocates in small pages.
-    if (device.facts().kind == DeviceKind::Cpu) requestHugePages(pointer, byteCount);
     guard.isCached_ = (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
+    // A CPU device uses memory of the process, which its driver allocates in small pages.
+    if (device.facts().kind == DeviceKind::Cpu) requestHugePages(pointer, byteCount);
   }
   *this = std::move(guard);
 }

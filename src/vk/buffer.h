@@ -72,15 +72,15 @@ inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);
 
-/// Writes the items from `first` on. Several threads call it at once. bytes: the memory of consecutive items, of which
-/// every byte is to be written in ascending order, and none read, because the memory may be uncached.
+/// Writes consecutive items to `bytes`; `first` is the number of the first of them. Several threads call it at the same
+/// time. The memory may be uncached: the function writes every byte, in ascending order, and reads none.
 using WriteItems = FunctionRef<void(size_t first, std::span<std::byte> bytes)>;
-/// The same buffer with items that are written directly to its mapped memory or, if it has none, to pieces of whole
-/// items, which are copied. An item has at most kMaxPieceByteCount.
+/// Like uploadBuffer(), with items that `write` writes: to the mapped memory of the buffer or, if the buffer is not
+/// mapped, to staging memory in pieces of whole items. An item has at most kMaxPieceByteCount bytes.
 [[nodiscard]] Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCount,
                                    VkBufferUsageFlags usage, MemoryKind kind, const WriteItems& write);
 
-/// The same, with write(first, items).
+/// Like uploadWritten(), with typed items: write(first, std::span<Item>).
 template <typename Item, typename Write>
 [[nodiscard]] Buffer uploadItems(const Device& device, size_t itemCount, VkBufferUsageFlags usage, const Write& write) {
   static_assert(std::is_trivially_copyable_v<Item>);
