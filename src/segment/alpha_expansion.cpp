@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 
@@ -9,6 +10,8 @@ namespace asdfvk {
 namespace {
 
 constexpr double kMinRelativeDecrease = 1e-10;
+/// Number of labels whose flows are kept, 8 bytes per edge and label.
+constexpr uint32_t kKeptFlowCount = 8;
 constexpr uint32_t kNoNode = std::numeric_limits<uint32_t>::max();
 
 }  // namespace
@@ -30,6 +33,7 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
   // An expansion is optimal for its label. Therefore a repeated expansion changes nothing if no other expansion has
   // changed a face in the meantime.
+  flows_.assign(std::min(labelCount, kKeptFlowCount), {});
   uint32_t unchangedCount = 0;
   for (uint32_t round = 0; round < limits.maxRoundCount; ++round)
     for (uint32_t label = 0; label < labelCount; ++label) {
@@ -58,32 +62,45 @@ bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_
     const double cost = problem.dataCost(face, label);
     const bool canChange = labels[face] != label && std::isfinite(cost);
     nodeOf_[face] = canChange ? static_cast<uint32_t>(gains_.size()) : kNoNode;
-    if (canChange) gains_.push_back(problem.dataCost(face, labels[face]) - cost);
+    if (canChange) gains_.emplace_back().add(problem.dataCost(face, labels[face]) - cost);
   }
   flow_.reset(static_cast<uint32_t>(gains_.size()));
-  for (const LabelEdge& edge : problem.edges) {
+  std::vector<double> unkept;
+  std::vector<double>& flows = label < flows_.size() ? flows_[label] : unkept;
+  const bool hasFlow = !flows.empty();
+  flows.resize(problem.edges.size());
+  for (size_t e = 0; e < problem.edges.size(); ++e) {
+    const LabelEdge& edge = problem.edges[e];
     const uint32_t f = nodeOf_[edge.f], g = nodeOf_[edge.g];
+    const double earlierFlow = std::exchange(flows[e], 0);
     const bool isUncut = labels[edge.f] == labels[edge.g];
     if (f != kNoNode && g != kNoNode) {
       if (edge.cost == 0) continue;
       const double capacity = isUncut ? edge.cost : edge.cost / 2;
-      flow_.addEdge(f, g, capacity, capacity);
-      if (!isUncut) {
-        gains_[f] += capacity;
-        gains_[g] += capacity;
-      }
+      const double flow = std::clamp(earlierFlow, -capacity, capacity);
+      flow_.addEdge(f, g, capacity - flow, capacity + flow);
+      gains_[f].add(isUncut ? -flow : capacity - flow);
+      gains_[g].add(isUncut ? flow : capacity + flow);
+      flows[e] = capacity;
     } else if (f != kNoNode || g != kNoNode) {
       // The other face keeps its label.
-      double& gain = gains_[f != kNoNode ? f : g];
+      Gain& gain = gains_[f != kNoNode ? f : g];
       if (isUncut)
-        gain -= edge.cost;
+        gain.add(-edge.cost);
       else if (labels[f != kNoNode ? edge.g : edge.f] == label)
-        gain += edge.cost;
+        gain.add(edge.cost);
     }
   }
-  if (std::none_of(gains_.begin(), gains_.end(), [](double gain) { return gain > 0; })) return false;
-  for (uint32_t node = 0; node < gains_.size(); ++node) flow_.addTerminal(node, gains_[node]);
-  static_cast<void>(flow_.solve(stopOnly));
+  const bool hasGain = std::ranges::any_of(gains_, [](const Gain& gain) { return gain.value() > 0; });
+  if (hasGain) {
+    for (uint32_t node = 0; node < gains_.size(); ++node) flow_.addTerminal(node, gains_[node].value());
+    static_cast<void>(flow_.solve(stopOnly, hasFlow ? MaxFlow::Start::NearMaximum : MaxFlow::Start::NoFlow));
+  }
+  // So far, `flows` has the capacities of the edges of the graph, and 0 for the others.
+  size_t edgeCount = 0;
+  for (double& flow : flows)
+    if (flow > 0) flow -= flow_.residual(edgeCount++);
+  if (!hasGain) return false;
   bool isChanged = false;
   expanded_.assign(labels.begin(), labels.end());
   for (uint32_t face = 0; face < labels.size(); ++face)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -48,7 +49,8 @@ struct LabelProblem {
 /// The expansion of a label gives the label to the set of faces that lowers the energy most. If several sets are
 /// equally good, the smallest of them gets the label. The graph has a node per face that can change, and no auxiliary
 /// nodes: V. Kolmogorov, R. Zabih: What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face for which
-/// the label is forbidden has no node. Deterministic. An object reuses its memory.
+/// the label is forbidden has no node. An expansion begins with the flow of the last expansion of the same label.
+/// Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {
@@ -65,15 +67,33 @@ class AlphaExpansion {
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:
+  /// A sum whose rounding error can be told from its value.
+  struct Gain {
+    double sum = 0, magnitude = 0;  ///< magnitude: the sum of the magnitudes of the terms.
+
+    void add(double term) {
+      sum += term;
+      magnitude += std::abs(term);
+    }
+    /// 0 if the sum is only a rounding error.
+    [[nodiscard]] double value() const {
+      constexpr double kMaxRoundingError = 0x1p-50;
+      return std::abs(sum) <= kMaxRoundingError * magnitude ? 0 : sum;
+    }
+  };
+
   /// Writes the labels after the best expansion to expanded_. Returns whether a face changes.
   bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label,
               const RunControl& stopOnly);
 
   MaxFlow flow_;
   std::vector<uint32_t> nodeOf_;  ///< #F
-  /// For each node: decrease of the energy if only the face of the node changes. Excludes edges between two nodes.
-  std::vector<double> gains_;
+  /// For each node: decrease of the energy if only the face of the node changes. Excludes edges between two nodes,
+  /// except for the flow with which the expansion begins.
+  std::vector<Gain> gains_;
   std::vector<uint32_t> expanded_;
+  /// For some labels: for each edge, the flow from f to g after the last expansion of the label.
+  std::vector<std::vector<double>> flows_;
 };
 
 }  // namespace asdfvk

@@ -46,14 +46,14 @@ class WindowFilter {
  private:
   /// Sets others_ to the values of the windows. Beyond the end of a window, the value of the face is used.
   void search(uint32_t first, uint32_t blockSize, size_t stride) {
-    longest_ = 0;
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      const std::span<uint32_t> ends = std::span(ringEnds_).subspan(lane * ringWeights_.size(), ringWeights_.size());
-      windows_.search(std::min(first + static_cast<uint32_t>(lane), blockSize - 1),
-                      std::span(faces_).subspan(lane * stride, stride), ends);
-      counts_[lane] = ends.back();
-      longest_ = std::max(longest_, counts_[lane]);
-    }
+    std::array<FaceWindow, kLanes> windows;
+    for (size_t lane = 0; lane < kLanes; ++lane)
+      windows[lane] = {std::min(first + static_cast<uint32_t>(lane), blockSize - 1),
+                       std::span(faces_).subspan(lane * stride, stride),
+                       std::span(ringEnds_).subspan(lane * ringWeights_.size(), ringWeights_.size())};
+    for (size_t lane = 0; lane < kLanes; lane += 2) windows_.search(windows[lane], windows[lane + 1]);
+    for (size_t lane = 0; lane < kLanes; ++lane) counts_[lane] = windows[lane].ringEnds.back();
+    longest_ = std::ranges::max(counts_);
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const uint32_t* const faces = &faces_[lane * stride];
       for (uint32_t i = 0; i < counts_[lane]; ++i) others_[i * kLanes + lane] = valuesAround_[faces[i]];

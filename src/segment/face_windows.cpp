@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace asdfvk {
+#include "core/simd.h"
 
+namespace asdfvk {
 std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blockSize) {
   constexpr uint32_t kOrdered = std::numeric_limits<uint32_t>::max();
   const auto faceCount = static_cast<uint32_t>(neighbours.size());
@@ -59,34 +60,52 @@ void FaceWindows::setBlock(std::span<const uint32_t> block, uint32_t ringCount) 
         }
         rows_.push_back(face == kNoNeighbour ? 0 : localOf_[face]);
       }
-  if (visitedBy_.size() < faces_.size()) visitedBy_.resize(faces_.size());
+  for (std::vector<SearchNumber>& visitedBy : visitedBy_) visitedBy.assign(faces_.size(), 0);
+  searchNumber_ = 0;
 }
 
-void FaceWindows::search(uint32_t i, std::span<uint32_t> window, std::span<uint32_t> ringEnds) {
-  const uint32_t search = ++searchCount_;
-  uint32_t* const visitedBy = visitedBy_.data();
-  uint32_t* const faces = window.data();
-  const uint32_t* const rows = rows_.data();
-  visitedBy[0] = visitedBy[i + 1] = search;
-  faces[0] = i + 1;
-  uint32_t count = 1, parent = 0;
-  ringEnds[0] = 1;
-  for (size_t ring = 1; ring < ringEnds.size(); ++ring) {
-    for (const uint32_t end = count; parent < end; ++parent) {
-      const uint32_t* const row = rows + 3 * size_t{faces[parent]};
-      const uint32_t a = row[0], b = row[1], c = row[2];
-      // Branch-free, because the condition (whether a neighbour is new) is unpredictable.
-      faces[count] = a;
-      count += visitedBy[a] != search ? 1 : 0;
-      visitedBy[a] = search;
-      faces[count] = b;
-      count += visitedBy[b] != search ? 1 : 0;
-      visitedBy[b] = search;
-      faces[count] = c;
-      count += visitedBy[c] != search ? 1 : 0;
-      visitedBy[c] = search;
+/// A breadth-first search. `parent` is the face of the queue whose neighbours are visited next.
+struct FaceWindows::Search {
+  Search(const FaceWindow& window, SearchNumber* visitedByNumber, SearchNumber searchNumber)
+      : visitedBy(visitedByNumber), faces(window.faces.data()), number(searchNumber) {
+    faces[0] = window.centre + 1;
+    visitedBy[0] = visitedBy[faces[0]] = number;
+    window.ringEnds[0] = 1;
+  }
+
+  ASDFVK_ALWAYS_INLINE void step(const uint32_t* rows) {
+    const uint32_t* const row = rows + 3 * size_t{faces[parent++]};
+    for (const uint32_t face : {row[0], row[1], row[2]}) {
+      // Branch-free, because the condition (whether the neighbour is new) is unpredictable.
+      faces[count] = face;
+      count += visitedBy[face] != number ? 1 : 0;
+      visitedBy[face] = number;
     }
-    ringEnds[ring] = count;
+  }
+
+  SearchNumber* visitedBy;
+  uint32_t* faces;
+  SearchNumber number;
+  uint32_t count = 1, parent = 0;
+};
+
+void FaceWindows::search(const FaceWindow& first, const FaceWindow& second) {
+  if (++searchNumber_ == 0) {
+    for (std::vector<SearchNumber>& visitedBy : visitedBy_) std::ranges::fill(visitedBy, SearchNumber{0});
+    searchNumber_ = 1;
+  }
+  Search a(first, visitedBy_[0].data(), searchNumber_), b(second, visitedBy_[1].data(), searchNumber_);
+  const uint32_t* const rows = rows_.data();
+  for (size_t ring = 1; ring < first.ringEnds.size(); ++ring) {
+    const uint32_t endOfA = a.count, endOfB = b.count;
+    while (a.parent < endOfA && b.parent < endOfB) {
+      a.step(rows);
+      b.step(rows);
+    }
+    while (a.parent < endOfA) a.step(rows);
+    while (b.parent < endOfB) b.step(rows);
+    first.ringEnds[ring] = a.count;
+    second.ringEnds[ring] = b.count;
   }
 }
 

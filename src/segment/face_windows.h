@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,7 +14,15 @@ namespace asdfvk {
 /// faces is found by a breadth-first search, which begins at a face beside the earlier blocks.
 [[nodiscard]] std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blockSize);
 
-/// The faces within some rings around the faces of a block. The breadth-first search from a face of the block reads
+/// The faces around a face of a block, in the order of a breadth-first search. The face is first; faces
+/// [ringEnds[r - 1], ringEnds[r]) are in ring r.
+struct FaceWindow {
+  uint32_t centre;            ///< Index into the block.
+  std::span<uint32_t> faces;  ///< Receives indices into FaceWindows::faces(); has room for faces().size() + 1 entries.
+  std::span<uint32_t> ringEnds;  ///< Receives ringCount + 1 entries.
+};
+
+/// The faces within some rings around the faces of a block. The breadth-first searches from faces of the block read
 /// only a small table with copies of the neighbours. Needs 4 bytes per face of the mesh.
 class FaceWindows {
  public:
@@ -23,23 +32,25 @@ class FaceWindows {
   /// Precondition: the block has no face twice.
   void setBlock(std::span<const uint32_t> block, uint32_t ringCount);
 
-  /// Finds the faces around face i of the block, in the order of a breadth-first search. Face i is first; faces
-  /// [ringEnds[r - 1], ringEnds[r]) are in ring r. window: receives indices into faces(); has room for faces().size() +
-  /// 1 entries. ringEnds: ringCount + 1 entries.
-  void search(uint32_t i, std::span<uint32_t> window, std::span<uint32_t> ringEnds);
+  /// Fills two windows with the same number of rings. The two searches advance in turns, because the steps of one
+  /// search wait for each other.
+  void search(const FaceWindow& first, const FaceWindow& second);
 
   /// The faces around the block. Face 0 stands for a missing neighbour. Face 1 + i is face i of the block.
   [[nodiscard]] std::span<const uint32_t> faces() const { return faces_; }
 
  private:
+  using SearchNumber = uint8_t;  ///< Small, so that the arrays of visited faces stay in the first cache.
+  struct Search;
+
   static constexpr uint32_t kOutside = kNoNeighbour;
 
   const FaceNeighbours& neighbours_;
   std::vector<uint32_t> localOf_;  ///< #F, index into faces_.
   std::vector<uint32_t> faces_;
-  std::vector<uint32_t> rows_;       ///< The three neighbours of each face less than ringCount rings from the block.
-  std::vector<uint32_t> visitedBy_;  ///< The last search that visited the face.
-  uint32_t searchCount_ = 0;
+  std::vector<uint32_t> rows_;  ///< The three neighbours of each face less than ringCount rings from the block.
+  std::array<std::vector<SearchNumber>, 2> visitedBy_;  ///< For both windows: the last search that visited the face.
+  SearchNumber searchNumber_ = 0;
 };
 
 }  // namespace asdfvk

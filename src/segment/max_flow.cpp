@@ -80,7 +80,7 @@ class MaxFlow::Search {
   double flow_ = 0;
 };
 
-double MaxFlow::solve(const RunControl& stopOnly) {
+double MaxFlow::solve(const RunControl& stopOnly, Start start) {
   ASDFVK_CHECK_OP(arcs_.size(), <, size_t{kOrphan});
   size_t partSize = 0;
   for (size_t size = kNodesPerRange;; partSize = size, size *= kRangesPerRange) {
@@ -90,7 +90,7 @@ double MaxFlow::solve(const RunControl& stopOnly) {
       const size_t begin = range * size, end = std::min(nodes_.size(), begin + size);
       Search search(*this, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
       if (partSize == 0) {
-        search.routeAlongForest();
+        if (start == Start::NoFlow) search.routeAlongForest();
         search.plant();
       } else {
         search.join(partSize);

@@ -13,7 +13,9 @@ namespace asdfvk {
 /// Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search trees grow from
 /// the terminals. Flow is augmented where the trees touch. A subtree that loses its parent gets another parent in the
 /// same tree, preferably the one nearest to the terminal. If there is no other parent, the nodes of the subtree become
-/// free. Before the search, flow is routed along the trees of a forest, which halves the time of graphs of meshes.
+/// free. Before the search, flow is routed along the trees of a forest, which halves the time of graphs of meshes. For
+/// a sequence of similar problems, the search can begin with the flow of the preceding problem instead (P. Kohli, P.
+/// Torr: Dynamic Graph Cuts for Efficient Inference in Markov Random Fields, PAMI 2007).
 ///
 /// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then unions of
 /// ranges are solved repeatedly, beginning with the trees of the joined ranges (J. Liu, J. Sun: Parallel Graph-cuts by
@@ -25,6 +27,13 @@ namespace asdfvk {
 /// 36 bytes per node and 32 bytes per edge.
 class MaxFlow {
  public:
+  enum class Start : uint8_t {
+    NoFlow,
+    /// The capacities are what a flow has left that is nearly maximum: each edge that carries flow x from a to b was
+    /// added with x less towards b and x more towards a, and x was taken from the terminal of a and added to that of b.
+    NearMaximum
+  };
+
   void reset(uint32_t nodeCount);
 
   /// Adds a finite capacity from the source to the node. A negative number adds the capacity -capacity from the node to
@@ -37,7 +46,10 @@ class MaxFlow {
 
   /// Returns the value of the maximum flow; 0 for an empty graph. Throws Error{Cancelled}. Precondition: called once
   /// after each reset().
-  double solve(const RunControl& stopOnly = {});
+  double solve(const RunControl& stopOnly = {}, Start start = Start::NoFlow);
+
+  /// What is left of the capacity from a to b. edge: number of earlier calls of addEdge() since reset().
+  [[nodiscard]] double residual(size_t edge) const { return arcs_[2 * edge].residual; }
 
   /// Whether the node is on the side of the source: whether it is reachable from the source in the residual graph. No
   /// other minimum cut has fewer nodes on the side of the source.

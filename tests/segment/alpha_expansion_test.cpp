@@ -99,7 +99,7 @@ TEST_CASE("all labels: the labels of the slow twin with auxiliary nodes and Dini
   AlphaExpansion expansion;
   for (uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
-    const OwnedProblem problem = randomProblem(60, 2 + static_cast<uint32_t>(seed % 5), 100, 0.15 * (seed % 3), seed);
+    const OwnedProblem problem = randomProblem(60, 2 + static_cast<uint32_t>(seed % 9), 100, 0.15 * (seed % 3), seed);
     Labels labels = allowedLabels(problem.view(), seed), slow = labels, first = labels;
     const double energy = expansion.minimize(problem.view(), labels);
     test::minimizeSlowly(problem.view(), slow, problem.labelCount);

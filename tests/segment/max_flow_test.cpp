@@ -36,11 +36,11 @@ Network randomNetwork(uint32_t nodeCount, uint32_t edgeCount, uint32_t maxCapaci
   return network;
 }
 
-double solve(MaxFlow& flow, const Network& network) {
+double solve(MaxFlow& flow, const Network& network, MaxFlow::Start start = MaxFlow::Start::NoFlow) {
   flow.reset(static_cast<uint32_t>(network.terminals.size()));
   for (uint32_t node = 0; node < network.terminals.size(); ++node) flow.addTerminal(node, network.terminals[node]);
   for (const Edge& edge : network.edges) flow.addEdge(edge.a, edge.b, edge.capacity, edge.reverse);
-  return flow.solve();
+  return flow.solve({}, start);
 }
 
 struct Cut {
@@ -126,6 +126,34 @@ TEST_CASE("large random networks: the flow and the cut of Dinic's algorithm") {
       plain.addTerminal(node, std::max(0.0, network.terminals[node]), std::max(0.0, -network.terminals[node]));
     for (const Edge& edge : network.edges) plain.addEdge(edge.a, edge.b, edge.capacity, edge.reverse);
     REQUIRE(solve(flow, network) == plain.solve());
+    for (uint32_t node = 0; node < nodeCount; ++node) REQUIRE(flow.isSource(node) == plain.isSource(node));
+  }
+}
+
+TEST_CASE("a search that begins with the flow of another network has the cut of Dinic's algorithm") {
+  MaxFlow flow;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    const uint32_t nodeCount = 100 + 50 * static_cast<uint32_t>(seed % 7);
+    Network network = randomNetwork(nodeCount, 3 * nodeCount, seed % 2 == 0 ? 1000 : 3, seed);
+    static_cast<void>(solve(flow, network));
+    std::vector<double> flows(network.edges.size());
+    for (size_t edge = 0; edge < flows.size(); ++edge) flows[edge] = network.edges[edge].capacity - flow.residual(edge);
+    for (size_t edge = 0; edge < flows.size(); edge += 10) network.edges[edge].capacity += 2;
+    for (size_t node = 0; node < nodeCount; node += 15) network.terminals[node] *= -1;
+    test::PlainMaxFlow plain(nodeCount);
+    for (uint32_t node = 0; node < nodeCount; ++node)
+      plain.addTerminal(node, std::max(0.0, network.terminals[node]), std::max(0.0, -network.terminals[node]));
+    for (const Edge& edge : network.edges) plain.addEdge(edge.a, edge.b, edge.capacity, edge.reverse);
+    static_cast<void>(plain.solve());
+    for (size_t edge = 0; edge < flows.size(); ++edge) {
+      Edge& e = network.edges[edge];
+      e.capacity -= flows[edge];
+      e.reverse += flows[edge];
+      network.terminals[e.a] -= flows[edge];
+      network.terminals[e.b] += flows[edge];
+    }
+    static_cast<void>(solve(flow, network, MaxFlow::Start::NearMaximum));
     for (uint32_t node = 0; node < nodeCount; ++node) REQUIRE(flow.isSource(node) == plain.isSource(node));
   }
 }
