@@ -33,7 +33,8 @@ class AggregatedMesh {
 };
 
 /// The aggregates for an interpolation from this number of seeds. None if they would not save time, or if the mesh is
-/// so coarse that values differ much within an aggregate.
-[[nodiscard]] std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount);
+/// so coarse that values differ much within an aggregate. isPooled: whether values are pooled with predictions.
+[[nodiscard]] std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount,
+                                                                  bool isPooled);
 
 }  // namespace asdfvk

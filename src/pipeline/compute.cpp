@@ -147,7 +147,7 @@ RoundsResult runRoundsOnAggregates(const Computation& computation, PreparedScene
   std::unique_ptr<const AggregatedMesh> aggregated;
   {
     const auto scope = clock.time(Stage::Sample);
-    aggregated = aggregatesFor(prepared, seedCount);
+    aggregated = aggregatesFor(prepared, seedCount, options.interpolation.pooling > 0);
   }
   if (!aggregated) return run(computation);
   const FaceDomain centres = aggregated->domain();

@@ -15,7 +15,7 @@ using test::averageError;
 
 namespace {
 
-constexpr uint64_t kFineFaceCount = 300'000;
+constexpr uint64_t kFineFaceCount = 100'000, kFineFaceCountIfPooled = 300'000;
 
 Session& cpuSession() { return *test::allSessions().back(); }
 
@@ -26,10 +26,10 @@ Options seedsOf(double share) {
 }
 
 /// Whether aggregatesFor() finds aggregates that are useful.
-bool hasAggregates(const Mesh& mesh, double share) {
+bool hasAggregates(const Mesh& mesh, double share, bool isPooled = false) {
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const auto seedCount = static_cast<uint64_t>(share * static_cast<double>(mesh.faces.size()));
-  return aggregatesFor(prepared, seedCount) != nullptr;
+  return aggregatesFor(prepared, seedCount, isPooled) != nullptr;
 }
 
 /// The result without aggregates: a region of all faces but one has none.
@@ -43,17 +43,19 @@ Result withoutAggregates(Scene& scene, size_t faceCount, const Options& options)
 
 TEST_CASE("fine meshes have aggregates, others do not") {
   const Mesh fine = makeAnimal(kFineFaceCount).mesh;
-  REQUIRE(fine.faces.size() > 280'000);
+  REQUIRE(fine.faces.size() > 90'000);
   CHECK(hasAggregates(fine, 0.1));
   CHECK(hasAggregates(fine, 0.01));
   CHECK_FALSE(hasAggregates(fine, 0.2));  // Too many seeds.
-  CHECK_FALSE(hasAggregates(makeAnimal(200'000).mesh, 0.01));
+  CHECK_FALSE(hasAggregates(makeAnimal(50'000).mesh, 0.01));
+  CHECK_FALSE(hasAggregates(fine, 0.01, true));
+  CHECK(hasAggregates(makeAnimal(kFineFaceCountIfPooled).mesh, 0.01, true));
   Mesh animals;  // Coarse, although the mesh has many faces.
-  for (int i = 0; i < 20; ++i) animals = shapes::joined(std::move(animals), makeAnimal(15'000).mesh, {3.0 * i, 0, 0});
-  REQUIRE(animals.faces.size() > 280'000);
+  for (int i = 0; i < 10; ++i) animals = shapes::joined(std::move(animals), makeAnimal(10'000).mesh, {3.0 * i, 0, 0});
+  REQUIRE(animals.faces.size() > 90'000);
   CHECK_FALSE(hasAggregates(animals, 0.01));
   Mesh spheres;  // Components of 80 faces, whose faces are their own aggregates.
-  for (int i = 0; i < 3500; ++i) spheres = shapes::joined(std::move(spheres), makeSphere(80, 1).mesh, {3.0 * i, 0, 0});
+  for (int i = 0; i < 1200; ++i) spheres = shapes::joined(std::move(spheres), makeSphere(80, 1).mesh, {3.0 * i, 0, 0});
   CHECK_FALSE(hasAggregates(spheres, 0.01));
 }
 
@@ -89,7 +91,7 @@ TEST_CASE("values by aggregates are nearly as good as without, and their errors 
 
 TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling uses predictions of aggregates" *
           doctest::test_suite("slow")) {
-  const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
+  const Mesh mesh = makeAnimal(kFineFaceCountIfPooled).mesh;
   Options options = seedsOf(0.02);
   options.interpolation.pooling = 0.75;
   options.estimatesError = false;  // Held-out faces are chosen by predictions, whose last bits differ on a device.
@@ -107,9 +109,9 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
 }
 
 TEST_CASE("a component whose centres have no valid ray has the value of another face") {
-  Mesh mesh = shapes::grid(380);
+  Mesh mesh = shapes::grid(200);
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
-  const auto aggregated = aggregatesFor(prepared, 1000);
+  const auto aggregated = aggregatesFor(prepared, 1000, false);
   REQUIRE(aggregated);
   auto face = static_cast<uint32_t>(mesh.faces.size() / 2);
   while (aggregated->aggregates().isCentre(face)) ++face;
