@@ -7,8 +7,8 @@
 namespace asdfvk {
 namespace {
 
-// Measured on the horse, the armadillo and generated shapes of 80,000 to 1,500,000 faces (docs/experiments.md). Pooled
-// values have less noise, so that the errors within aggregates count for more.
+// Measured on the horse, the armadillo and generated shapes of 80,000 to 1,500,000 faces (docs/experiments.md). With
+// pooling, the errors of the horse and the armadillo would rise.
 constexpr uint64_t kMinFaceCount = 1u << 16, kMinFaceCountIfPooled = 1u << 18, kMinFacesPerSeed = 8;
 // All centres of a small component might have no valid ray.
 constexpr uint64_t kMinComponentSize = 1000;

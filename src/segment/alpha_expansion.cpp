@@ -31,9 +31,9 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
+  flows_.assign(labelCount > 1 && limits.maxRoundCount > 1 ? std::min(labelCount, kKeptFlowCount) : 0, {});
   // An expansion is optimal for its label. Therefore a repeated expansion changes nothing if no other expansion has
   // changed a face in the meantime.
-  flows_.assign(std::min(labelCount, kKeptFlowCount), {});
   uint32_t unchangedCount = 0;
   for (uint32_t round = 0; round < limits.maxRoundCount; ++round)
     for (uint32_t label = 0; label < labelCount; ++label) {
@@ -65,23 +65,22 @@ bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_
     if (canChange) gains_.emplace_back().add(problem.dataCost(face, labels[face]) - cost);
   }
   flow_.reset(static_cast<uint32_t>(gains_.size()));
-  std::vector<double> unkept;
-  std::vector<double>& flows = label < flows_.size() ? flows_[label] : unkept;
-  const bool hasFlow = !flows.empty();
-  flows.resize(problem.edges.size());
+  const bool keepsFlow = label < flows_.size(), hasFlow = keepsFlow && !flows_[label].empty();
+  if (keepsFlow) flows_[label].resize(problem.edges.size());
+  const std::span<double> flows = keepsFlow ? std::span(flows_[label]) : std::span<double>();
   for (size_t e = 0; e < problem.edges.size(); ++e) {
     const LabelEdge& edge = problem.edges[e];
     const uint32_t f = nodeOf_[edge.f], g = nodeOf_[edge.g];
-    const double earlierFlow = std::exchange(flows[e], 0);
+    const double earlierFlow = keepsFlow ? std::exchange(flows[e], 0) : 0;
     const bool isUncut = labels[edge.f] == labels[edge.g];
     if (f != kNoNode && g != kNoNode) {
-      if (edge.cost == 0) continue;
       const double capacity = isUncut ? edge.cost : edge.cost / 2;
+      if (capacity == 0) continue;
       const double flow = std::clamp(earlierFlow, -capacity, capacity);
       flow_.addEdge(f, g, capacity - flow, capacity + flow);
       gains_[f].add(isUncut ? -flow : capacity - flow);
       gains_[g].add(isUncut ? flow : capacity + flow);
-      flows[e] = capacity;
+      if (keepsFlow) flows[e] = capacity;
     } else if (f != kNoNode || g != kNoNode) {
       // The other face keeps its label.
       Gain& gain = gains_[f != kNoNode ? f : g];

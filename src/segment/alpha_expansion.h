@@ -13,7 +13,7 @@ namespace asdfvk {
 
 struct LabelEdge {
   uint32_t f, g;  ///< Different faces.
-  double cost;    ///< Not negative; counted if the labels of f and g differ.
+  double cost;    ///< Finite, not negative; counted if the labels of f and g differ.
 };
 
 /// The energy of a labelling is the sum of the data costs of the faces and of the costs of cut edges (Potts model).
@@ -49,8 +49,9 @@ struct LabelProblem {
 /// The expansion of a label gives the label to the set of faces that lowers the energy most. If several sets are
 /// equally good, the smallest of them gets the label. The graph has a node per face that can change, and no auxiliary
 /// nodes: V. Kolmogorov, R. Zabih: What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face for which
-/// the label is forbidden has no node. An expansion begins with the flow of the last expansion of the same label.
-/// Deterministic. An object reuses its memory.
+/// the label is forbidden has no node. The expansion of one of the first eight labels begins with the flow of the last
+/// expansion of this label. Sums of costs that may be only rounding errors count as 0. Deterministic. An object reuses
+/// its memory.
 class AlphaExpansion {
  public:
   struct Limits {
@@ -67,7 +68,7 @@ class AlphaExpansion {
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:
-  /// A sum whose rounding error can be told from its value.
+  /// A sum that counts as 0 where it may be only a rounding error of the additions.
   struct Gain {
     double sum = 0, magnitude = 0;  ///< magnitude: the sum of the magnitudes of the terms.
 
@@ -75,7 +76,6 @@ class AlphaExpansion {
       sum += term;
       magnitude += std::abs(term);
     }
-    /// 0 if the sum is only a rounding error.
     [[nodiscard]] double value() const {
       constexpr double kMaxRoundingError = 0x1p-50;
       return std::abs(sum) <= kMaxRoundingError * magnitude ? 0 : sum;
@@ -92,7 +92,8 @@ class AlphaExpansion {
   /// except for the flow with which the expansion begins.
   std::vector<Gain> gains_;
   std::vector<uint32_t> expanded_;
-  /// For some labels: for each edge, the flow from f to g after the last expansion of the label.
+  /// For the first labels, if expansions may be repeated: for each edge, the flow from f to g after the last expansion
+  /// of the label.
   std::vector<std::vector<double>> flows_;
 };
 

@@ -51,6 +51,7 @@ class WindowFilter {
       windows[lane] = {std::min(first + static_cast<uint32_t>(lane), blockSize - 1),
                        std::span(faces_).subspan(lane * stride, stride),
                        std::span(ringEnds_).subspan(lane * ringWeights_.size(), ringWeights_.size())};
+    static_assert(kLanes % 2 == 0);
     for (size_t lane = 0; lane < kLanes; lane += 2) windows_.search(windows[lane], windows[lane + 1]);
     for (size_t lane = 0; lane < kLanes; ++lane) counts_[lane] = windows[lane].ringEnds.back();
     longest_ = std::ranges::max(counts_);

@@ -6,6 +6,7 @@
 #include "core/simd.h"
 
 namespace asdfvk {
+
 std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blockSize) {
   constexpr uint32_t kOrdered = std::numeric_limits<uint32_t>::max();
   const auto faceCount = static_cast<uint32_t>(neighbours.size());

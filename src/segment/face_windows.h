@@ -32,8 +32,8 @@ class FaceWindows {
   /// Precondition: the block has no face twice.
   void setBlock(std::span<const uint32_t> block, uint32_t ringCount);
 
-  /// Fills two windows with the same number of rings. The two searches advance in turns, because the steps of one
-  /// search wait for each other.
+  /// Fills two windows with the same number of rings. The two searches advance in turns, so that the processor overlaps
+  /// them: each step of a search depends on the step before.
   void search(const FaceWindow& first, const FaceWindow& second);
 
   /// The faces around the block. Face 0 stands for a missing neighbour. Face 1 + i is face i of the block.

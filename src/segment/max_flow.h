@@ -29,8 +29,9 @@ class MaxFlow {
  public:
   enum class Start : uint8_t {
     NoFlow,
-    /// The capacities are what a flow has left that is nearly maximum: each edge that carries flow x from a to b was
-    /// added with x less towards b and x more towards a, and x was taken from the terminal of a and added to that of b.
+    /// The capacities are the residual capacities of a flow that is nearly maximum. For each edge that carries flow x
+    /// from a to b: x less capacity towards b, x more towards a, terminal of a minus x, terminal of b plus x. No forest
+    /// is used.
     NearMaximum
   };
 
@@ -44,11 +45,12 @@ class MaxFlow {
   /// Adds an edge with a finite capacity of at least 0 in each direction. Precondition: a != b.
   void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity);
 
-  /// Returns the value of the maximum flow; 0 for an empty graph. Throws Error{Cancelled}. Precondition: called once
-  /// after each reset().
+  /// Returns the value of the maximum flow; 0 for an empty graph. With NearMaximum: the value of the flow that was
+  /// added. Throws Error{Cancelled}. Precondition: called once after each reset().
   double solve(const RunControl& stopOnly = {}, Start start = Start::NoFlow);
 
-  /// What is left of the capacity from a to b. edge: number of earlier calls of addEdge() since reset().
+  /// The residual capacity from a to b; before solve(), the capacity as added. edge: number of earlier calls of
+  /// addEdge() since reset().
   [[nodiscard]] double residual(size_t edge) const { return arcs_[2 * edge].residual; }
 
   /// Whether the node is on the side of the source: whether it is reachable from the source in the residual graph. No

@@ -47,7 +47,8 @@ TEST_CASE("fine meshes have aggregates, others do not") {
   CHECK(hasAggregates(fine, 0.1));
   CHECK(hasAggregates(fine, 0.01));
   CHECK_FALSE(hasAggregates(fine, 0.2));  // Too many seeds.
-  CHECK_FALSE(hasAggregates(makeAnimal(50'000).mesh, 0.01));
+  CHECK(hasAggregates(shapes::grid(200), 0.01));
+  CHECK_FALSE(hasAggregates(shapes::grid(180), 0.01));  // 64,800 faces.
   CHECK_FALSE(hasAggregates(fine, 0.01, true));
   CHECK(hasAggregates(makeAnimal(kFineFaceCountIfPooled).mesh, 0.01, true));
   Mesh animals;  // Coarse, although the mesh has many faces.
@@ -106,6 +107,25 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   options.solver = "cpu";
   const double bound = withEstimate.report.runsOnCpu ? 2e-4 : 1e-3;
   CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < bound);
+}
+
+TEST_CASE("only centres are seeds, with pooling all faces of a mesh of this size") {
+  const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
+  Options options = seedsOf(0.02);
+  options.estimatesError = false;
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  const auto aggregated = aggregatesFor(prepared, mesh.faces.size() / 50, false);
+  REQUIRE(aggregated);
+  const auto countOtherSeeds = [&] {
+    const Result result = cpuSession().compute(mesh, options);
+    size_t count = 0;
+    for (uint32_t face = 0; face < mesh.faces.size(); ++face)
+      count += result.seed()[face] != 0 && !aggregated->aggregates().isCentre(face) ? 1 : 0;
+    return count;
+  };
+  CHECK(countOtherSeeds() == 0);
+  options.interpolation.pooling = 0.75;
+  CHECK(countOtherSeeds() > 100);
 }
 
 TEST_CASE("a component whose centres have no valid ray has the value of another face") {

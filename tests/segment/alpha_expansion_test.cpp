@@ -123,6 +123,15 @@ TEST_CASE("a forbidden label at the start fails a check") {
   CHECK_THROWS_AS(AlphaExpansion().minimize(problem.view(), labels), CheckFailure);
 }
 
+TEST_CASE("a face whose gain is only a rounding error keeps its label") {
+  // The gain of face 0 is 0.3 - 0.6 + 0.1 + 0.2, which is above 0 by rounding. Face 3 has a real gain.
+  const OwnedProblem problem{2, {0.6, 0.3, 0, 9, 0, 9, 0, 5}, {{0, 1, 0.1}, {0, 2, 0.2}}};
+  REQUIRE(0.3 - 0.6 + 0.1 + 0.2 > 0);
+  Labels labels{1, 0, 0, 1};
+  static_cast<void>(AlphaExpansion().minimize(problem.view(), labels));
+  CHECK(labels == Labels{1, 0, 0, 0});
+}
+
 TEST_CASE("only the labels below the limit are expanded, and rounds are limited") {
   const OwnedProblem problem{3, {9, 0, 5, 9, 5, 0}, {}};
   Labels labels{2, 1};
