@@ -31,7 +31,8 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
-  flows_.assign(labelCount > 1 && limits.maxRoundCount > 1 ? std::min(labelCount, kKeptFlowCount) : 0, {});
+  const bool mayRepeat = labelCount > 1 && limits.maxRoundCount > 1;
+  flows_.assign(mayRepeat ? std::min(labelCount, kKeptFlowCount) : 0, std::vector<double>(problem.edges.size(), 0));
   // An expansion is optimal for its label. Therefore a repeated expansion changes nothing if no other expansion has
   // changed a face in the meantime.
   uint32_t unchangedCount = 0;
@@ -57,49 +58,44 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
 bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label,
                             const RunControl& stopOnly) {
   nodeOf_.resize(labels.size());
-  gains_.clear();
+  uint32_t nodeCount = 0;
   for (uint32_t face = 0; face < labels.size(); ++face) {
-    const double cost = problem.dataCost(face, label);
-    const bool canChange = labels[face] != label && std::isfinite(cost);
-    nodeOf_[face] = canChange ? static_cast<uint32_t>(gains_.size()) : kNoNode;
-    if (canChange) gains_.emplace_back().add(problem.dataCost(face, labels[face]) - cost);
+    const bool canChange = labels[face] != label && std::isfinite(problem.dataCost(face, label));
+    nodeOf_[face] = canChange ? nodeCount++ : kNoNode;
   }
-  flow_.reset(static_cast<uint32_t>(gains_.size()));
-  const bool keepsFlow = label < flows_.size(), hasFlow = keepsFlow && !flows_[label].empty();
-  if (keepsFlow) flows_[label].resize(problem.edges.size());
-  const std::span<double> flows = keepsFlow ? std::span(flows_[label]) : std::span<double>();
+  flow_.reset(nodeCount);
+  for (uint32_t face = 0; face < labels.size(); ++face)
+    if (nodeOf_[face] != kNoNode)
+      flow_.addTerminal(nodeOf_[face], problem.dataCost(face, labels[face]) - problem.dataCost(face, label));
+  const std::span<double> flows = label < flows_.size() ? std::span(flows_[label]) : std::span<double>();
   for (size_t e = 0; e < problem.edges.size(); ++e) {
     const LabelEdge& edge = problem.edges[e];
     const uint32_t f = nodeOf_[edge.f], g = nodeOf_[edge.g];
-    const double earlierFlow = keepsFlow ? std::exchange(flows[e], 0) : 0;
+    const double earlierFlow = flows.empty() ? 0 : std::exchange(flows[e], 0);
     const bool isUncut = labels[edge.f] == labels[edge.g];
     if (f != kNoNode && g != kNoNode) {
       const double capacity = isUncut ? edge.cost : edge.cost / 2;
       if (capacity == 0) continue;
-      const double flow = std::clamp(earlierFlow, -capacity, capacity);
-      flow_.addEdge(f, g, capacity - flow, capacity + flow);
-      gains_[f].add(isUncut ? -flow : capacity - flow);
-      gains_[g].add(isUncut ? flow : capacity + flow);
-      if (keepsFlow) flows[e] = capacity;
+      flow_.addEdge(f, g, capacity, capacity, std::clamp(earlierFlow, -capacity, capacity));
+      if (!isUncut) {
+        flow_.addTerminal(f, capacity);
+        flow_.addTerminal(g, capacity);
+      }
+      if (!flows.empty()) flows[e] = capacity;
     } else if (f != kNoNode || g != kNoNode) {
       // The other face keeps its label.
-      Gain& gain = gains_[f != kNoNode ? f : g];
+      const uint32_t node = f != kNoNode ? f : g;
       if (isUncut)
-        gain.add(-edge.cost);
+        flow_.addTerminal(node, -edge.cost);
       else if (labels[f != kNoNode ? edge.g : edge.f] == label)
-        gain.add(edge.cost);
+        flow_.addTerminal(node, edge.cost);
     }
   }
-  const bool hasGain = std::ranges::any_of(gains_, [](const Gain& gain) { return gain.value() > 0; });
-  if (hasGain) {
-    for (uint32_t node = 0; node < gains_.size(); ++node) flow_.addTerminal(node, gains_[node].value());
-    static_cast<void>(flow_.solve(stopOnly, hasFlow ? MaxFlow::Start::NearMaximum : MaxFlow::Start::NoFlow));
-  }
+  static_cast<void>(flow_.solve(stopOnly));
   // So far, `flows` has the capacities of the edges of the graph, and 0 for the others.
   size_t edgeCount = 0;
   for (double& flow : flows)
     if (flow > 0) flow -= flow_.residual(edgeCount++);
-  if (!hasGain) return false;
   bool isChanged = false;
   expanded_.assign(labels.begin(), labels.end());
   for (uint32_t face = 0; face < labels.size(); ++face)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -13,7 +12,7 @@ namespace asdfvk {
 
 struct LabelEdge {
   uint32_t f, g;  ///< Different faces.
-  double cost;    ///< Finite, not negative; counted if the labels of f and g differ.
+  double cost;    ///< Finite and at least 0; added to the energy if the labels of f and g differ.
 };
 
 /// The energy of a labelling is the sum of the data costs of the faces and of the costs of cut edges (Potts model).
@@ -50,8 +49,7 @@ struct LabelProblem {
 /// equally good, the smallest of them gets the label. The graph has a node per face that can change, and no auxiliary
 /// nodes: V. Kolmogorov, R. Zabih: What Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. A face for which
 /// the label is forbidden has no node. The expansion of one of the first eight labels begins with the flow of the last
-/// expansion of this label. Sums of costs that may be only rounding errors count as 0. Deterministic. An object reuses
-/// its memory.
+/// expansion of this label. Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {
@@ -68,29 +66,12 @@ class AlphaExpansion {
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:
-  /// A sum that counts as 0 where it may be only a rounding error of the additions.
-  struct Gain {
-    double sum = 0, magnitude = 0;  ///< magnitude: the sum of the magnitudes of the terms.
-
-    void add(double term) {
-      sum += term;
-      magnitude += std::abs(term);
-    }
-    [[nodiscard]] double value() const {
-      constexpr double kMaxRoundingError = 0x1p-50;
-      return std::abs(sum) <= kMaxRoundingError * magnitude ? 0 : sum;
-    }
-  };
-
   /// Writes the labels after the best expansion to expanded_. Returns whether a face changes.
   bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label,
               const RunControl& stopOnly);
 
   MaxFlow flow_;
   std::vector<uint32_t> nodeOf_;  ///< #F
-  /// For each node: decrease of the energy if only the face of the node changes. Excludes edges between two nodes,
-  /// except for the flow with which the expansion begins.
-  std::vector<Gain> gains_;
   std::vector<uint32_t> expanded_;
   /// For the first labels, if expansions may be repeated: for each edge, the flow from f to g after the last expansion
   /// of the label.

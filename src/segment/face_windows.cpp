@@ -77,7 +77,7 @@ struct FaceWindows::Search {
   ASDFVK_ALWAYS_INLINE void step(const uint32_t* rows) {
     const uint32_t* const row = rows + 3 * size_t{faces[parent++]};
     for (const uint32_t face : {row[0], row[1], row[2]}) {
-      // Branch-free, because the condition (whether the neighbour is new) is unpredictable.
+      // No branch, because the processor cannot predict whether the neighbour is new.
       faces[count] = face;
       count += visitedBy[face] != number ? 1 : 0;
       visitedBy[face] = number;

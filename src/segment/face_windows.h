@@ -32,15 +32,15 @@ class FaceWindows {
   /// Precondition: the block has no face twice.
   void setBlock(std::span<const uint32_t> block, uint32_t ringCount);
 
-  /// Fills two windows with the same number of rings. The two searches advance in turns, so that the processor overlaps
-  /// them: each step of a search depends on the step before.
+  /// Fills two windows with the same number of rings. The two searches advance in turns. Each step of a search depends
+  /// on the preceding step, so the processor can overlap only steps of different searches.
   void search(const FaceWindow& first, const FaceWindow& second);
 
   /// The faces around the block. Face 0 stands for a missing neighbour. Face 1 + i is face i of the block.
   [[nodiscard]] std::span<const uint32_t> faces() const { return faces_; }
 
  private:
-  using SearchNumber = uint8_t;  ///< Small, so that the arrays of visited faces stay in the first cache.
+  using SearchNumber = uint8_t;  ///< 8 bits, so that visitedBy_ fits into the L1 cache.
   struct Search;
 
   static constexpr uint32_t kOutside = kNoNeighbour;

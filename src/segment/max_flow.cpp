@@ -12,24 +12,36 @@ namespace {
 /// Number of nodes of each smallest range, and number of ranges that are joined to a larger range.
 constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
 constexpr uint32_t kStepsPerPoll = 1024;
+/// The largest rounding error of a sum, divided by the sum of the magnitudes of its terms.
+constexpr double kMaxRoundingError = 0x1p-50;
 
 }  // namespace
 
 void MaxFlow::reset(uint32_t nodeCount) {
   nodes_.assign(nodeCount, Node());
+  magnitudes_.assign(nodeCount, 0);
   arcs_.clear();
   queue_.resize(nodeCount);
+  hasFlow_ = false;
   flow_ = 0;
 }
 
-void MaxFlow::addTerminal(uint32_t node, double capacity) { nodes_[node].terminal += capacity; }
+void MaxFlow::addTerminal(uint32_t node, double capacity) {
+  nodes_[node].terminal += capacity;
+  magnitudes_[node] += std::abs(capacity);
+}
 
-void MaxFlow::addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity) {
+void MaxFlow::addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity, double flow) {
   const auto arc = static_cast<uint32_t>(arcs_.size());
-  arcs_.push_back({b, nodes_[a].firstArc, capacity});
-  arcs_.push_back({a, nodes_[b].firstArc, reverseCapacity});
+  arcs_.push_back({b, nodes_[a].firstArc, capacity - flow});
+  arcs_.push_back({a, nodes_[b].firstArc, reverseCapacity + flow});
   nodes_[a].firstArc = arc;
   nodes_[b].firstArc = arc + 1;
+  if (flow == 0) return;
+  // Capacities of terminals stand for the flow into and out of the edge. All cuts change by the same value.
+  addTerminal(a, -flow);
+  addTerminal(b, flow);
+  hasFlow_ = true;
 }
 
 /// The search within a range of nodes, without the edges to other nodes.
@@ -80,8 +92,15 @@ class MaxFlow::Search {
   double flow_ = 0;
 };
 
-double MaxFlow::solve(const RunControl& stopOnly, Start start) {
+double MaxFlow::solve(const RunControl& stopOnly) {
   ASDFVK_CHECK_OP(arcs_.size(), <, size_t{kOrphan});
+  bool hasSource = false;
+  for (size_t node = 0; node < nodes_.size(); ++node) {
+    double& terminal = nodes_[node].terminal;
+    if (std::abs(terminal) <= kMaxRoundingError * magnitudes_[node]) terminal = 0;
+    hasSource |= terminal > 0;
+  }
+  if (!hasSource) return 0;
   size_t partSize = 0;
   for (size_t size = kNodesPerRange;; partSize = size, size *= kRangesPerRange) {
     const size_t rangeCount = (nodes_.size() + size - 1) / size;
@@ -90,7 +109,7 @@ double MaxFlow::solve(const RunControl& stopOnly, Start start) {
       const size_t begin = range * size, end = std::min(nodes_.size(), begin + size);
       Search search(*this, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
       if (partSize == 0) {
-        if (start == Start::NoFlow) search.routeAlongForest();
+        if (!hasFlow_) search.routeAlongForest();
         search.plant();
       } else {
         search.join(partSize);

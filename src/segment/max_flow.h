@@ -13,9 +13,9 @@ namespace asdfvk {
 /// Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search trees grow from
 /// the terminals. Flow is augmented where the trees touch. A subtree that loses its parent gets another parent in the
 /// same tree, preferably the one nearest to the terminal. If there is no other parent, the nodes of the subtree become
-/// free. Before the search, flow is routed along the trees of a forest, which halves the time of graphs of meshes. For
-/// a sequence of similar problems, the search can begin with the flow of the preceding problem instead (P. Kohli, P.
-/// Torr: Dynamic Graph Cuts for Efficient Inference in Markov Random Fields, PAMI 2007).
+/// free. Before the search, flow is routed along the trees of a forest, which halves the time of graphs of meshes. If
+/// the flow of a similar problem is known, the search begins with this flow instead: P. Kohli, P. Torr: Dynamic Graph
+/// Cuts for Efficient Inference in Markov Random Fields, PAMI 2007.
 ///
 /// Ranges of consecutive nodes are solved first, in parallel and without the edges between ranges. Then unions of
 /// ranges are solved repeatedly, beginning with the trees of the joined ranges (J. Liu, J. Sun: Parallel Graph-cuts by
@@ -27,30 +27,24 @@ namespace asdfvk {
 /// 36 bytes per node and 32 bytes per edge.
 class MaxFlow {
  public:
-  enum class Start : uint8_t {
-    NoFlow,
-    /// The capacities are the residual capacities of a flow that is nearly maximum. For each edge that carries flow x
-    /// from a to b: x less capacity towards b, x more towards a, terminal of a minus x, terminal of b plus x. No forest
-    /// is used.
-    NearMaximum
-  };
-
   void reset(uint32_t nodeCount);
 
   /// Adds a finite capacity from the source to the node. A negative number adds the capacity -capacity from the node to
   /// the sink. Capacities of one node to both terminals cancel out: solve() does not count the flow through this node
-  /// alone.
+  /// alone. A sum of capacities that may be only a rounding error counts as 0.
   void addTerminal(uint32_t node, double capacity);
 
-  /// Adds an edge with a finite capacity of at least 0 in each direction. Precondition: a != b.
-  void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity);
+  /// Adds an edge with a finite capacity of at least 0 in each direction. flow: the flow from a to b with which the
+  /// search begins, from -reverseCapacity to capacity. The sum of the flows at a node need not be 0. Precondition:
+  /// a != b.
+  void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity, double flow = 0);
 
-  /// Returns the value of the maximum flow; 0 for an empty graph. With NearMaximum: the value of the flow that was
-  /// added. Throws Error{Cancelled}. Precondition: called once after each reset().
-  double solve(const RunControl& stopOnly = {}, Start start = Start::NoFlow);
+  /// Returns the value of the maximum flow; 0 for an empty graph. If edges were added with a flow, returns only the
+  /// flow that the search adds. Throws Error{Cancelled}. Precondition: called once after each reset().
+  double solve(const RunControl& stopOnly = {});
 
-  /// The residual capacity from a to b; before solve(), the capacity as added. edge: number of earlier calls of
-  /// addEdge() since reset().
+  /// The residual capacity from a to b: the capacity minus the flow. edge: number of earlier calls of addEdge() since
+  /// reset().
   [[nodiscard]] double residual(size_t edge) const { return arcs_[2 * edge].residual; }
 
   /// Whether the node is on the side of the source: whether it is reachable from the source in the residual graph. No
@@ -85,8 +79,10 @@ class MaxFlow {
   class Search;
 
   std::vector<Node> nodes_;
+  std::vector<double> magnitudes_;  ///< Per node: the sum of the magnitudes of the terms of Node::terminal.
   std::vector<Arc> arcs_;
   std::vector<uint32_t> queue_;  ///< Has room for each node.
+  bool hasFlow_ = false;         ///< Whether an edge was added with a flow.
   double flow_ = 0;
 };
 
