@@ -23,7 +23,7 @@ enum class Stage {
   Graph,      ///< Dual graph and edge defects.
   Bvh,        ///< Construction of the bounding volume hierarchy.
   Encode,     ///< Conversion of the hierarchy to the layout of the device or of the CPU.
-  Upload,     ///< Creation, filling and release of buffers and kernels on the device; 0 without Vulkan.
+  Upload,     ///< Creation of kernels and buffers on the device, copies to buffers, and release; 0 without Vulkan.
   Sample,     ///< Selection of the seeds.
   Trace,      ///< Tracing of the rays.
   Thickness,  ///< Wall thickness and thin regions.

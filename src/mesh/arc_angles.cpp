@@ -27,10 +27,10 @@ ASDFVK_ALWAYS_INLINE inline auto dihedral(const Vector& normalF, const Vector& n
   // The barycentres are halved, so that their difference does not overflow.
   const Vector between = barycentreG * 0.5 - barycentreF * 0.5;
   using Result = Dihedral<decltype(dot(normal, normal))>;
-  // Branch-free, because the condition is unpredictable.
+  // No branch, because the processor cannot predict the conditions.
   const typename Result::Mask isAboveF = dot(normalF, between) > 0, isAboveG = dot(normalG, between) < 0;
-  // At a degenerate face, the sine is 0 and the cosine 0 or -0. With -0 the angle would be pi. The sum of -0 and 0 is
-  // +0.
+  // At a degenerate face, the sine is 0 and the cosine is 0 or -0. With the cosine -0, the angle would be pi instead of
+  // 0. The addition of 0 turns -0 into 0.
   return Result{dot(normal, normal), dot(normalF, normalG) + 0.0,
                 static_cast<typename Result::Mask>(isAboveF & isAboveG)};
 }

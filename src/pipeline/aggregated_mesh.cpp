@@ -8,7 +8,7 @@ namespace asdfvk {
 namespace {
 
 // Measured on the horse, the armadillo and generated shapes of 80,000 to 1,500,000 faces (docs/experiments.md). With
-// pooling, the errors of the horse and the armadillo would rise.
+// pooling, aggregates raise the errors of the horse and the armadillo; therefore only finer meshes have them.
 constexpr uint64_t kMinFaceCount = 1u << 16, kMinFaceCountIfPooled = 1u << 18, kMinFacesPerSeed = 8;
 // All centres of a small component might have no valid ray.
 constexpr uint64_t kMinComponentSize = 1000;

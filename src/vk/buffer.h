@@ -75,8 +75,8 @@ inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
 /// Writes consecutive items to `bytes`; `first` is the number of the first of them. Several threads call it at the same
 /// time. The memory may be uncached: the function writes every byte, in ascending order, and reads none.
 using WriteItems = FunctionRef<void(size_t first, std::span<std::byte> bytes)>;
-/// Like uploadBuffer(), with items that `write` writes: to the mapped memory of the buffer or, if the buffer is not
-/// mapped, to staging memory in pieces of whole items. An item has at most kMaxPieceByteCount bytes.
+/// Like uploadBuffer(), but `write` writes the items to the mapped memory of the buffer. If the buffer is not mapped,
+/// `write` writes pieces of whole items to staging memory. An item has at most kMaxPieceByteCount bytes.
 [[nodiscard]] Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCount,
                                    VkBufferUsageFlags usage, MemoryKind kind, const WriteItems& write);
 

@@ -110,7 +110,7 @@ class VulkanPredictor final : public DevicePredictor {
     predictBatches(input, batches, control);
     UnsetVector<uint32_t> copy;
     const std::span<const uint32_t> lengths = readItems(kernels_.device(), values_, values.size(), copy);
-    constexpr size_t kGrain = 64;  // A cell may have many faces.
+    constexpr size_t kGrain = 64;  // Few cells per task, because a cell may have many faces.
     forEachRange(input.order.size(), kGrain, [&](size_t begin, size_t end) {
       for (const uint32_t cell : input.order.subspan(begin, end - begin))
         for (const uint32_t face : input.cells[cell]) {
