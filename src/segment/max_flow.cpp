@@ -12,7 +12,8 @@ namespace {
 /// Number of nodes of each smallest range, and number of ranges that are joined to a larger range.
 constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
 constexpr uint32_t kStepsPerPoll = 1024;
-/// The largest rounding error of a sum, divided by the sum of the magnitudes of its terms.
+/// Bounds the rounding error of a sum of at most nine terms, divided by the sum of the magnitudes of the terms. Errors
+/// of the terms themselves are not included.
 constexpr double kMaxRoundingError = 0x1p-50;
 
 }  // namespace

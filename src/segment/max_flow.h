@@ -31,16 +31,18 @@ class MaxFlow {
 
   /// Adds a finite capacity from the source to the node. A negative number adds the capacity -capacity from the node to
   /// the sink. Capacities of one node to both terminals cancel out: solve() does not count the flow through this node
-  /// alone. A sum of capacities that may be only a rounding error counts as 0.
+  /// alone. The flows of addEdge() are terms of the same sum. If the sum is at most 2^-50 of the magnitudes of its
+  /// terms, solve() sets it to 0.
   void addTerminal(uint32_t node, double capacity);
 
   /// Adds an edge with a finite capacity of at least 0 in each direction. flow: the flow from a to b with which the
-  /// search begins, from -reverseCapacity to capacity. The sum of the flows at a node need not be 0. Precondition:
-  /// a != b.
+  /// search begins, from -reverseCapacity to capacity. The sum of the flows at a node need not be 0. If an edge has a
+  /// flow, no forest is used. Precondition: a != b.
   void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity, double flow = 0);
 
   /// Returns the value of the maximum flow; 0 for an empty graph. If edges were added with a flow, returns only the
-  /// flow that the search adds. Throws Error{Cancelled}. Precondition: called once after each reset().
+  /// flow that the search adds. Throws Error{Cancelled} if a node has a capacity from the source. Precondition: called
+  /// once after each reset().
   double solve(const RunControl& stopOnly = {});
 
   /// The residual capacity from a to b: the capacity minus the flow. edge: number of earlier calls of addEdge() since
