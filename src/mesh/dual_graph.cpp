@@ -109,7 +109,12 @@ class Survey {
     graph.offsets[0] = 0;
     forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
       graph.offsets[f + 1] = 3 * (f + 1);
-      std::sort(&across_[size_t{3} * f], &across_[size_t{3} * f] + 3);
+      // Branch-free, because the order is unpredictable.
+      uint32_t* row = &across_[size_t{3} * f];
+      const uint32_t lower = std::min(row[0], row[1]), upper = std::max(row[0], row[1]), last = row[2];
+      row[0] = std::min(lower, last);
+      row[1] = std::max(lower, std::min(upper, last));
+      row[2] = std::max(upper, last);
     });
     graph.neighbours = std::move(across_);
     return graph;

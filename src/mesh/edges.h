@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -12,11 +11,14 @@ namespace asdfvk {
 
 /// A face at an edge. Entries of an edge are ordered by face.
 struct EdgeEntry {
-  uint32_t upperVertex;
   uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to its next corner.
+  uint32_t upperVertex;
 
   [[nodiscard]] uint32_t face() const { return corner / 3; }
-  auto operator<=>(const EdgeEntry&) const = default;
+  bool operator<(const EdgeEntry& other) const { return key() < other.key(); }
+
+ private:
+  [[nodiscard]] uint64_t key() const { return uint64_t{upperVertex} << 32 | corner; }
 };
 
 /// The faces around every edge, in buckets by the lower vertex of the edge. Memory: 36 bytes per face.
@@ -31,7 +33,7 @@ class EdgeTable {
           if (!takesPart(f)) return;
           const auto [a, b, c] = mesh.faces[f];
           const auto putEdge = [&](uint32_t p, uint32_t q, uint32_t i) {
-            if (p != q) put(std::min(p, q), EdgeEntry{std::max(p, q), 3 * f + i});
+            if (p != q) put(std::min(p, q), EdgeEntry{3 * f + i, std::max(p, q)});
           };
           putEdge(a, b, 0);
           if (c != a) putEdge(b, c, 1);
