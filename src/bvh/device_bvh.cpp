@@ -8,8 +8,8 @@
 namespace asdfvk {
 namespace {
 
-// In primitives. The faces of consecutive primitives may be far apart in memory.
-constexpr size_t kPrefetchDistance = 16;
+// In primitives. The faces and vertices of consecutive primitives may be far apart in memory.
+constexpr size_t kFacePrefetchDistance = 16, kVertexPrefetchDistance = 8;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
@@ -39,11 +39,14 @@ void encodeTriangles(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometr
                      std::span<const uint32_t> primitiveFaces, std::span<DeviceTriangle> triangles) {
   for (size_t primitive = 0; primitive < triangles.size(); ++primitive) {
     const uint32_t face = primitiveFaces[primitive];
-    if (primitive + kPrefetchDistance < triangles.size()) {
-      const uint32_t later = primitiveFaces[primitive + kPrefetchDistance];
+    if (primitive + kFacePrefetchDistance < triangles.size()) {
+      const uint32_t later = primitiveFaces[primitive + kFacePrefetchDistance];
       prefetchMemory(&mesh.faces[later]);
       prefetchMemory(&geometry.normals[later]);
     }
+    if (primitive + kVertexPrefetchDistance < triangles.size())
+      for (const uint32_t vertex : mesh.faces[primitiveFaces[primitive + kVertexPrefetchDistance]])
+        prefetchMemory(&mesh.vertices[vertex]);
     const auto corner = [&](size_t k) {
       return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
     };

@@ -12,26 +12,28 @@ constexpr uint32_t kMaxBinCount = 32;
 // good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
-// The bounding box and the number of the sampled triangles in each bin of each axis.
+// For each axis, the bounding box and the number of the sampled triangles in the bin.
+struct alignas(128) Bin {
+  std::array<Float8, 3> boxes;
+  IntsOf<Float4> counts;  // Lane 3 is 0.
+};
+
 struct Bins {
-  std::array<std::array<Float8, kMaxBinCount>, 3> boxes;
-  std::array<std::array<uint32_t, kMaxBinCount>, 3> counts{};
+  std::array<Bin, kMaxBinCount> bins;
 
   ASDFVK_ALWAYS_INLINE explicit Bins(uint32_t binCount) {
-    for (auto& axisBoxes : boxes)
-      for (uint32_t i = 0; i < binCount; ++i) axisBoxes[i] = broadcast<Float8>(std::numeric_limits<float>::infinity());
+    for (uint32_t i = 0; i < binCount; ++i) {
+      for (Float8& box : bins[i].boxes) box = broadcast<Float8>(std::numeric_limits<float>::infinity());
+      bins[i].counts = IntsOf<Float4>{};
+    }
   }
   ASDFVK_ALWAYS_INLINE void add(const SplitTriangle& triangle, const IntsOf<Float4>& binIndices) {
     const auto box = load<Float8>(triangle.numbers());
     for (size_t axis = 0; axis < 3; ++axis) {
-      const auto bin = static_cast<uint32_t>(binIndices[axis]);
-      boxes[axis][bin] = min(box, boxes[axis][bin]);
-      ++counts[axis][bin];
+      Bin& bin = bins[static_cast<uint32_t>(binIndices[axis])];
+      bin.boxes[axis] = min(box, bin.boxes[axis]);
+      ++reinterpret_cast<int32_t*>(&bin.counts)[axis];
     }
-  }
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE SplitBox box(size_t axis, uint32_t bin) const {
-    const auto* numbers = reinterpret_cast<const float*>(&boxes[axis][bin]);
-    return {load<Float4>(numbers), load<Float4>(numbers + 4)};
   }
 };
 
@@ -56,31 +58,59 @@ struct Binning {
   }
 };
 
-struct Candidate {
-  float cost = std::numeric_limits<float>::infinity();  // Half area times triangle count.
-  size_t axis = 0;
-  uint32_t firstRightBin = 0;
+// One side of a split along each axis. Lane i has axis i; lane 3 has none.
+struct Sides {
+  std::array<SplitBox, 3> boxes{SplitBox::empty(), SplitBox::empty(), SplitBox::empty()};
+  IntsOf<Float4> counts{};
+
+  ASDFVK_ALWAYS_INLINE void add(const Bin& bin) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto* numbers = reinterpret_cast<const float*>(&bin.boxes[axis]);
+      boxes[axis].grow({load<Float4>(numbers), load<Float4>(numbers + 4)});
+    }
+    counts += bin.counts;
+  }
+  // Half area times triangle count. NaN without triangles, because an empty box has an infinite area: no split has this
+  // cost.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 costs() const {
+    const Float4 a = boxes[0].extents(), b = boxes[1].extents(), c = boxes[2].extents();
+    const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5), high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Float4 x = __builtin_shufflevector(low, c, 0, 1, 4, 4), y = __builtin_shufflevector(low, c, 2, 3, 5, 5),
+                 z = __builtin_shufflevector(high, c, 0, 1, 6, 6);
+    return (x * y + y * z + z * x) * __builtin_convertvector(counts, Float4);
+  }
 };
 
-ASDFVK_ALWAYS_INLINE inline void takeBest(const Bins& bins, uint32_t binCount, size_t axis, Candidate& best) {
-  const auto& counts = bins.counts[axis];
-  std::array<float, kMaxBinCount> rightCost;
-  SplitBox right = SplitBox::empty();
-  uint32_t rightCount = 0;
-  for (uint32_t i = binCount - 1; i > 0; --i) {
-    right.grow(bins.box(axis, i));
-    rightCount += counts[i];
-    rightCost[i] = rightCount == 0 ? -1 : right.halfArea() * static_cast<float>(rightCount);
+struct Candidate {
+  size_t axis = 0;
+  uint32_t firstRightBin = 0;  // 0 if there is no split.
+};
+
+ASDFVK_ALWAYS_INLINE inline Candidate bestSplit(const Bins& bins, const Binning& binning) {
+  std::array<Float4, kMaxBinCount> rightCosts;
+  Sides right;
+  for (uint32_t i = binning.binCount - 1; i > 0; --i) {
+    right.add(bins.bins[i]);
+    rightCosts[i] = right.costs();
   }
-  SplitBox left = SplitBox::empty();
-  uint32_t leftCount = 0;
-  for (uint32_t i = 1; i < binCount; ++i) {
-    left.grow(bins.box(axis, i - 1));
-    leftCount += counts[i - 1];
-    if (leftCount == 0 || rightCost[i] < 0) continue;
-    const float cost = left.halfArea() * static_cast<float>(leftCount) + rightCost[i];
-    if (cost < best.cost) best = {cost, axis, i};
+  Sides left;
+  auto leastCosts = broadcast<Float4>(std::numeric_limits<float>::infinity());
+  IntsOf<Float4> firstRightBins{};
+  for (uint32_t i = 1; i < binning.binCount; ++i) {
+    left.add(bins.bins[i - 1]);
+    const Float4 costs = left.costs() + rightCosts[i];
+    const IntsOf<Float4> isLess = costs < leastCosts;
+    leastCosts = isLess ? costs : leastCosts;
+    firstRightBins = isLess ? broadcast<IntsOf<Float4>>(static_cast<int32_t>(i)) : firstRightBins;
   }
+  Candidate best;
+  float leastCost = std::numeric_limits<float>::infinity();
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (binning.factor[axis] > 0 && leastCosts[axis] < leastCost) {
+      leastCost = leastCosts[axis];
+      best = {axis, static_cast<uint32_t>(firstRightBins[axis])};
+    }
+  return best;
 }
 
 ASDFVK_ALWAYS_INLINE inline SplitBox boundCentres(std::span<const SplitTriangle> triangles, size_t stride) {
@@ -114,9 +144,7 @@ ASDFVK_ALWAYS_INLINE inline size_t splitAtBestBin(std::span<SplitTriangle> trian
   const Binning binning(boundCentres(triangles, stride), std::clamp(adaptedCount, 2u, kMaxBinCount));
   Bins bins(binning.binCount);
   for (size_t i = 0; i < triangles.size(); i += stride) bins.add(triangles[i], binning.binsOf(triangles[i].box));
-  Candidate best;
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (binning.factor[axis] > 0) takeBest(bins, binning.binCount, axis, best);
+  const Candidate best = bestSplit(bins, binning);
   if (best.firstRightBin == 0) return 0;
   const auto bound = static_cast<float>(best.firstRightBin);
   return partitionTriangles(

@@ -25,26 +25,22 @@ struct Sharing {
 
 // Vectorised over i; loops over the number k of children from the left side. Of equal costs, the least k counts. More
 // than maxLeftCount children from the left side are never cheaper.
-template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
                                                   const std::array<float, kWideChildCount>& right) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  std::array<float, 2 * kWideChildCount> padded;  // At least one child comes from the right side.
-  std::fill_n(padded.begin(), kWideChildCount, kInfinity);
-  std::copy(right.begin(), right.end(), padded.begin() + kWideChildCount);
-  Sharing sharing;
-  for (size_t first = 0; first < kWideChildCount; first += kLaneCount<Floats>) {
-    Floats least = broadcast<Floats>(kInfinity);
-    IntsOf<Floats> leftCount{};
-    for (uint32_t k = 1; k <= maxLeftCount; ++k) {
-      const Floats cost = load<Floats>(&padded[kWideChildCount + first - k]) + left[k - 1];
-      const IntsOf<Floats> isLess = cost < least;
-      least = isLess ? cost : least;
-      leftCount = isLess ? broadcast<IntsOf<Floats>>(static_cast<int32_t>(k)) : leftCount;
-    }
-    store(&sharing.costs[first], least);
-    store(&sharing.leftCounts[first], leftCount);
+  const auto infinity = broadcast<Float8>(std::numeric_limits<float>::infinity());
+  Float8 least = infinity, rightCosts = load<Float8>(right.data());
+  IntsOf<Float8> leftCounts{};
+  for (uint32_t k = 1; k <= maxLeftCount; ++k) {
+    // Entry [i - 1] becomes that of i - k children; at least one child comes from the right side.
+    rightCosts = __builtin_shufflevector(rightCosts, infinity, 8, 0, 1, 2, 3, 4, 5, 6);
+    const Float8 costs = rightCosts + left[k - 1];
+    const IntsOf<Float8> isLess = costs < least;
+    least = isLess ? costs : least;
+    leftCounts = isLess ? broadcast<IntsOf<Float8>>(static_cast<int32_t>(k)) : leftCounts;
   }
+  Sharing sharing;
+  store(sharing.costs.data(), least);
+  store(sharing.leftCounts.data(), leftCounts);
   return sharing;
 }
 
@@ -60,6 +56,51 @@ int exponentFor(double extent) {
   int e = exponentOf(extent / kMaxByte) + 1;
   if (kMaxByte * powerOfTwo(e - 1) >= extent) --e;
   return std::max(e, 1 - kExponentBias);
+}
+
+ASDFVK_ALWAYS_INLINE inline Double4 widened(const Vec3f& v) {
+  return __builtin_convertvector(Float4{v.x, v.y, v.z, 0}, Double4);
+}
+
+// quantizeBoxes() with the axes as lanes.
+ASDFVK_ALWAYS_INLINE inline DeviceWideNode quantizeInLanes(std::span<const Box3f> children,
+                                                           const std::array<uint32_t, kWideChildCount>& slots) {
+  using Longs = IntsOf<Double4>;
+  Box3f all;
+  for (const Box3f& child : children) all.add(child);
+  const Vec3f origin = all.min - Vec3f{kWideBoxMargin, kWideBoxMargin, kWideBoxMargin};
+  DeviceWideNode node{};
+  node.origin = {origin.x, origin.y, origin.z};
+  const double margin = kWideBoxMargin;
+  const Double4 start = widened(origin), extents = widened(all.max) + margin - start;
+  Double4 perUnit{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const int e = exponentFor(extents[axis]);
+    node.exponents |= static_cast<uint32_t>(e + kExponentBias) << 8 * axis;
+    perUnit[axis] = powerOfTwo(-e);
+  }
+  // The box of an empty slot has its lower corner above its upper corner.
+  Longs lowers = broadcast<Longs>(-1), uppers{}, greatest{};
+  for (size_t i = 0; i < children.size(); ++i) {
+    const Double4 lower = max((widened(children[i].min) - margin - start) * perUnit, Double4{});
+    const Double4 upper = (widened(children[i].max) + margin - start) * perUnit;
+    const auto lowerFloor = __builtin_convertvector(lower, IntsOf<Float4>),
+               upperFloor = __builtin_convertvector(upper, IntsOf<Float4>);
+    const Longs lowerBytes = __builtin_convertvector(lowerFloor, Longs);
+    const Longs upperBytes =  // Rounded up: a mask is -1 where it is true.
+        __builtin_convertvector(upperFloor, Longs) - (__builtin_convertvector(upperFloor, Double4) < upper);
+    greatest |= upperBytes;
+    lowers &= ~((kMaxByte - lowerBytes) << 8 * slots[i]);
+    uppers |= upperBytes << 8 * slots[i];
+  }
+  ASDFVK_CHECK_OP(static_cast<uint64_t>(greatest[0] | greatest[1] | greatest[2]), <=, kMaxByte);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto low = static_cast<uint64_t>(lowers[axis]), high = static_cast<uint64_t>(uppers[axis]);
+    uvec4& planes = axis == 0 ? node.x : axis == 1 ? node.y : node.z;
+    planes = {{static_cast<uint32_t>(low), static_cast<uint32_t>(low >> 32), static_cast<uint32_t>(high),
+               static_cast<uint32_t>(high >> 32)}};
+  }
+  return node;
 }
 
 constexpr float kNone = -1e30f;
@@ -88,12 +129,6 @@ struct EightNumbers {
     high = kHighIndices == at ? all : high;
   }
 };
-
-uint32_t floorOf(double notNegative) { return static_cast<uint32_t>(notNegative); }
-uint32_t ceilOf(double notNegative) {
-  const uint32_t below = floorOf(notNegative);
-  return below + (below < notNegative ? 1 : 0);
-}
 
 constexpr uint32_t kParallelLevelCount = 4;
 
@@ -138,7 +173,8 @@ class WideEncoder {
       const WideCollapse::PrimitiveRange range = collapse_.primitivesOf(inSlot[s].node);
       if (inSlot[s].isLeaf) {
         node.childBits |= ((1u << range.count) - 1) << 4 * s;
-        std::copy_n(primitiveFaces_.begin() + range.first, range.count, bvh_.primitiveFaces.begin() + primitive);
+        for (uint32_t i = 0; i < kMaxWideLeafTriangleCount; ++i)  // Faster than a call of memmove().
+          if (i < range.count) bvh_.primitiveFaces[primitive + i] = primitiveFaces_[range.first + i];
         primitive += range.count;
       } else {
         node.childBits |= kWideInnerBits & 0xfu << 4 * s;
@@ -205,8 +241,8 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
   choice.primitives = {leftPrimitives.first, leftPrimitives.count + rightPrimitives.count};
   const uint32_t maxLeftCount =
       nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftPrimitives.count, kWideChildCount - 1);
-  const Sharing sharing = dispatch<Float8>(instructionSet_, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
-    return shareChildren<Floats>(left.costs, maxLeftCount, right.costs);
+  const Sharing sharing = dispatch<Float8>(instructionSet_, [&]<typename>() ASDFVK_ALWAYS_INLINE {
+    return shareChildren(left.costs, maxLeftCount, right.costs);
   });
   const auto nodeCount = [&](uint32_t childCount) {
     const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
@@ -277,33 +313,10 @@ std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> childre
   return slots;
 }
 
-DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<uint32_t, kWideChildCount>& slots) {
-  Box3f all;
-  for (const Box3f& child : children) all.add(child);
-  const Vec3f origin = all.min - Vec3f{kWideBoxMargin, kWideBoxMargin, kWideBoxMargin};
-  DeviceWideNode node{};
-  node.origin = {origin.x, origin.y, origin.z};
-  uint64_t emptySlots = ~uint64_t{0};
-  for (size_t i = 0; i < children.size(); ++i) emptySlots &= ~(uint64_t{kMaxByte} << 8 * slots[i]);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double start = origin[axis], margin = kWideBoxMargin;
-    const int e = exponentFor(static_cast<double>(all.max[axis]) + margin - start);
-    node.exponents |= static_cast<uint32_t>(e + kExponentBias) << 8 * axis;
-    const double perUnit = powerOfTwo(-e);
-    uint64_t lowers = emptySlots, uppers = 0;  // The box of an empty slot has its lower corner above its upper corner.
-    for (size_t i = 0; i < children.size(); ++i) {
-      const double lower = static_cast<double>(children[i].min[axis]) - margin - start;
-      const double upper = static_cast<double>(children[i].max[axis]) + margin - start;
-      const uint32_t upperByte = ceilOf(upper * perUnit);
-      ASDFVK_CHECK_OP(upperByte, <=, kMaxByte);
-      lowers |= uint64_t{floorOf(std::max(0.0, lower * perUnit))} << 8 * slots[i];
-      uppers |= uint64_t{upperByte} << 8 * slots[i];
-    }
-    uvec4& planes = axis == 0 ? node.x : axis == 1 ? node.y : node.z;
-    planes = {{static_cast<uint32_t>(lowers), static_cast<uint32_t>(lowers >> 32), static_cast<uint32_t>(uppers),
-               static_cast<uint32_t>(uppers >> 32)}};
-  }
-  return node;
+DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<uint32_t, kWideChildCount>& slots,
+                             InstructionSet instructionSet) {
+  return dispatch<Float8>(instructionSet,
+                          [&]<typename>() ASDFVK_ALWAYS_INLINE { return quantizeInLanes(children, slots); });
 }
 
 WideBvh encodeWideBvh(const Bvh& bvh) {

@@ -99,7 +99,8 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 /// A node with the boxes of `children` in `slots`, enlarged by kWideBoxMargin and rounded outwards. childBase,
 /// triangleBase and childBits are not set.
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
-                                           const std::array<uint32_t, kWideChildCount>& slots);
+                                           const std::array<uint32_t, kWideChildCount>& slots,
+                                           InstructionSet instructionSet = widestInstructionSet());
 
 /// Wide nodes in the layout of shared/bvh_layout.h. Order of a subtree: the root; its children; all nodes below the
 /// first child; all nodes below the second child; and so on.

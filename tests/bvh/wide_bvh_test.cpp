@@ -216,7 +216,7 @@ TEST_CASE("children take the slots of the octants they are in") {
   CHECK((slots[1] & 1) == 0);
 }
 
-TEST_CASE("quantised boxes are as tight as their bytes allow") {
+TEST_CASE("quantised boxes are as tight as their bytes allow, and the same on every instruction set") {
   Random random(9);
   for (int i = 0; i < 200; ++i) {
     std::vector<Box3f> boxes(1 + static_cast<size_t>(random.index(8)));
@@ -227,7 +227,9 @@ TEST_CASE("quantised boxes are as tight as their bytes allow") {
       all.add(box);
     }
     const auto slots = chooseSlots(boxes);
-    const DeviceWideNode node = quantizeBoxes(boxes, slots);
+    const DeviceWideNode node = quantizeBoxes(boxes, slots),
+                         baseline = quantizeBoxes(boxes, slots, InstructionSet::Baseline);
+    REQUIRE(std::memcmp(&node, &baseline, sizeof node) == 0);
     for (size_t b = 0; b < boxes.size(); ++b) {
       for (size_t axis = 0; axis < 3; ++axis) {
         const double step = (all.size()[axis] + 4 * kWideBoxMargin) * 2 / 255, margin = kWideBoxMargin;
