@@ -35,7 +35,7 @@ std::vector<double> neighbourDeviation(const NearestCells& nearest, std::span<co
 }
 
 /// Adds the floor to each entry; faces without an entry receive the mean.
-void addFloor(std::vector<double>& indicator) {
+void addFloor(std::span<double> indicator) {
   const uint64_t count = countInParallel(indicator.size(), [&](uint32_t face) { return !std::isnan(indicator[face]); });
   const double sum =
       orderedSum(indicator.size(), [&](size_t face) { return std::isnan(indicator[face]) ? 0 : indicator[face]; });
@@ -48,14 +48,15 @@ void addFloor(std::vector<double>& indicator) {
 
 }  // namespace
 
-std::vector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
+UnsetVector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
                                    std::span<const double> values) {
   ASDFVK_CHECK_OP(prediction.nearest.cellCount(), ==, seeds.size());
   const std::vector<double> deviation = neighbourDeviation(prediction.nearest, seeds, values);
-  std::vector<double> indicator(prediction.values.size(), kNoValue);
+  UnsetVector<double> indicator(prediction.values.size());
   forEachInParallel(indicator.size(), [&](uint32_t face) {
     const uint32_t cell = prediction.cellOf[face];
-    if (cell != kNoCell) indicator[face] = std::abs(prediction.values[face] - values[seeds[cell]]) + deviation[cell];
+    indicator[face] =
+        cell != kNoCell ? std::abs(prediction.values[face] - values[seeds[cell]]) + deviation[cell] : kNoValue;
   });
   addFloor(indicator);
   return indicator;

@@ -11,7 +11,7 @@ namespace asdfvk {
 /// v|. p: prediction of the face. v: value of the seed of its cell. v': values of the neighbouring seeds. prediction:
 /// made from `seeds`. seeds: #S, in the order of the prediction. values: #F; only the values of the seeds are read.
 /// Returns #F, above 0; a face without an indicator gets the mean.
-[[nodiscard]] std::vector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
+[[nodiscard]] UnsetVector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
                                                  std::span<const double> values);
 
 }  // namespace asdfvk

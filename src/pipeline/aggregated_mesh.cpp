@@ -90,7 +90,7 @@ UnsetVector<uint32_t> AggregatedMesh::representedCounts() const {
   return counts;
 }
 
-void AggregatedMesh::spread(std::vector<double>& values, std::vector<double>& indicator) const {
+void AggregatedMesh::spread(std::vector<double>& values, std::span<double> indicator) const {
   spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, values);
   forEachInParallel(indicator.size(), [&](uint32_t face) {
     if (!aggregates_.isCentre(face)) indicator[face] = indicator[aggregates_.centreOf(face)];

@@ -23,7 +23,7 @@ class AggregatedMesh {
   [[nodiscard]] UnsetVector<uint32_t> representedCounts() const;
   /// Sets the values of the faces that are not centres, see spreadFromCentres(). Their indicator, #F or empty, becomes
   /// that of their centre.
-  void spread(std::vector<double>& values, std::vector<double>& indicator) const;
+  void spread(std::vector<double>& values, std::span<double> indicator) const;
 
  private:
   const PreparedMesh& prepared_;

@@ -34,7 +34,7 @@ TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
 
   const SeedHitsView input{seeds, hits};
   const std::unique_ptr<DevicePredictor> predictor = makeVulkanPredictor(kernels, scene, cone);
-  const std::vector<double> expected = predictValues(scene, graph, cone, input, {}).values,
+  const UnsetVector<double> expected = predictValues(scene, graph, cone, input, {}).values,
                             predicted = predictValues(scene, graph, cone, input, {}, {}, predictor.get()).values;
   return compareValues(predicted, expected, scene.geometry.bounds.diagonal());
 }

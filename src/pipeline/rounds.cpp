@@ -87,10 +87,10 @@ class Rounds {
   void traceChosen(SeedChoice choice, const RunControl& control);
   void sortSampled();
   std::vector<uint32_t> predictWithoutHeldOut(Stage stage, const RunControl& control);
-  [[nodiscard]] std::vector<double> indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom);
+  [[nodiscard]] UnsetVector<double> indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom);
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                           const RunControl& control);
-  void interpolate(std::span<const uint32_t> extremes, std::vector<double> indicator, bool estimates,
+  void interpolate(std::span<const uint32_t> extremes, UnsetVector<double> indicator, bool estimates,
                    const RunControl& control);
   [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes);
   [[nodiscard]] uint64_t furtherCount() const;
@@ -139,13 +139,13 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   traced_.hits.reserve(traced_.hits.size() + count * traced_.hitsPerSeed);
   traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
   if (refines) {
-    const std::vector<double> density =
+    const UnsetVector<double> density =
         indicateErrors(Stage::Sample, predictWithoutHeldOut(Stage::Sample, control.withoutProgress()));
     traceChosen(timedChoice({.sampled = refiningCount}, density, control),
                 control.part(kTracedProgress / 2, kTracedProgress));
   }
   const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
-  std::vector<double> indicator;
+  UnsetVector<double> indicator;
   std::vector<uint32_t> extremes;
   if (estimates && predicts) {
     indicator = indicateErrors(
@@ -159,7 +159,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
 }
 
 /// Computes the result and, if `estimates`, its errors. extremes: the extreme seeds of this round.
-void Rounds::interpolate(std::span<const uint32_t> extremes, std::vector<double> indicator, bool estimates,
+void Rounds::interpolate(std::span<const uint32_t> extremes, UnsetVector<double> indicator, bool estimates,
                          const RunControl& control) {
   const bool hasPrediction = estimates && computation_.predicts();  // The prediction is made without held-out faces.
   std::vector<ReplacedValue> replaced;
@@ -267,7 +267,7 @@ std::vector<uint32_t> Rounds::predictWithoutHeldOut(Stage stage, const RunContro
 
 /// The error indicator, #F, from the last prediction. predictedFrom: the seeds of this prediction. stage: the stage to
 /// charge.
-std::vector<double> Rounds::indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom) {
+UnsetVector<double> Rounds::indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom) {
   const auto scope = clock_.time(stage);
   return errorIndicator(prediction_.last(), predictedFrom, traced_.values);
 }

@@ -29,7 +29,7 @@ class CellPredictor {
   }
 
   /// values: #F; the values of the faces of these cells are written.
-  void run(std::span<const uint32_t> cells, std::vector<double>& values) {
+  void run(std::span<const uint32_t> cells, std::span<double> values) {
     points_.clear();
     cached_.assign(std::bit_ceil(2 * cells.size() * (1 + input_.options.neighbourCount)), {});
     appendHits(cells);
@@ -46,12 +46,12 @@ class CellPredictor {
     HitRange range;
   };
 
-  void runCell(uint32_t cell, std::vector<double>& values);
+  void runCell(uint32_t cell, std::span<double> values);
   void prefetchNextFace();
   [[nodiscard]] CachedHits& placeOf(uint32_t seed);
   void appendHits(std::span<const uint32_t> cells);
   [[nodiscard]] HitRange hitsOf(uint32_t seed);
-  void reuseEarlier(uint32_t cell, std::vector<double>& values);
+  void reuseEarlier(uint32_t cell, std::span<double> values);
   void gatherNeighbours(std::span<const uint32_t> neighbourSeeds);
   void weighNeighbours(const VirtualCone& at);
   [[nodiscard]] double valueAt(const VirtualCone& at, float minWeightShare);
@@ -72,7 +72,7 @@ class CellPredictor {
   std::vector<WeightedRange> weighted_;
 };
 
-void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
+void CellPredictor::runCell(uint32_t cell, std::span<double> values) {
   const TraceScene& scene = input_.scene;
   reuseEarlier(cell, values);
   if (remainingFaces_.empty()) return;
@@ -149,7 +149,7 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 
 /// Copies the values of faces that were in this cell in the earlier prediction, if the contributing seeds are
 /// unchanged. Puts the other faces into remainingFaces_.
-void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
+void CellPredictor::reuseEarlier(uint32_t cell, std::span<double> values) {
   const std::span<const uint32_t> faces = input_.cells[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
   if (!input_.hasEarlierSeeds(cell)) return;
@@ -216,15 +216,17 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
     return cell != kNoCell && seeds[cell] == faces[primitive] ? cell : kNoCell;
   };
   std::vector<uint32_t> order = selectInParallel(faces.size(), cellAt, [](uint32_t cell) { return cell != kNoCell; });
+  const auto isCell = [&](uint32_t cell) { return seeds[cell] != kNoFace; };
+  if (order.size() == countInParallel(seeds.size(), isCell)) return order;
   std::vector<uint8_t> isListed(seeds.size(), 0);
   for (const uint32_t cell : order) isListed[cell] = 1;
   // Seeds that are copies of other faces are not in the hierarchy; their cells are the last ones.
   for (uint32_t cell = 0; cell < seeds.size(); ++cell)
-    if (seeds[cell] != kNoFace && !isListed[cell]) order.push_back(cell);
+    if (isCell(cell) && !isListed[cell]) order.push_back(cell);
   return order;
 }
 
-void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
+void predictOnCpu(const PredictionInput& input, std::span<double> values) {
   const std::span<const uint32_t> order = input.order;
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
   PerThread<CellPredictor> predictors([&] { return CellPredictor(input); });
@@ -271,7 +273,7 @@ Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const 
                          const RunControl& control) {
   ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
   SeedCells cells = buildSeedCells(graph, hits.seeds);
-  Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
+  Prediction prediction{filledInParallel(scene.geometry.areas.size(), kNoValue),
                         {},
                         NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
   const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
@@ -287,10 +289,9 @@ Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const 
 std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                     const SeedHitsView& hits, const PredictionOptions& options, Prediction& prediction,
                                     DevicePredictor* device, const RunControl& control) {
-  std::vector<uint32_t> newCells;
-  for (uint32_t cell = 0; cell < hits.seeds.size(); ++cell)
-    if (const uint32_t seed = hits.seeds[cell]; seed != kNoFace && prediction.cellOf[seed] != cell)
-      newCells.push_back(cell);
+  const std::vector<uint32_t> newCells = indicesInParallel(hits.seeds.size(), [&](uint32_t cell) {
+    return hits.seeds[cell] != kNoFace && prediction.cellOf[hits.seeds[cell]] != cell;
+  });
   // A copy, so that a failure of the device leaves the prediction unchanged.
   UnsetVector<uint32_t> cellOf = prediction.cellOf;
   const std::vector<uint32_t> claimed = claimFaces(graph, scene.geometry, hits.seeds, newCells, cellOf);

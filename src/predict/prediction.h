@@ -27,7 +27,7 @@ struct PredictionOptions {
 struct Prediction {
   /// #F, seeds included, in the unit of the mesh; kNoValue if a face is degenerate, belongs to no cell, or has no hit
   /// point in its cone.
-  std::vector<double> values;
+  UnsetVector<double> values;
   UnsetVector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };

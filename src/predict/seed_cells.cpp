@@ -69,26 +69,30 @@ SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds
   return cells;
 }
 
-/// Finds the row of one cell after another.
+/// Finds the row of one cell after another, each cell once.
 class NearestCells::RowBuilder {
  public:
-  RowBuilder(const DualGraph& graph, std::span<const uint32_t> cellOf, size_t stride)
-      : graph_(graph), cellOf_(cellOf), stride_(stride) {}
+  RowBuilder(const DualGraph& graph, std::span<const uint32_t> cellOf, size_t cellCount, size_t stride)
+      : graph_(graph), cellOf_(cellOf), stride_(stride), lastRowWith_(cellCount, kNoCell) {}
 
   /// centreOf: the barycentre of the seed of a cell. row: stride_ entries, all kNoCell.
   template <typename CentreOf>
   void build(uint32_t cell, std::span<const uint32_t> faces, const CentreOf& centreOf, uint32_t* row) {
+    lastRowWith_[cell] = cell;
     touching_.clear();
-    for (const uint32_t face : faces)
-      for (const uint32_t neighbour : graph_.neighboursOf(face))
-        if (cellOf_[neighbour] != cell) touching_.push_back(cellOf_[neighbour]);
-    std::sort(touching_.begin(), touching_.end());
-    touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
+    for (const uint32_t face : faces) {
+      const std::span<const uint32_t> neighbours = graph_.neighboursOf(face);
+      size_t count = touching_.size();
+      touching_.resize(count + neighbours.size());
+      for (const uint32_t neighbour : neighbours) {  // Branch-free: whether a cell is new is unpredictable.
+        const uint32_t other = touching_[count] = cellOf_[neighbour];
+        count += std::exchange(lastRowWith_[other], cell) != cell ? 1 : 0;
+      }
+      touching_.resize(count);
+    }
     byDistance_.clear();
     const Vec3d centre = centreOf(cell);
-    for (const uint32_t other : touching_) {
-      byDistance_.emplace_back(comparableSquare(centreOf(other) - centre), other);
-    }
+    for (const uint32_t other : touching_) byDistance_.emplace_back(comparableSquare(centreOf(other) - centre), other);
     std::sort(byDistance_.begin(), byDistance_.end());
     if (byDistance_.size() > stride_ - 1) byDistance_.resize(stride_ - 1);
     *row++ = cell;
@@ -99,20 +103,22 @@ class NearestCells::RowBuilder {
   const DualGraph& graph_;
   std::span<const uint32_t> cellOf_;
   size_t stride_;
-  std::vector<uint32_t> touching_;
+  std::vector<uint32_t> lastRowWith_;  // For each cell, the last row that has this cell.
+  UnsetVector<uint32_t> touching_;
   std::vector<std::pair<double, uint32_t>> byDistance_;
 };
 
 NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                            std::span<const uint32_t> seeds, size_t neighbourCount)
-    : stride_(1 + neighbourCount), nearest_(seeds.size() * stride_, kNoCell) {
-  std::vector<Vec3d> centres(seeds.size());  // A copy, because these barycentres are far from each other in memory.
+    : stride_(1 + neighbourCount), nearest_(filledInParallel(seeds.size() * stride_, kNoCell)) {
+  UnsetVector<Vec3d> centres(seeds.size());  // A copy, because these barycentres are far from each other in memory.
   forEachInParallel(seeds.size(), [&](size_t cell) {
     if (seeds[cell] != kNoFace) centres[cell] = geometry.barycentres[seeds[cell]];
   });
+  PerThread<RowBuilder> builders([&] { return RowBuilder(graph, cells.cellOf, seeds.size(), stride_); });
   constexpr size_t kGrain = 256;
   forEachRange(seeds.size(), kGrain, [&](size_t begin, size_t end) {
-    RowBuilder rows(graph, cells.cellOf, stride_);
+    RowBuilder& rows = builders.local();
     for (auto cell = static_cast<uint32_t>(begin); cell < end; ++cell)
       if (seeds[cell] != kNoFace)
         rows.build(
@@ -124,9 +130,10 @@ void NearestCells::update(std::span<const uint32_t> changed, const Buckets<uint3
                           std::span<const uint32_t> cellOf, const DualGraph& graph, const FaceGeometry& geometry,
                           std::span<const uint32_t> seeds) {
   nearest_.resize(seeds.size() * stride_, kNoCell);
+  PerThread<RowBuilder> builders([&] { return RowBuilder(graph, cellOf, seeds.size(), stride_); });
   constexpr size_t kGrain = 64;
   forEachRange(changed.size(), kGrain, [&](size_t begin, size_t end) {
-    RowBuilder rows(graph, cellOf, stride_);
+    RowBuilder& rows = builders.local();
     for (size_t i = begin; i < end; ++i) {
       const uint32_t cell = changed[i];
       const std::span<uint32_t> row = std::span(nearest_).subspan(cell * stride_, stride_);

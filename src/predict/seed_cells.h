@@ -54,7 +54,7 @@ class NearestCells {
   class RowBuilder;
 
   size_t stride_ = 1;
-  std::vector<uint32_t> nearest_;  // #S x stride, padded with kNoCell.
+  UnsetVector<uint32_t> nearest_;  // #S x stride, padded with kNoCell.
 };
 
 }  // namespace asdfvk

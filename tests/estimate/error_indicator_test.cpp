@@ -29,7 +29,7 @@ struct SeededSphere {
     prediction.nearest = NearestCells(cells, graph, geometry, seeds, 6);
     prediction.values.assign(mesh.faces.size(), 2.0);
   }
-  [[nodiscard]] std::vector<double> indicator() const { return errorIndicator(prediction, seeds, values); }
+  [[nodiscard]] UnsetVector<double> indicator() const { return errorIndicator(prediction, seeds, values); }
   [[nodiscard]] uint32_t faceOfCell(uint32_t cell) const {
     for (uint32_t face = 0; face < mesh.faces.size(); ++face)
       if (prediction.cellOf[face] == cell && face != seeds[cell]) return face;
@@ -42,7 +42,7 @@ struct SeededSphere {
 TEST_CASE("the indicator is constant where predictions equal the seeds, also for a face without a prediction") {
   SeededSphere sphere;
   sphere.prediction.values[sphere.faceOfCell(1)] = kNoValue;
-  const std::vector<double> indicator = sphere.indicator();
+  const UnsetVector<double> indicator = sphere.indicator();
   CHECK(indicator[0] > 0);
   CHECK(std::all_of(indicator.begin(), indicator.end(), [&](double entry) { return entry == indicator[0]; }));
 }
@@ -51,7 +51,7 @@ TEST_CASE("the indicator of a face is the difference to its seed plus half of th
   SeededSphere sphere;
   const uint32_t face = sphere.faceOfCell(2);
   sphere.prediction.values[face] = 5;
-  const std::vector<double> indicator = sphere.indicator();
+  const UnsetVector<double> indicator = sphere.indicator();
   const double mean = 3.0 / static_cast<double>(indicator.size());
   CHECK(indicator[face] == doctest::Approx(3 + 0.5 * mean));
   CHECK(indicator[sphere.seeds[2]] == doctest::Approx(0.5 * mean));
@@ -60,7 +60,7 @@ TEST_CASE("the indicator of a face is the difference to its seed plus half of th
 TEST_CASE("the indicator of a cell grows with the difference between its seed and neighbouring seeds") {
   SeededSphere sphere;
   sphere.values[120] = 8;
-  const std::vector<double> indicator = sphere.indicator();
+  const UnsetVector<double> indicator = sphere.indicator();
   const auto of = [&](uint32_t cell) { return indicator[sphere.seeds[cell]]; };
   REQUIRE(sphere.prediction.nearest.of(2).size() > 1);
   // Its own prediction is off by 6 besides; of the neighbours of each other cell one may be off by 6.
@@ -80,7 +80,7 @@ TEST_CASE("a face without a prediction, or with a seed without a value, has the 
   sphere.prediction.values[unpredicted] = kNoValue;
   sphere.values[120] = kNoValue;  // A seed without any hit.
   const uint32_t ofNoValue = sphere.faceOfCell(2);
-  const std::vector<double> indicator = sphere.indicator();
+  const UnsetVector<double> indicator = sphere.indicator();
   CHECK(indicator[unpredicted] == doctest::Approx(3 * indicator[sphere.seeds[0]]));
   CHECK(indicator[ofNoValue] == indicator[unpredicted]);
   CHECK(

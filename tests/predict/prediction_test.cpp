@@ -18,7 +18,7 @@ using test::SeededMesh;
 
 namespace {
 
-std::vector<double> predict(const SeededMesh& seeded, const PredictionOptions& options = {}) {
+UnsetVector<double> predict(const SeededMesh& seeded, const PredictionOptions& options = {}) {
   return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options).values;
 }
 
@@ -29,7 +29,7 @@ struct Difference {
 };
 
 template <typename Exact, typename Choose>
-Difference differenceTo(const SeededMesh& seeded, const std::vector<double>& values, const Exact& exact,
+Difference differenceTo(const SeededMesh& seeded, std::span<const double> values, const Exact& exact,
                         const Choose& isChosen) {
   Difference difference;
   for (uint32_t face = 0; face < values.size(); ++face) {
@@ -119,7 +119,7 @@ TEST_CASE("predictions are closer to the traced values than the values of the se
     const SeedCells cells = seeded.cells();
     std::vector<double> seedValues(seeded.mesh.faceCount());
     for (uint32_t face = 0; face < seedValues.size(); ++face) seedValues[face] = seeded.values[cells.cellOf[face]];
-    const std::vector<double> predicted = predict(seeded);
+    const UnsetVector<double> predicted = predict(seeded);
     double predictedError = 0, copiedError = 0;
     for (uint32_t face = 0; face < predicted.size(); ++face) {
       const double exact = seeded.tracedValue(face);
@@ -132,7 +132,7 @@ TEST_CASE("predictions are closer to the traced values than the values of the se
 
 TEST_CASE("predictions have the same bits on any number of threads") {
   const SeededMesh seeded(makeAnimal(3000).mesh, 300);
-  const std::vector<double> many = predict(seeded);
+  const UnsetVector<double> many = predict(seeded);
   for (const size_t threadCount : {size_t{1}, size_t{2}}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
     CHECK(test::haveSameBits(predict(seeded), many));
@@ -141,7 +141,7 @@ TEST_CASE("predictions have the same bits on any number of threads") {
 
 TEST_CASE("predictions scale with the mesh and do not change when it is shifted") {
   const Mesh mesh = makeAnimal(2000).mesh;
-  const std::vector<double> expected = predict(SeededMesh(mesh, 150));
+  const UnsetVector<double> expected = predict(SeededMesh(mesh, 150));
   // A power of two preserves every mantissa. Other factors change last bits, and with them rays that graze an edge and
   // lengths at the limits of an outlier window.
   const struct {
@@ -156,7 +156,7 @@ TEST_CASE("predictions scale with the mesh and do not change when it is shifted"
   for (const auto& [size, shift, isExact] : cases) {
     const double scale = size;
     CAPTURE(scale);
-    std::vector<double> values = predict(SeededMesh(shapes::scaledAndShifted(mesh, scale, shift), 150));
+    UnsetVector<double> values = predict(SeededMesh(shapes::scaledAndShifted(mesh, scale, shift), 150));
     for (double& value : values) value /= scale;
     if (isExact) {
       CHECK(test::haveSameBits(values, expected));
@@ -188,7 +188,7 @@ TEST_CASE("degenerate faces and faces of components without a seed have no predi
   }
   seeded.seeds = seeds;
   seeded.hits = hits;
-  const std::vector<double> values = predict(seeded);
+  const UnsetVector<double> values = predict(seeded);
   REQUIRE(values.size() == mesh.faces.size());
   for (uint32_t face = 0; face < 500; ++face) CHECK(std::isfinite(values[face]));
   for (uint32_t face = 500; face < values.size(); ++face) CHECK(std::isnan(values[face]));
@@ -213,7 +213,7 @@ TEST_CASE("predictions on an open mesh are positive and at most the diagonal, or
 
 TEST_CASE("a single seed predicts its component") {
   const SeededMesh seeded(makeSphere(500).mesh, 1);
-  const std::vector<double> values = predict(seeded);
+  const UnsetVector<double> values = predict(seeded);
   CHECK(std::count_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); }) > 100);
   CHECK(values[seeded.seeds[0]] == doctest::Approx(seeded.values[0]).epsilon(0.03));
 }
@@ -233,7 +233,7 @@ TEST_CASE("values with unchanged contributing seeds are copied from the earlier 
   // -1 marks values that are copied.
   Prediction marked = few;
   for (double& value : marked.values) value = -1;
-  const std::vector<double> values = predictFrom(seeded.seeds, marked).values;
+  const UnsetVector<double> values = predictFrom(seeded.seeds, marked).values;
   size_t takenCount = 0;
   for (size_t face = 0; face < values.size(); ++face) {
     takenCount += values[face] == -1;
@@ -316,7 +316,7 @@ TEST_CASE("added seeds have cells of the faces that are nearer to them, and othe
   const std::vector<ReplacedValue> replaced =
       addSeeds(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, after);
   CHECK(after.nearest.cellCount() == 300);
-  std::vector<double> restored = after.values;
+  UnsetVector<double> restored = after.values;
   uint32_t last = 0;
   for (const auto& [face, value] : replaced) {
     CHECK(face >= last);

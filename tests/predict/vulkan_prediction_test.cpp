@@ -28,7 +28,7 @@ VulkanPredictionKernels kernelsFor(const Device& device, const Cone& cone) {
   return {device, cone.definition, static_cast<uint32_t>(cone.directions.size())};
 }
 
-std::vector<double> predictOn(const SeededMesh& seeded, const PredictionOptions& options, DevicePredictor* device) {
+UnsetVector<double> predictOn(const SeededMesh& seeded, const PredictionOptions& options, DevicePredictor* device) {
   return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options, {}, device).values;
 }
 
@@ -39,8 +39,8 @@ struct DeviceDifference {
   size_t missingCount = 0;         ///< Faces with a value from either the device or the CPU only.
 };
 
-DeviceDifference differenceOf(const SeededMesh& seeded, const std::vector<double>& values,
-                              const std::vector<double>& expected) {
+DeviceDifference differenceOf(const SeededMesh& seeded, std::span<const double> values,
+                              std::span<const double> expected) {
   REQUIRE(values.size() == expected.size());
   const double diagonal = length(seeded.geometry.bounds.max - seeded.geometry.bounds.min);
   DeviceDifference difference;
@@ -129,7 +129,7 @@ TEST_CASE("on the device, too, degenerate faces and faces of components without 
     if (seed >= 720 && seed < 900) seed = kNoFace;  // On the second sphere.
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  const std::vector<double> values = predictOn(seeded, {}, predictor.get());
+  const UnsetVector<double> values = predictOn(seeded, {}, predictor.get());
   checkClose(differenceOf(seeded, values, predictOn(seeded, {}, nullptr)));
   for (uint32_t face = 0; face < 720; ++face) CHECK(std::isfinite(values[face]));
   for (uint32_t face = 720; face < 900; ++face) CHECK(std::isnan(values[face]));
@@ -156,10 +156,10 @@ TEST_CASE("predictions of the device have the same bits in every call, with any 
   for (size_t i = 0; i < few.seeds.size(); i += 3) few.seeds[i] = kNoFace;
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  const std::vector<double> expected = predictOn(seeded, {}, predictor.get());
+  const UnsetVector<double> expected = predictOn(seeded, {}, predictor.get());
   CHECK(test::haveSameBits(predictOn(seeded, {}, predictor.get()), expected));
   const auto predictorOfFew = makeVulkanPredictor(kernels, few.scene(), few.cone);
-  const std::vector<double> fewExpected = predictOn(few, {}, predictorOfFew.get());
+  const UnsetVector<double> fewExpected = predictOn(few, {}, predictorOfFew.get());
   CHECK_FALSE(test::haveSameBits(fewExpected, expected));
   for (const PredictionBatchSize& size : {PredictionBatchSize{7, 1}, PredictionBatchSize{7, 1000},
                                           PredictionBatchSize{50, 17}, PredictionBatchSize{1000, 100}}) {
@@ -177,11 +177,11 @@ TEST_CASE("predictions of the device scale with the mesh") {
     const SeededMesh seeded(shapes::scaledAndShifted(mesh, scale), 100);
     const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
     const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-    std::vector<double> values = predictOn(seeded, {}, predictor.get());
+    UnsetVector<double> values = predictOn(seeded, {}, predictor.get());
     for (double& value : values) value /= scale;
     return values;
   };
-  const std::vector<double> expected = valuesOf(1);
+  const UnsetVector<double> expected = valuesOf(1);
   for (const double scale : {0.125, std::ldexp(1, -500), std::ldexp(1, 500)})
     CHECK(test::haveSameBits(valuesOf(scale), expected));
 }
@@ -233,7 +233,7 @@ TEST_CASE("a stop ends a prediction on the device between submissions") {
   std::vector<double> fractions;
   std::stop_source stop;
   const auto record = [&](double fraction) { fractions.push_back(fraction); };
-  const std::vector<double> expected = predict({{}, record});
+  const UnsetVector<double> expected = predict({{}, record});
   CHECK(fractions.size() >= 11);
   CHECK(std::ranges::is_sorted(fractions));
   CHECK(fractions.back() == 1);
@@ -264,7 +264,7 @@ TEST_CASE("the device, too, ignores points on the face itself") {
   for (ConeHit& hit : seeded.hits) hit.face = face;
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  const std::vector<double> values = predictOn(seeded, {}, predictor.get());
+  const UnsetVector<double> values = predictOn(seeded, {}, predictor.get());
   checkClose(differenceOf(seeded, values, predictOn(seeded, {}, nullptr)));
   CHECK(std::isnan(values[face]));
   CHECK(std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }) == 1);
