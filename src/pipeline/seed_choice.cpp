@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "estimate/held_out.h"
+#include "pipeline/aggregated_mesh.h"
 
 namespace asdfvk {
 namespace {
@@ -66,8 +67,11 @@ SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, Ar
   // Samplers keep a distance to earlier seeds but ignore held-out faces, which must be a random sample.
   std::vector<uint32_t> notHeldOut;
   if (!earlier.heldOut.empty()) notHeldOut = without(faces.traceableFaces, earlier.heldOut);
-  const SeedDomain domain{faces.graph, geometry, arcAngles,
+  const SeedDomain domain{faces.graph,
+                          geometry,
+                          arcAngles,
                           earlier.heldOut.empty() ? faces.traceableFaces : std::span(std::as_const(notHeldOut)),
+                          faces.aggregated ? &faces.aggregated->aggregates() : nullptr,
                           stopOnly};
   const Sampler& sampler = samplerOf(options);
   SeedChoice choice;

@@ -45,19 +45,18 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
 constexpr int kMaxGrowthCount = 4;
 constexpr float kRadiusGrowth = 1.5f;
 
-std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float> lengths, uint64_t count,
-                                std::span<const uint32_t> existing, uint64_t randomSeed) {
-  std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
-  if (count >= waiting.size()) return waiting;
-  if (count == 0) return {};
+/// waiting: nodes of the graph, more than `count`. Returns nodes, ascending.
+std::vector<uint32_t> throwAtGraph(const DualGraph& graph, std::span<const float> lengths,
+                                   std::vector<uint32_t> waiting, uint64_t count, std::span<const uint32_t> existing,
+                                   uint64_t randomSeed, const RunControl& stopOnly) {
   Random random(randomSeed);
   random.shuffle(std::span<uint32_t>(waiting));
   // A start radius that is too large only costs time; a start radius that is too small leaves gaps.
-  float startRadius = 1.25f * estimateDiskRadius(domain.graph, lengths, waiting, count, random.next());
-  SurfaceDistances distances(domain.graph, lengths);
+  float startRadius = 1.25f * estimateDiskRadius(graph, lengths, waiting, count, random.next());
+  SurfaceDistances distances(graph, lengths);
   for (int growthCount = 0;; ++growthCount) {
     distances.add(existing, startRadius);
-    ThrownDarts darts = throwDarts(waiting, count, startRadius, distances, domain.stopOnly);
+    ThrownDarts darts = throwDarts(waiting, count, startRadius, distances, stopOnly);
     if (!darts.leaveGaps || startRadius == SurfaceDistances::kUnreached) {
       sortInParallel(darts.faces.begin(), darts.faces.end());
       return std::move(darts.faces);
@@ -65,6 +64,26 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
     startRadius = growthCount < kMaxGrowthCount ? kRadiusGrowth * startRadius : SurfaceDistances::kUnreached;
     distances.clear();
   }
+}
+
+std::vector<uint32_t> entriesAt(std::span<const uint32_t> indices, std::span<const uint32_t> table) {
+  std::vector<uint32_t> entries(indices.size());
+  forEachInParallel(indices.size(), [&](size_t i) { entries[i] = table[indices[i]]; });
+  return entries;
+}
+
+std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float> lengths, uint64_t count,
+                                std::span<const uint32_t> existing, uint64_t randomSeed) {
+  std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
+  if (count >= waiting.size()) return waiting;
+  if (count == 0) return {};
+  if (domain.aggregates == nullptr)
+    return throwAtGraph(domain.graph, lengths, std::move(waiting), count, existing, randomSeed, domain.stopOnly);
+  // The same seeds, in less time: the graph of the aggregates has no nodes without arcs, and needs less of the cache.
+  const auto& [centres, sizes, aggregateOf, graph] = *domain.aggregates;
+  return entriesAt(throwAtGraph(graph, lengths, entriesAt(waiting, aggregateOf), count,
+                                entriesAt(existing, aggregateOf), randomSeed, domain.stopOnly),
+                   centres);
 }
 
 // On a smooth mesh, the distances between close seeds are nearly integers. Without a change of the lengths, different

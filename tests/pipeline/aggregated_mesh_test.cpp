@@ -8,6 +8,7 @@
 #include "asdf_vk/scene.h"
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
+#include "seeds/samplers.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
@@ -107,6 +108,23 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   options.solver = "cpu";
   const double bound = withEstimate.report.runsOnCpu ? 2e-4 : 1e-3;
   CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < bound);
+}
+
+TEST_CASE("blue noise on the graph of the aggregates is that on the graph of the faces") {
+  const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  const AggregatedMesh aggregated(prepared);
+  const FaceDomain domain = aggregated.domain();
+  ArcAngles arcAngles(domain.graph, prepared.geometry);
+  const SeedDomain onFaces{domain.graph, prepared.geometry, arcAngles, domain.traceableFaces},
+      onAggregates{domain.graph, prepared.geometry, arcAngles, domain.traceableFaces, &aggregated.aggregates()};
+  const std::vector<uint32_t> first = blueNoiseSeeds(onFaces, 1000, {}, 1);
+  CHECK(first.size() == 1000);
+  CHECK(blueNoiseSeeds(onAggregates, 1000, {}, 1) == first);
+  CHECK(blueNoiseSeeds(onAggregates, 2000, first, 2) == blueNoiseSeeds(onFaces, 2000, first, 2));
+  const std::vector<double> density(prepared.mesh.faceCount(), 1.0);
+  CHECK(weightedBlueNoiseSeeds(onAggregates, density, 1000, {}, 3) ==
+        weightedBlueNoiseSeeds(onFaces, density, 1000, {}, 3));
 }
 
 TEST_CASE("only centres are seeds, with pooling all faces of a mesh of this size") {
