@@ -46,7 +46,7 @@ PostprocessedSdf postprocessSdf(const MeshView& view, std::span<const double> va
                         [](double value) { return std::isnan(value) || (value >= 0 && std::isfinite(value)); });
   CgalValues result = postprocessLikeCgal(findFaceNeighbours(mesh), ofTriangles, control);
   if (!mesh.polygons.isEmpty())
-    result.normalized = valuesOfInputFaces(mesh, result.normalized, computeFaceGeometry(mesh).areas);
+    result.normalized = valuesOfInputFaces(mesh, std::move(result.normalized), computeFaceGeometry(mesh).areas);
   control.checkpoint(1);
   return {std::move(result.normalized), result.min, result.max};
 }

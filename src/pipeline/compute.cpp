@@ -84,16 +84,19 @@ void removeErrorsOutside(const PreparedMesh& prepared, const FaceDomain& domain,
     if (!domain.contains(prepared.mesh.inputFaceOf(face))) errors.expected[face] = kNoValue;
 }
 
-std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
+std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, std::vector<double> values,
                             SegmentedValues&& segmented) {
   const std::span<const double> areas = prepared.geometry.areas;
   std::vector<Field> fields;
-  fields.push_back(makeField("sdf", valuesOfInputFaces(prepared.mesh, values, areas)));
+  fields.push_back(makeField("sdf", valuesOfInputFaces(prepared.mesh, std::move(values), areas)));
   fields.push_back(makeField("seed", seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)));
-  if (rounds.errors)
-    fields.push_back(makeField("error", valuesOfInputFaces(prepared.mesh, rounds.errors->expected, areas)));
+  if (rounds.errors) {
+    const UnsetVector<double>& expected = rounds.errors->expected;
+    fields.push_back(makeField("error", valuesOfInputFaces(prepared.mesh, {expected.begin(), expected.end()}, areas)));
+  }
   if (!segmented.normalized.empty())
-    fields.push_back(makeField("normalized", valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)));
+    fields.push_back(
+        makeField("normalized", valuesOfInputFaces(prepared.mesh, std::move(segmented.normalized), areas)));
   if (!segmented.segments.empty()) fields.push_back(makeField("segment", std::move(segmented.segments)));
   return fields;
 }
@@ -170,7 +173,7 @@ void measureDiameter(Result& result, const Computation& computation, PreparedSce
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
   const RunControl stopOnly = control.withoutProgress();
-  const std::vector<double> values =
+  std::vector<double> values =
       finalValues(domain, std::move(rounds.interpolated.values), options.smoothing, clock, stopOnly);
   SegmentedValues segmented = segmentValues(
       prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
@@ -178,8 +181,8 @@ void measureDiameter(Result& result, const Computation& computation, PreparedSce
     report.check =
         checkAgainstReference(scene, cone, domain.traceableFaces, {rounds.traced, values, backend.isReference()},
                               *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
-  result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
-  describeValues(report, prepared, domain, result.sdf(), values, computation.keepsMissing());
+  result.fields = fieldsOf(prepared, rounds, std::move(values), std::move(segmented));
+  describeValues(report, prepared, domain, result.sdf(), computation.keepsMissing());
 }
 
 /// The scene for pictures. A scene that is not used again keeps nothing else.

@@ -20,9 +20,9 @@ void renumber(std::vector<uint32_t>& labels, size_t labelCount) {
 
 }  // namespace
 
-std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::span<const double> values,
+std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::vector<double> values,
                                        std::span<const double> areas) {
-  if (mesh.polygons.isEmpty()) return {values.begin(), values.end()};
+  if (mesh.polygons.isEmpty()) return values;
   std::vector<double> sums(mesh.inputFaceCount(), 0), weights(mesh.inputFaceCount(), 0);
   std::vector<double> last(mesh.inputFaceCount(), kNoValue);
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) {

@@ -12,7 +12,7 @@ namespace asdfvk {
 
 /// Values of input faces from values of triangles: the mean over the triangles of a polygon that have a value, weighted
 /// by area. values, areas: #F. Returns #I; NaN for a polygon without a valued triangle.
-[[nodiscard]] std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::span<const double> values,
+[[nodiscard]] std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::vector<double> values,
                                                      std::span<const double> areas);
 
 /// 1 where any triangle of the input face is a seed. isSeed: #F. Returns #I.

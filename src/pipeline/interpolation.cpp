@@ -48,16 +48,17 @@ std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span
   return values;
 }
 
-/// Start of the solvers: the prediction or, where there is none, the mean of the seeds of the component.
+/// Start of the solvers, one entry per node of the equation: the prediction or, where there is none, the mean of the
+/// seeds of the component.
 std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
   const EquationFaces faces(domain);
-  std::vector<double> guess(domain.componentOf.size(), kNoValue);
+  std::vector<double> guess(faces.size(), kNoValue);
   forEachInParallel(faces.size(), [&](uint32_t i) {
     const uint32_t face = faces[i];
     const ComponentValues& component = traced[domain.componentOf[face]];
-    if (component.count > 0) guess[face] = component.mean;
-    if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
+    if (component.count > 0) guess[i] = component.mean;
+    if (!prediction.empty() && std::isfinite(prediction[face])) guess[i] = prediction[face];
   });
   return guess;
 }
@@ -158,22 +159,22 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
 }
 
 /// Solves the equation of the aggregates, which has no rows for the other faces. problem: of all faces, without
-/// divergence.
-SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vector<double>& values,
+/// divergence; but firstGuess has one entry per aggregate.
+SolverReport Interpolation::solveOnCentres(GraphProblem problem, std::vector<double>& values,
                                            const RunControl& control) {
   const FaceAggregates& aggregates = domain_.aggregated->aggregates();
   const auto atCentres = [&]<typename T>(std::span<const T> perFace) {
-    std::vector<T> perAggregate(perFace.empty() ? 0 : aggregates.centres.size());
+    UnsetVector<T> perAggregate(perFace.empty() ? 0 : aggregates.centres.size());
     forEachInParallel(perAggregate.size(),
                       [&](size_t aggregate) { perAggregate[aggregate] = perFace[aggregates.centres[aggregate]]; });
     return perAggregate;
   };
-  const std::vector<double> constraints = atCentres(problem.constraints), guide = atCentres(problem.guide);
-  const std::vector<uint32_t> componentOf = atCentres(problem.componentOf);
+  const UnsetVector<double> constraints = atCentres(problem.constraints), guide = atCentres(problem.guide);
+  const UnsetVector<uint32_t> componentOf = atCentres(problem.componentOf);
   std::vector<double> solved;
   const SolverReport report = solver_.solve(aggregates.graph, weights(),
                                             {.constraints = constraints,
-                                             .firstGuess = atCentres(std::span(std::as_const(problem.firstGuess))),
+                                             .firstGuess = std::move(problem.firstGuess),
                                              .guide = guide,
                                              .divergence = {},
                                              .componentOf = componentOf},
@@ -197,7 +198,7 @@ SolverReport Interpolation::solveEquation(std::span<const double> constraints, s
     return {.name = "none"};
   }
   GraphProblem problem = problemOf(constraints, predicted, traced);
-  if (domain_.aggregated != nullptr) return solveOnCentres(problem, values, control);
+  if (domain_.aggregated != nullptr) return solveOnCentres(std::move(problem), values, control);
   return solver_.solve(domain_.graph, weights(), std::move(problem), values, control);
 }
 

@@ -52,7 +52,7 @@ class Interpolation {
   [[nodiscard]] std::vector<double> divergence() const;
   [[nodiscard]] GraphProblem problemOf(std::span<const double> constraints, std::span<const double> predicted,
                                        const std::vector<ComponentValues>& traced) const;
-  SolverReport solveOnCentres(const GraphProblem& problem, std::vector<double>& values, const RunControl& control);
+  SolverReport solveOnCentres(GraphProblem problem, std::vector<double>& values, const RunControl& control);
   SolverReport solveEquation(std::span<const double> constraints, std::span<const double> predicted,
                              const std::vector<ComponentValues>& traced, std::vector<double>& values,
                              const RunControl& control);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/free_memory.h"
@@ -13,9 +14,13 @@ namespace asdfvk {
 
 std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const TracedSeeds& traced) {
   std::vector<uint8_t> hasValue(domain.componentCount, 0);
-  for (const uint32_t face : traced.faces)
-    if (std::isfinite(traced.values[face])) hasValue[domain.componentOf[face]] = 1;
-  if (std::ranges::all_of(hasValue, [](uint8_t has) { return has != 0; })) return {};
+  size_t withoutValueCount = domain.componentCount;
+  for (size_t i = 0; i < traced.faces.size() && withoutValueCount > 0; ++i) {
+    const uint32_t face = traced.faces[i];
+    if (std::isfinite(traced.values[face]) && std::exchange(hasValue[domain.componentOf[face]], 1) == 0)
+      --withoutValueCount;
+  }
+  if (withoutValueCount == 0) return {};
   return selectInParallel(domain.traceableFaces, [&](uint32_t face) {
     return !traced.isSeed[face] && hasValue[domain.componentOf[face]] == 0;
   });
@@ -41,10 +46,10 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
   traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
-  for (size_t i = 0; i < faces.size(); ++i) {
+  forEachInParallel(faces.size(), [&](size_t i) {
     traced.values[faces[i]] = values[i];
     traced.isSeed[faces[i]] = 1;
-  }
+  });
 }
 
 void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/parallel.h"
 #include "core/percentiles.h"
 #include "describe/warnings.h"
 
@@ -16,16 +17,16 @@ namespace {
 // near these limits (docs/accuracy.md).
 constexpr double kMinRobustShare = 0.1, kLargeRelativeError = 0.1, kMaxRelativeOverAverage = 5;
 
-/// The warning about faces without a value, with its likely causes. values: #F.
+/// The warning about faces without a value, with its likely causes. sdf: #I.
 Warning describeMissing(const Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
-                        std::span<const double> values, bool keepsMissing) {
+                        std::span<const double> sdf, bool keepsMissing) {
   std::vector<uint8_t> isInverted(prepared.components.components.size(), 0);
   for (const uint32_t index : prepared.invertedComponents) isInverted[index] = 1;
   MissingValues missing{
       .count = report.noValueCount, .faceCount = report.regionFaceCount, .keepsMissing = keepsMissing};
   for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
-    if (!std::isnan(values[f]) || prepared.geometry.isDegenerate(f) || !domain.contains(prepared.mesh.inputFaceOf(f)))
-      continue;
+    const uint32_t inputFace = prepared.mesh.inputFaceOf(f);
+    if (!std::isnan(sdf[inputFace]) || prepared.geometry.isDegenerate(f) || !domain.contains(inputFace)) continue;
     const uint32_t component = prepared.components.componentOf[f];
     missing.isInverted = missing.isInverted || isInverted[component];
     missing.isOpen = missing.isOpen || !prepared.components.components[component].isClosed;
@@ -55,17 +56,14 @@ std::optional<Warning> warningOfRange(const Report& report) {
 }  // namespace
 
 uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field) {
-  uint64_t count = 0;
-  for (size_t i = 0; i < field.size(); ++i) count += std::isnan(field[i]) && domain.contains(i) ? 1 : 0;
-  return count;
+  return countInParallel(field.size(), [&](uint32_t i) { return std::isnan(field[i]) && domain.contains(i); });
 }
 
 void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
-                    const std::vector<double>& sdf, std::span<const double> values, bool keepsMissing) {
+                    const std::vector<double>& sdf, bool keepsMissing) {
   report.sdf = rangeOf(sdf);
   report.noValueCount = countWithoutValue(domain, sdf);
-  if (report.noValueCount > 0)
-    report.warnings.push_back(describeMissing(report, prepared, domain, values, keepsMissing));
+  if (report.noValueCount > 0) report.warnings.push_back(describeMissing(report, prepared, domain, sdf, keepsMissing));
   if (std::optional<Warning> warning = warningOfRange(report)) report.warnings.push_back(std::move(*warning));
   if (report.solver.finishedOnCpu) report.warnings.push_back(finishedOnCpu(report.solver));
   if (!report.solver.converged) report.warnings.push_back(notConverged(report.solver));

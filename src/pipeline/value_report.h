@@ -14,8 +14,8 @@ namespace asdfvk {
 [[nodiscard]] uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field);
 
 /// Adds the range of the values, the number of missing values of the domain, and warnings about values and solver to
-/// the report. sdf: #I. values: #F. keepsMissing: see Computation.
+/// the report. sdf: #I. keepsMissing: see Computation.
 void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
-                    const std::vector<double>& sdf, std::span<const double> values, bool keepsMissing);
+                    const std::vector<double>& sdf, bool keepsMissing);
 
 }  // namespace asdfvk
