@@ -8,7 +8,8 @@
 namespace asdfvk {
 namespace {
 
-// In primitives. The faces and vertices of consecutive primitives may be far apart in memory.
+// In primitives. The faces and vertices of consecutive primitives may be far apart in memory. A face must be in the
+// cache before its vertices can be prefetched.
 constexpr size_t kFacePrefetchDistance = 16, kVertexPrefetchDistance = 8;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }

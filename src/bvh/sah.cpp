@@ -12,10 +12,11 @@ constexpr uint32_t kMaxBinCount = 32;
 // good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
-// For each axis, the bounding box and the number of the sampled triangles in the bin.
+// For each axis, the bounding box and the number of the sampled triangles in the bin. The address of a bin is a shift
+// of its index.
 struct alignas(128) Bin {
   std::array<Float8, 3> boxes;
-  IntsOf<Float4> counts;  // Lane 3 is 0.
+  std::array<int32_t, 4> counts;  // Number 3 is 0.
 };
 
 struct Bins {
@@ -24,7 +25,7 @@ struct Bins {
   ASDFVK_ALWAYS_INLINE explicit Bins(uint32_t binCount) {
     for (uint32_t i = 0; i < binCount; ++i) {
       for (Float8& box : bins[i].boxes) box = broadcast<Float8>(std::numeric_limits<float>::infinity());
-      bins[i].counts = IntsOf<Float4>{};
+      bins[i].counts = {};
     }
   }
   ASDFVK_ALWAYS_INLINE void add(const SplitTriangle& triangle, const IntsOf<Float4>& binIndices) {
@@ -32,7 +33,7 @@ struct Bins {
     for (size_t axis = 0; axis < 3; ++axis) {
       Bin& bin = bins[static_cast<uint32_t>(binIndices[axis])];
       bin.boxes[axis] = min(box, bin.boxes[axis]);
-      ++reinterpret_cast<int32_t*>(&bin.counts)[axis];
+      ++bin.counts[axis];
     }
   }
 };
@@ -58,7 +59,7 @@ struct Binning {
   }
 };
 
-// One side of a split along each axis. Lane i has axis i; lane 3 has none.
+// One side of a split along each axis. Lane i of a vector of counts or costs has axis i; lane 3 has none.
 struct Sides {
   std::array<SplitBox, 3> boxes{SplitBox::empty(), SplitBox::empty(), SplitBox::empty()};
   IntsOf<Float4> counts{};
@@ -68,7 +69,7 @@ struct Sides {
       const auto* numbers = reinterpret_cast<const float*>(&bin.boxes[axis]);
       boxes[axis].grow({load<Float4>(numbers), load<Float4>(numbers + 4)});
     }
-    counts += bin.counts;
+    counts += load<IntsOf<Float4>>(bin.counts.data());
   }
   // Half area times triangle count. NaN without triangles, because an empty box has an infinite area: no split has this
   // cost.

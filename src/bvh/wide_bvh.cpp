@@ -80,20 +80,22 @@ ASDFVK_ALWAYS_INLINE inline DeviceWideNode quantizeInLanes(std::span<const Box3f
     perUnit[axis] = powerOfTwo(-e);
   }
   // The box of an empty slot has its lower corner above its upper corner.
-  Longs lowers = broadcast<Longs>(-1), uppers{}, greatest{};
+  Longs lowers = broadcast<Longs>(-1), uppers{}, allUpperBytes{};
   for (size_t i = 0; i < children.size(); ++i) {
     const Double4 lower = max((widened(children[i].min) - margin - start) * perUnit, Double4{});
     const Double4 upper = (widened(children[i].max) + margin - start) * perUnit;
-    const auto lowerFloor = __builtin_convertvector(lower, IntsOf<Float4>),
+    const auto lowerFloor =  // No number is negative, so that truncation rounds down.
+        __builtin_convertvector(lower, IntsOf<Float4>),
                upperFloor = __builtin_convertvector(upper, IntsOf<Float4>);
     const Longs lowerBytes = __builtin_convertvector(lowerFloor, Longs);
     const Longs upperBytes =  // Rounded up: a mask is -1 where it is true.
         __builtin_convertvector(upperFloor, Longs) - (__builtin_convertvector(upperFloor, Double4) < upper);
-    greatest |= upperBytes;
+    allUpperBytes |= upperBytes;
+    // All bits of the slot are set; clears those that lowerBytes does not have.
     lowers &= ~((kMaxByte - lowerBytes) << 8 * slots[i]);
     uppers |= upperBytes << 8 * slots[i];
   }
-  ASDFVK_CHECK_OP(static_cast<uint64_t>(greatest[0] | greatest[1] | greatest[2]), <=, kMaxByte);
+  ASDFVK_CHECK_OP(static_cast<uint64_t>(allUpperBytes[0] | allUpperBytes[1] | allUpperBytes[2]), <=, kMaxByte);
   for (size_t axis = 0; axis < 3; ++axis) {
     const auto low = static_cast<uint64_t>(lowers[axis]), high = static_cast<uint64_t>(uppers[axis]);
     uvec4& planes = axis == 0 ? node.x : axis == 1 ? node.y : node.z;

@@ -97,7 +97,7 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 [[nodiscard]] std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> children);
 
 /// A node with the boxes of `children` in `slots`, enlarged by kWideBoxMargin and rounded outwards. childBase,
-/// triangleBase and childBits are not set.
+/// triangleBase and childBits are not set. The result is the same for every instruction set.
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
                                            const std::array<uint32_t, kWideChildCount>& slots,
                                            InstructionSet instructionSet = widestInstructionSet());

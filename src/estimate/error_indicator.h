@@ -1,8 +1,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "core/unset_vector.h"
 #include "predict/prediction.h"
 
 namespace asdfvk {

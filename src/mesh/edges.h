@@ -9,7 +9,8 @@
 
 namespace asdfvk {
 
-/// A face at an edge. Entries of an edge are ordered by face.
+/// A face at an edge. Ordered by upper vertex, then by corner. With this order of the members, the compiler loads both
+/// as one number.
 struct EdgeEntry {
   uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to its next corner.
   uint32_t upperVertex;

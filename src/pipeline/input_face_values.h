@@ -11,7 +11,8 @@
 namespace asdfvk {
 
 /// Values of input faces from values of triangles: the mean over the triangles of a polygon that have a value, weighted
-/// by area. values, areas: #F. Returns #I; NaN for a polygon without a valued triangle.
+/// by area. values, areas: #F. Returns #I; NaN for a polygon without a valued triangle. Returns the argument `values`
+/// itself if every input face is a triangle.
 [[nodiscard]] std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::vector<double> values,
                                                      std::span<const double> areas);
 

@@ -147,10 +147,10 @@ std::vector<double> Interpolation::divergence() const {
   return divergence;
 }
 
-GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::span<const double> predicted,
-                                      const std::vector<ComponentValues>& traced) const {
+/// All but the first guess.
+GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::span<const double> predicted) const {
   GraphProblem problem{.constraints = constraints,
-                       .firstGuess = firstGuess(domain_, traced, predicted),
+                       .firstGuess = {},
                        .guide = {},
                        .divergence = divergence(),
                        .componentOf = domain_.componentOf};
@@ -159,9 +159,9 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
 }
 
 /// Solves the equation of the aggregates, which has no rows for the other faces. problem: of all faces, without
-/// divergence; but firstGuess has one entry per aggregate.
-SolverReport Interpolation::solveOnCentres(GraphProblem problem, std::vector<double>& values,
-                                           const RunControl& control) {
+/// divergence and first guess. guess: one entry per aggregate.
+SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vector<double> guess,
+                                           std::vector<double>& values, const RunControl& control) {
   const FaceAggregates& aggregates = domain_.aggregated->aggregates();
   const auto atCentres = [&]<typename T>(std::span<const T> perFace) {
     UnsetVector<T> perAggregate(perFace.empty() ? 0 : aggregates.centres.size());
@@ -174,7 +174,7 @@ SolverReport Interpolation::solveOnCentres(GraphProblem problem, std::vector<dou
   std::vector<double> solved;
   const SolverReport report = solver_.solve(aggregates.graph, weights(),
                                             {.constraints = constraints,
-                                             .firstGuess = std::move(problem.firstGuess),
+                                             .firstGuess = std::move(guess),
                                              .guide = guide,
                                              .divergence = {},
                                              .componentOf = componentOf},
@@ -197,8 +197,10 @@ SolverReport Interpolation::solveEquation(std::span<const double> constraints, s
     values.assign(constraints.begin(), constraints.end());
     return {.name = "none"};
   }
-  GraphProblem problem = problemOf(constraints, predicted, traced);
-  if (domain_.aggregated != nullptr) return solveOnCentres(std::move(problem), values, control);
+  GraphProblem problem = problemOf(constraints, predicted);
+  std::vector<double> guess = firstGuess(domain_, traced, predicted);
+  if (domain_.aggregated != nullptr) return solveOnCentres(problem, std::move(guess), values, control);
+  problem.firstGuess = std::move(guess);
   return solver_.solve(domain_.graph, weights(), std::move(problem), values, control);
 }
 

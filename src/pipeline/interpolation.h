@@ -50,9 +50,9 @@ class Interpolation {
   [[nodiscard]] std::span<const double> weights();
   [[nodiscard]] double pooled(double value, double prediction) const;
   [[nodiscard]] std::vector<double> divergence() const;
-  [[nodiscard]] GraphProblem problemOf(std::span<const double> constraints, std::span<const double> predicted,
-                                       const std::vector<ComponentValues>& traced) const;
-  SolverReport solveOnCentres(GraphProblem problem, std::vector<double>& values, const RunControl& control);
+  [[nodiscard]] GraphProblem problemOf(std::span<const double> constraints, std::span<const double> predicted) const;
+  SolverReport solveOnCentres(const GraphProblem& problem, std::vector<double> guess, std::vector<double>& values,
+                              const RunControl& control);
   SolverReport solveEquation(std::span<const double> constraints, std::span<const double> predicted,
                              const std::vector<ComponentValues>& traced, std::vector<double>& values,
                              const RunControl& control);

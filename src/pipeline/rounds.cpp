@@ -33,8 +33,11 @@ constexpr double kMaxSeedCount = 1e18;
 constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.75, kHeldOutTracedProgress = 0.85,
                  kPredictedProgress = 0.87;
 
+/// Sorts faces whose first part is usually sorted.
 std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
-  sortInParallel(faces.begin(), faces.end());
+  const auto end = std::is_sorted_until(faces.begin(), faces.end());
+  sortInParallel(end, faces.end());
+  std::inplace_merge(faces.begin(), end, faces.end());
   return faces;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <utility>
+#include <vector>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -73,12 +74,12 @@ SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds
 class NearestCells::RowBuilder {
  public:
   RowBuilder(const DualGraph& graph, std::span<const uint32_t> cellOf, size_t cellCount, size_t stride)
-      : graph_(graph), cellOf_(cellOf), stride_(stride), lastRowWith_(cellCount, kNoCell) {}
+      : graph_(graph), cellOf_(cellOf), stride_(stride), lastTouchedBy_(cellCount, kNoCell) {}
 
   /// centreOf: the barycentre of the seed of a cell. row: stride_ entries, all kNoCell.
   template <typename CentreOf>
   void build(uint32_t cell, std::span<const uint32_t> faces, const CentreOf& centreOf, uint32_t* row) {
-    lastRowWith_[cell] = cell;
+    lastTouchedBy_[cell] = cell;
     touching_.clear();
     for (const uint32_t face : faces) {
       const std::span<const uint32_t> neighbours = graph_.neighboursOf(face);
@@ -86,7 +87,7 @@ class NearestCells::RowBuilder {
       touching_.resize(count + neighbours.size());
       for (const uint32_t neighbour : neighbours) {  // Branch-free: whether a cell is new is unpredictable.
         const uint32_t other = touching_[count] = cellOf_[neighbour];
-        count += std::exchange(lastRowWith_[other], cell) != cell ? 1 : 0;
+        count += std::exchange(lastTouchedBy_[other], cell) != cell ? 1 : 0;
       }
       touching_.resize(count);
     }
@@ -103,7 +104,7 @@ class NearestCells::RowBuilder {
   const DualGraph& graph_;
   std::span<const uint32_t> cellOf_;
   size_t stride_;
-  std::vector<uint32_t> lastRowWith_;  // For each cell, the last row that has this cell.
+  std::vector<uint32_t> lastTouchedBy_;  // For each cell, the last built cell that equals or touches it.
   UnsetVector<uint32_t> touching_;
   std::vector<std::pair<double, uint32_t>> byDistance_;
 };

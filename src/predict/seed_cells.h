@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "core/buckets.h"
 #include "mesh/dual_graph.h"
@@ -39,11 +38,12 @@ struct SeedCells {
 class NearestCells {
  public:
   NearestCells() = default;
+  /// Memory: 4 bytes per cell and thread.
   NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                std::span<const uint32_t> seeds, size_t neighbourCount);
 
-  /// Adds or replaces the rows of the `changed` cells. cells: the faces of each changed cell. cellOf: #F, the cell of
-  /// each face.
+  /// Adds or replaces the rows of the `changed` cells, each listed once. Memory as in the constructor. cells: the faces
+  /// of each changed cell. cellOf: #F, the cell of each face.
   void update(std::span<const uint32_t> changed, const Buckets<uint32_t>& cells, std::span<const uint32_t> cellOf,
               const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds);
 

@@ -45,7 +45,8 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
 constexpr int kMaxGrowthCount = 4;
 constexpr float kRadiusGrowth = 1.5f;
 
-/// waiting: nodes of the graph, more than `count`. Returns nodes, ascending.
+/// Poisson-disk sampling of a graph. waiting: candidates that are not in `existing`, more than `count`. count: at least
+/// 1. All seeds and candidates are nodes of the graph. Returns the new seeds, ascending.
 std::vector<uint32_t> throwAtGraph(const DualGraph& graph, std::span<const float> lengths,
                                    std::vector<uint32_t> waiting, uint64_t count, std::span<const uint32_t> existing,
                                    uint64_t randomSeed, const RunControl& stopOnly) {
@@ -79,11 +80,11 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
   if (count == 0) return {};
   if (domain.aggregates == nullptr)
     return throwAtGraph(domain.graph, lengths, std::move(waiting), count, existing, randomSeed, domain.stopOnly);
-  // The same seeds, in less time: the graph of the aggregates has no nodes without arcs, and needs less of the cache.
-  const auto& [centres, sizes, aggregateOf, graph] = *domain.aggregates;
-  return entriesAt(throwAtGraph(graph, lengths, entriesAt(waiting, aggregateOf), count,
-                                entriesAt(existing, aggregateOf), randomSeed, domain.stopOnly),
-                   centres);
+  // The same seeds, in less time: without the faces that are not centres, the arrays need less of the cache.
+  const FaceAggregates& aggregates = *domain.aggregates;
+  return entriesAt(throwAtGraph(aggregates.graph, lengths, entriesAt(waiting, aggregates.aggregateOf), count,
+                                entriesAt(existing, aggregates.aggregateOf), randomSeed, domain.stopOnly),
+                   aggregates.centres);
 }
 
 // On a smooth mesh, the distances between close seeds are nearly integers. Without a change of the lengths, different

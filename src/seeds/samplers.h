@@ -23,8 +23,8 @@ struct SeedDomain {
   const FaceGeometry& geometry;
   ArcAngles& arcAngles;
   std::span<const uint32_t> candidates;  ///< Faces that can cast rays, ascending, each once.
-  /// Set if only centres of aggregates have arcs. Then the arcs of `graph` are those of aggregates->graph, in the same
-  /// order.
+  /// Set if only centres of aggregates have arcs and are candidates or existing seeds. Then the arcs of `graph` are
+  /// those of aggregates->graph, in the same order.
   const FaceAggregates* aggregates = nullptr;
   RunControl stopOnly = {};  ///< Ends samplers that measure distances, by Error{Cancelled}.
 };

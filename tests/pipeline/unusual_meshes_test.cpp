@@ -107,6 +107,34 @@ TEST_CASE("the warning about missing values has the likely causes: open surface,
   CHECK(causeOn(both) == "inverted or open");
 }
 
+TEST_CASE("the warning about missing values counts polygons, and has the causes of their triangles") {
+  Mesh mesh = makeSphere(20).mesh;
+  const auto sphereFaceCount = static_cast<uint32_t>(mesh.faces.size());
+  mesh.polygons.firstCorner = {0};
+  const auto addPolygon = [&](std::initializer_list<uint32_t> corners) {
+    mesh.polygons.corners.insert(mesh.polygons.corners.end(), corners);
+    mesh.polygons.firstCorner.push_back(mesh.polygons.corners.size());
+  };
+  for (uint32_t face = 0; face < sphereFaceCount; ++face) {
+    const auto [a, b, c] = mesh.faces[face];
+    mesh.polygons.inputFaceOf.push_back(face);
+    addPolygon({a, b, c});
+  }
+  const auto first = static_cast<uint32_t>(mesh.vertices.size());  // A square far from the sphere.
+  mesh.vertices.insert(mesh.vertices.end(), {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}});
+  mesh.faces.push_back({first, first + 1, first + 2});
+  mesh.faces.push_back({first, first + 2, first + 3});
+  mesh.polygons.inputFaceOf.insert(mesh.polygons.inputFaceOf.end(), 2, sphereFaceCount);
+  addPolygon({first, first + 1, first + 2, first + 3});
+  const Result result = referenceSession().compute(mesh, allSeeds());
+  const Warning* warning = findWarning(result.report, WarningCode::MissingValues);
+  REQUIRE(warning != nullptr);
+  CAPTURE(warning->message);
+  CHECK(warning->message.starts_with("1 of " + std::to_string(sphereFaceCount + 1)));
+  CHECK(std::ranges::any_of(
+      warning->details, [](const ErrorDetail& detail) { return detail.name == "cause" && detail.value == "open"; }));
+}
+
 TEST_CASE("degenerate faces are interpolated and the count of faces stays") {
   Mesh mesh = makeSphere(500).mesh;
   const Face first = mesh.faces[0];
