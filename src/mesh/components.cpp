@@ -88,7 +88,7 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
     last.sum += dot(a, cross(ab, ac)) / 6;
-    last.noise += kVolumeNoise * std::sqrt(dot(a, a) * dot(ab, ab) * dot(ac, ac));
+    last.noise += kVolumeNoise * length(a) * std::sqrt(dot(ab, ab) * dot(ac, ac));
   }
   sums.push_back(last);
   return sums;
