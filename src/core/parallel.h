@@ -73,6 +73,15 @@ template <typename T>
   return copies;
 }
 
+/// The entries of a table at these indices. Entries: std::vector or UnsetVector.
+template <typename Entries>
+[[nodiscard]] Entries entriesAt(std::span<const uint32_t> indices,
+                                std::span<const typename Entries::value_type> table) {
+  Entries entries(indices.size());
+  forEachInParallel(indices.size(), [&](size_t i) { entries[i] = table[indices[i]]; });
+  return entries;
+}
+
 /// Reduction of [0, count). fold(begin, end) computes the value of each block of kBlockSize items, in parallel.
 /// joined(a, b) then combines Value{} with the values of the blocks, in ascending order. The result has the same bits
 /// on any number of threads.

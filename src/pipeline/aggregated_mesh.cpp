@@ -8,7 +8,8 @@ namespace asdfvk {
 namespace {
 
 // Measured on the horse, the armadillo and generated shapes of 80,000 to 1,500,000 faces (docs/experiments.md). With
-// pooling, aggregates raise the errors of the horse and the armadillo; therefore only finer meshes have them.
+// pooling, aggregates raise the errors of the horse and the armadillo. Therefore only finer meshes have aggregates with
+// pooling.
 constexpr uint64_t kMinFaceCount = 1u << 16, kMinFaceCountIfPooled = 1u << 18, kMinFacesPerSeed = 8;
 // All centres of a small component might have no valid ray.
 constexpr uint64_t kMinComponentSize = 1000;
@@ -56,9 +57,7 @@ DualGraph onCentres(const FaceAggregates& aggregates) {
     for (size_t face = centres[aggregate]; face < end; ++face)
       graph.offsets[face + 1] = aggregates.graph.offsets[aggregate + 1];
   });
-  graph.neighbours.resize(aggregates.graph.neighbours.size());
-  forEachInParallel(graph.neighbours.size(),
-                    [&](size_t arc) { graph.neighbours[arc] = aggregates.centres[aggregates.graph.neighbours[arc]]; });
+  graph.neighbours = entriesAt<UnsetVector<uint32_t>>(aggregates.graph.neighbours, centres);
   return graph;
 }
 

@@ -164,10 +164,7 @@ SolverReport Interpolation::solveOnCentres(const GraphProblem& problem, std::vec
                                            std::vector<double>& values, const RunControl& control) {
   const FaceAggregates& aggregates = domain_.aggregated->aggregates();
   const auto atCentres = [&]<typename T>(std::span<const T> perFace) {
-    UnsetVector<T> perAggregate(perFace.empty() ? 0 : aggregates.centres.size());
-    forEachInParallel(perAggregate.size(),
-                      [&](size_t aggregate) { perAggregate[aggregate] = perFace[aggregates.centres[aggregate]]; });
-    return perAggregate;
+    return perFace.empty() ? UnsetVector<T>() : entriesAt<UnsetVector<T>>(aggregates.centres, perFace);
   };
   const UnsetVector<double> constraints = atCentres(problem.constraints), guide = atCentres(problem.guide);
   const UnsetVector<uint32_t> componentOf = atCentres(problem.componentOf);

@@ -67,12 +67,6 @@ std::vector<uint32_t> throwAtGraph(const DualGraph& graph, std::span<const float
   }
 }
 
-std::vector<uint32_t> entriesAt(std::span<const uint32_t> indices, std::span<const uint32_t> table) {
-  std::vector<uint32_t> entries(indices.size());
-  forEachInParallel(indices.size(), [&](size_t i) { entries[i] = table[indices[i]]; });
-  return entries;
-}
-
 std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float> lengths, uint64_t count,
                                 std::span<const uint32_t> existing, uint64_t randomSeed) {
   std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
@@ -82,9 +76,11 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
     return throwAtGraph(domain.graph, lengths, std::move(waiting), count, existing, randomSeed, domain.stopOnly);
   // The same seeds, in less time: without the faces that are not centres, the arrays need less of the cache.
   const FaceAggregates& aggregates = *domain.aggregates;
-  return entriesAt(throwAtGraph(aggregates.graph, lengths, entriesAt(waiting, aggregates.aggregateOf), count,
-                                entriesAt(existing, aggregates.aggregateOf), randomSeed, domain.stopOnly),
-                   aggregates.centres);
+  using Nodes = std::vector<uint32_t>;
+  return entriesAt<Nodes>(
+      throwAtGraph(aggregates.graph, lengths, entriesAt<Nodes>(waiting, aggregates.aggregateOf), count,
+                   entriesAt<Nodes>(existing, aggregates.aggregateOf), randomSeed, domain.stopOnly),
+      aggregates.centres);
 }
 
 // On a smooth mesh, the distances between close seeds are nearly integers. Without a change of the lengths, different
