@@ -12,30 +12,33 @@ constexpr uint32_t kMaxBinCount = 32;
 // good as the best split of all triangles.
 constexpr size_t kSampleCount = 1024;
 
-// For each axis, the bounding box and the number of the sampled triangles in the bin. The address of a bin is a shift
-// of its index.
+// For each axis, the bounding box and the number of the sampled triangles in the bin. The size is a power of two, so
+// that the compiler finds the address of a bin by a shift instead of a multiplication.
 struct alignas(128) Bin {
   std::array<Float8, 3> boxes;
   std::array<int32_t, 4> counts;  // Number 3 is 0.
 };
 
-struct Bins {
-  std::array<Bin, kMaxBinCount> bins;
-
+class Bins {
+ public:
   ASDFVK_ALWAYS_INLINE explicit Bins(uint32_t binCount) {
     for (uint32_t i = 0; i < binCount; ++i) {
-      for (Float8& box : bins[i].boxes) box = broadcast<Float8>(std::numeric_limits<float>::infinity());
-      bins[i].counts = {};
+      for (Float8& box : bins_[i].boxes) box = broadcast<Float8>(std::numeric_limits<float>::infinity());
+      bins_[i].counts = {};
     }
   }
   ASDFVK_ALWAYS_INLINE void add(const SplitTriangle& triangle, const IntsOf<Float4>& binIndices) {
     const auto box = load<Float8>(triangle.numbers());
     for (size_t axis = 0; axis < 3; ++axis) {
-      Bin& bin = bins[static_cast<uint32_t>(binIndices[axis])];
+      Bin& bin = bins_[static_cast<uint32_t>(binIndices[axis])];
       bin.boxes[axis] = min(box, bin.boxes[axis]);
       ++bin.counts[axis];
     }
   }
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE const Bin& operator[](uint32_t bin) const { return bins_[bin]; }
+
+ private:
+  std::array<Bin, kMaxBinCount> bins_;
 };
 
 // Maps doubled centres to bins, per axis. Factor 0 means that the axis cannot be split, because the centres coincide or
@@ -71,8 +74,8 @@ struct Sides {
     }
     counts += load<IntsOf<Float4>>(bin.counts.data());
   }
-  // Half area times triangle count. NaN without triangles, because an empty box has an infinite area: no split has this
-  // cost.
+  // Half the area of the box, times the number of triangles. NaN without triangles, because an empty box has an
+  // infinite area. NaN is not less than any cost, so that a split with an empty side is not chosen.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 costs() const {
     const Float4 a = boxes[0].extents(), b = boxes[1].extents(), c = boxes[2].extents();
     const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5), high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
@@ -91,14 +94,14 @@ ASDFVK_ALWAYS_INLINE inline Candidate bestSplit(const Bins& bins, const Binning&
   std::array<Float4, kMaxBinCount> rightCosts;
   Sides right;
   for (uint32_t i = binning.binCount - 1; i > 0; --i) {
-    right.add(bins.bins[i]);
+    right.add(bins[i]);
     rightCosts[i] = right.costs();
   }
   Sides left;
   auto leastCosts = broadcast<Float4>(std::numeric_limits<float>::infinity());
   IntsOf<Float4> firstRightBins{};
   for (uint32_t i = 1; i < binning.binCount; ++i) {
-    left.add(bins.bins[i - 1]);
+    left.add(bins[i - 1]);
     const Float4 costs = left.costs() + rightCosts[i];
     const IntsOf<Float4> isLess = costs < leastCosts;
     leastCosts = isLess ? costs : leastCosts;

@@ -79,20 +79,20 @@ ASDFVK_ALWAYS_INLINE inline DeviceWideNode quantizeInLanes(std::span<const Box3f
     node.exponents |= static_cast<uint32_t>(e + kExponentBias) << 8 * axis;
     perUnit[axis] = powerOfTwo(-e);
   }
-  // The box of an empty slot has its lower corner above its upper corner.
+  // At first each slot is empty: the lower corner of its box is above the upper corner.
   Longs lowers = broadcast<Longs>(-1), uppers{}, allUpperBytes{};
   for (size_t i = 0; i < children.size(); ++i) {
     const Double4 lower = max((widened(children[i].min) - margin - start) * perUnit, Double4{});
     const Double4 upper = (widened(children[i].max) + margin - start) * perUnit;
-    const auto lowerFloor =  // No number is negative, so that truncation rounds down.
-        __builtin_convertvector(lower, IntsOf<Float4>),
-               upperFloor = __builtin_convertvector(upper, IntsOf<Float4>);
+    // The numbers are not negative. Therefore conversion to integers rounds down.
+    const auto lowerFloor = __builtin_convertvector(lower, IntsOf<Float4>);
+    const auto upperFloor = __builtin_convertvector(upper, IntsOf<Float4>);
     const Longs lowerBytes = __builtin_convertvector(lowerFloor, Longs);
-    const Longs upperBytes =  // Rounded up: a mask is -1 where it is true.
+    // Rounds up: a comparison gives -1 where it is true.
+    const Longs upperBytes =
         __builtin_convertvector(upperFloor, Longs) - (__builtin_convertvector(upperFloor, Double4) < upper);
     allUpperBytes |= upperBytes;
-    // All bits of the slot are set; clears those that lowerBytes does not have.
-    lowers &= ~((kMaxByte - lowerBytes) << 8 * slots[i]);
+    lowers ^= (kMaxByte ^ lowerBytes) << 8 * slots[i];  // Changes the byte of the slot from kMaxByte to lowerBytes.
     uppers |= upperBytes << 8 * slots[i];
   }
   ASDFVK_CHECK_OP(static_cast<uint64_t>(allUpperBytes[0] | allUpperBytes[1] | allUpperBytes[2]), <=, kMaxByte);

@@ -109,7 +109,7 @@ class Survey {
     graph.offsets[0] = 0;
     forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
       graph.offsets[f + 1] = 3 * (f + 1);
-      // Branch-free, because the order is unpredictable.
+      // No branch, because the processor cannot predict the order.
       uint32_t* row = &across_[size_t{3} * f];
       const uint32_t lower = std::min(row[0], row[1]), upper = std::max(row[0], row[1]), last = row[2];
       row[0] = std::min(lower, last);

@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// A face at an edge. Ordered by upper vertex, then by corner. With this order of the members, the compiler loads both
-/// as one number.
+/// A face at an edge. Entries are ordered by their upper vertices, then by their corners. The members are in the
+/// opposite order, so that the compiler loads a key as one number.
 struct EdgeEntry {
   uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to its next corner.
   uint32_t upperVertex;

@@ -85,7 +85,7 @@ class NearestCells::RowBuilder {
       const std::span<const uint32_t> neighbours = graph_.neighboursOf(face);
       size_t count = touching_.size();
       touching_.resize(count + neighbours.size());
-      for (const uint32_t neighbour : neighbours) {  // Branch-free: whether a cell is new is unpredictable.
+      for (const uint32_t neighbour : neighbours) {  // No branch: the processor cannot predict whether a cell is new.
         const uint32_t other = touching_[count] = cellOf_[neighbour];
         count += std::exchange(lastTouchedBy_[other], cell) != cell ? 1 : 0;
       }

@@ -42,8 +42,8 @@ class NearestCells {
   NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                std::span<const uint32_t> seeds, size_t neighbourCount);
 
-  /// Adds or replaces the rows of the `changed` cells, each listed once. Memory as in the constructor. cells: the faces
-  /// of each changed cell. cellOf: #F, the cell of each face.
+  /// Adds or replaces the rows of the changed cells. Needs as much memory as the constructor. changed: lists each cell
+  /// once. cells: the faces of each changed cell. cellOf: #F, the cell of each face.
   void update(std::span<const uint32_t> changed, const Buckets<uint32_t>& cells, std::span<const uint32_t> cellOf,
               const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds);
 

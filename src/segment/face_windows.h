@@ -32,8 +32,9 @@ class FaceWindows {
   /// Precondition: the block has no face twice.
   void setBlock(std::span<const uint32_t> block, uint32_t ringCount);
 
-  /// Fills two windows with the same number of rings. The two searches advance in turns. Each step of a search depends
-  /// on the preceding step, so the processor can overlap only steps of different searches.
+  /// Fills two windows with the same number of rings. The function does a step of the first search, then a step of the
+  /// second search, and so on. The processor can execute these two steps at the same time. It cannot do so with two
+  /// steps of one search, because a step needs the result of the step before.
   void search(const FaceWindow& first, const FaceWindow& second);
 
   /// The faces around the block. Face 0 stands for a missing neighbour. Face 1 + i is face i of the block.

@@ -35,9 +35,9 @@ class MaxFlow {
   /// terms, solve() sets it to 0.
   void addTerminal(uint32_t node, double capacity);
 
-  /// Adds an edge with a finite capacity of at least 0 in each direction. flow: the flow from a to b with which the
-  /// search begins, from -reverseCapacity to capacity. The sum of the flows at a node need not be 0. If an edge has a
-  /// flow, no forest is used. Precondition: a != b.
+  /// Adds an edge with a finite capacity of at least 0 in each direction. flow: an initial flow from a to b,
+  /// between -reverseCapacity and capacity. The initial flows into a node and out of it need not be equal. If an edge
+  /// has an initial flow, no forest is used. Precondition: a != b.
   void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity, double flow = 0);
 
   /// Returns the value of the maximum flow; 0 for an empty graph. If edges were added with a flow, returns only the
