@@ -10,7 +10,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "pipeline/backend.h"
-#include "pipeline/kernel_check.h"
+#include "pipeline/vulkan/kernel_check.h"
 #include "predict/vulkan/vulkan_prediction.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_trace_choice.h"

@@ -1,4 +1,4 @@
-#include "pipeline/kernel_check.h"
+#include "pipeline/vulkan/kernel_check.h"
 
 #include <vector>
 

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace asdfvk {
+
+/// The reason in errors of a build with ASDF_VK_VULKAN=OFF. Files without_vulkan.cpp replace the folders vulkan/ there.
+inline constexpr const char* kNoVulkan =
+    "this build of asdf-vk has no Vulkan; build with ASDF_VK_VULKAN=ON, or use the backend cpu";
+
+}  // namespace asdfvk

@@ -1,0 +1,217 @@
+#include "diagnose/device_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/stopwatch.h"
+#include "mesh/arc_angles.h"
+#include "pipeline/backend.h"
+#include "pipeline/generated_mesh.h"
+#include "poisson/poisson_solver.h"
+#include "poisson/poisson_system.h"
+#include "trace/tracer_check.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vulkan/vulkan_tracer.h"
+#include "vk/device.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either face of the edge.
+constexpr int kRunCount = 3;
+
+struct TestTorus : GeneratedMesh {
+  explicit TestTorus(double duration) : GeneratedMesh(bumpyTorus(200, 100)), secondsPerRun(duration) {}
+
+  double secondsPerRun;
+  Cone cone = makeCone({});
+};
+
+/// Runs `test`. If the test cannot run, stores the reason.
+template <typename Report>
+void runTest(Report& report, const std::function<void()>& test) {
+  try {
+    test();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Cancelled) throw;
+    const bool isRefused = error.code() == ErrorCode::DeviceLimit || error.code() == ErrorCode::EquationLimit ||
+                           error.code() == ErrorCode::KernelUnsupported;
+    (isRefused ? report.refusal : report.failure) = error.what();
+    report.passed = false;
+  }
+}
+
+/// Returns the rays per second. In a short run, the overhead takes most of the time. Therefore the number of faces is
+/// doubled until a run takes secondsPerRun. The faces are spread over the mesh.
+double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
+  constexpr size_t kFirstFaceCount = 2048;
+  const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;
+  std::vector<uint32_t> faces;
+  std::vector<double> values;
+  const auto secondsFor = [&](size_t count) {
+    faces.resize(count);
+    for (size_t i = 0; i < count; ++i) faces[i] = all[i * all.size() / count];
+    values.resize(count);
+    const Stopwatch watch;
+    tracer.trace(faces, {values, {}}, control.withoutProgress());
+    return watch.seconds();
+  };
+  size_t count = std::min(kFirstFaceCount, all.size());
+  double best = secondsFor(count);
+  while (count < all.size() && best < test.secondsPerRun) {
+    count = std::min(2 * count, all.size());
+    best = secondsFor(count);
+  }
+  for (int run = 1; run < kRunCount; ++run) best = std::min(best, secondsFor(count));
+  return static_cast<double>(count * test.cone.directions.size()) / std::max(best, 1e-9);
+}
+
+void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
+  const TracerCheck check = checkTracer(tracer, test.scene.view(), test.cone);
+  report.comparedCount = check.comparedCount;
+  report.differingCount = check.differingCount;
+  report.passed = check.isConclusive() && check.differingCount <= kMaxDifferingCount;
+  report.raysPerSecond = measureRate(tracer, test, control);
+}
+
+void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
+  for (const auto& [kernelName, kernel] : kKernels) {
+    for (const auto& [fetchName, fetch] : kFetches) {
+      control.checkpoint(0);
+      const VulkanTraceChoice choice{kernel, fetch};
+      TracerReport tracer{.backend = "vulkan", .variant = variantOf(choice), .isDefault = choice == report.choice};
+      runTest(tracer, [&] {
+        const VulkanConeKernel compiled(
+            device, {.rayCount = report.rayCount, .choice = choice, .definition = test.cone.definition});
+        testTracer(tracer, *makeVulkanTracer(compiled, test.scene.view(), test.cone), test, control);
+      });
+      report.tracers.push_back(std::move(tracer));
+    }
+  }
+}
+
+/// open() returns the backend, which exists until the test ends.
+template <typename Open>
+void testOther(DeviceReport& report, const std::string& name, const TestTorus& test, const RunControl& control,
+               const Open& open) {
+  TracerReport tracer{.backend = name};
+  runTest(tracer, [&] {
+    Backend& backend = open();
+    testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}), test, control);
+  });
+  report.tracers.push_back(std::move(tracer));
+}
+
+/// An equation with the values of a smooth function at every eighth face, and its solution.
+struct TestEquation {
+  explicit TestEquation(const TestTorus& test)
+      : graph(test.scene.prepared.graph),
+        weights(featureWeights(arcAngles(graph, test.scene.prepared.geometry))),
+        constraints(graph.faceCount(), kNoValue),
+        componentOf(graph.faceCount(), 0) {
+    for (size_t f = 0; f < constraints.size(); f += 8)
+      constraints[f] = 1 + test.scene.prepared.geometry.barycentres[f].x / 4;
+  }
+
+  SolverReport solveWith(GraphSolver& solver, std::vector<double>& values, const RunControl& control) const {
+    GraphProblem problem{.constraints = constraints,
+                         .firstGuess = std::vector<double>(constraints.size(), kNoValue),
+                         .guide = {},
+                         .divergence = {},
+                         .componentOf = componentOf};
+    return solver.solve(std::move(problem), {.tolerance = 1e-6}, values, control);
+  }
+
+  const DualGraph& graph;
+  UnsetVector<double> weights;
+  std::vector<double> constraints;
+  std::vector<uint32_t> componentOf;
+};
+
+void testSolvers(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
+  const TestEquation equation(test);
+  const auto unknownCount = static_cast<uint32_t>(std::count_if(
+      equation.constraints.begin(), equation.constraints.end(), [](double value) { return std::isnan(value); }));
+  std::vector<double> expected, values;
+  const std::unique_ptr<PoissonSolver> onCpu = makeSolver(defaultSolver(false).name, nullptr);
+  equation.solveWith(*onCpu->onGraph(equation.graph, equation.weights), expected, {});
+  const auto [min, max] = std::minmax_element(expected.begin(), expected.end());
+  const double range = *max - *min;
+  for (const Solver& solver : solverTable()) {
+    if (!solver.needsDevice) continue;
+    control.checkpoint(0);
+    SolverCheckReport check{.name = solver.name, .unknownCount = unknownCount};
+    runTest(check, [&] {
+      const std::unique_ptr<PoissonSolver> made = solver.make(&device);
+      const std::unique_ptr<GraphSolver> onGraph = made->onGraph(equation.graph, equation.weights);
+      for (int run = 0; run < kRunCount; ++run) {
+        const Stopwatch watch;
+        const SolverReport solved = equation.solveWith(*onGraph, values, control.withoutProgress());
+        check.seconds = run == 0 ? watch.seconds() : std::min(check.seconds, watch.seconds());
+        check.iterations = solved.iterations;
+        check.finishedOnCpu = solved.finishedOnCpu;
+        check.passed = solved.converged;
+      }
+      for (size_t i = 0; i < values.size(); ++i)
+        check.difference = std::max(check.difference, std::abs(values[i] - expected[i]) / range);
+      check.passed = check.passed && check.difference <= kSolverTolerance;
+    });
+    report.solvers.push_back(std::move(check));
+  }
+}
+
+}  // namespace
+
+DeviceReport reportDevice(const SessionOptions& options, const RunControl& control, double secondsPerRun) {
+  const bool isAutomatic = options.backend == "auto";
+  SessionOptions requested = options;
+  requested.variant = {};
+  const TestTorus test(secondsPerRun);
+  DeviceReport report;
+  report.faceCount = test.mesh.faces.size();
+  report.rayCount = static_cast<uint32_t>(test.cone.directions.size());
+
+  std::optional<NamedBackend> vulkan;
+  if (isAutomatic) requested.backend = "vulkan";
+  try {
+    NamedBackend opened = openBackend(requested);
+    report.deviceLines = opened.deviceLines;
+    if (opened.backend->device() == nullptr) {
+      testOther(report, opened.name, test, control, [&]() -> Backend& { return *opened.backend; });
+    } else {
+      vulkan = std::move(opened);
+    }
+  } catch (const Error& error) {
+    if (!isAutomatic || error.kind() != ErrorKind::Device || options.requireGpu || !options.device.empty()) throw;
+    report.failure = error;
+  }
+  if (vulkan) {
+    const Device& device = *vulkan->backend->device();
+    report.device = device.facts();
+    report.choice = traceChoiceFor(device.facts(), {}, test.scene.bvh);
+    report.defaultSolver = automaticSolver(*vulkan->backend).name;
+    testVariants(report, device, test, control);
+    testSolvers(report, device, test, control);
+    try {
+      vulkan->backend->requireSilentValidation();
+    } catch (const Error& error) {
+      report.failure = error;
+    }
+  }
+  if (isAutomatic && !options.requireGpu) {
+    NamedBackend cpu;
+    testOther(report, "cpu", test, control, [&]() -> Backend& {
+      SessionOptions cpuOptions;
+      cpuOptions.backend = "cpu";
+      cpu = openBackend(cpuOptions);
+      return *cpu.backend;
+    });
+  }
+  return report;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,19 @@
+#include "asdf_vk/error.h"
+#include "asdf_vk/session.h"
+#include "core/no_vulkan.h"
+#include "pipeline/backend.h"
+
+namespace asdfvk {
+
+const Solver& automaticSolver(const Backend&) { return defaultSolver(false); }
+
+std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions&) {
+  throw Error(ErrorCode::NoUsableDevice, kNoVulkan);
+}
+
+std::vector<DeviceInfo> listDevices(std::string* reason, bool) {
+  if (reason != nullptr) *reason = kNoVulkan;
+  return {};
+}
+
+}  // namespace asdfvk
