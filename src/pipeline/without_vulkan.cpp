@@ -7,9 +7,7 @@ namespace asdfvk {
 
 const Solver& automaticSolver(const Backend&) { return defaultSolver(false); }
 
-std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions&) {
-  throw Error(ErrorCode::NoUsableDevice, kNoVulkan);
-}
+std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions&) { throw Error(ErrorCode::NoUsableDevice, kNoVulkan); }
 
 std::vector<DeviceInfo> listDevices(std::string* reason, bool) {
   if (reason != nullptr) *reason = kNoVulkan;
