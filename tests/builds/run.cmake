@@ -1,5 +1,5 @@
 # Configures and builds SOURCE in FOLDER in one way, and computes a mesh with the built program.
-#   -DWAY=plain      CMake without a preset, all defaults
+#   -DWAY=plain      CMake without a preset
 #   -DWAY=develop    the preset
 #   -DWAY=debug      the preset
 #   -DWAY=smallest   without Vulkan, OpenMesh and the library for C
