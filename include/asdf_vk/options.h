@@ -150,8 +150,10 @@ struct ThicknessOptions {
   std::optional<double> thinnerThan;
   /// Unit of thinnerThan. Units other than OfMesh require a mesh with a unit (Mesh::unit).
   LengthUnit limitUnit = LengthUnit::OfMesh;
-  /// Whether verdict and minimum ignore thin regions that contain a sharp edge or tip. Requires thinnerThan.
-  bool allowsSharpEdges = false;
+  /// Whether details fail the check, too (ThinKind). Requires thinnerThan.
+  bool countsDetails = false;
+  /// Whether details and edges fail the check, too. Requires thinnerThan.
+  bool countsEdges = false;
 };
 
 /// Targets that end the rounds. Each round adds seeds and keeps the traced values of earlier rounds. Any target

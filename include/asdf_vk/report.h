@@ -189,27 +189,29 @@ struct PartsReport {
   std::vector<double> areaShares;  ///< Share of each part in the area of all faces; the sum is 1.
 };
 
+/// What a thin place is. L is the limit (docs/thickness.md).
+enum class ThinKind {
+  Wall,    ///< A point whose surroundings are all thin, and nowhere much thinner than the point. Fails the check.
+  Detail,  ///< Too small for a wall at L, but a wall at a smaller limit, such as a low rib or a letter.
+  Edge,    ///< Any other thin place: the shape tapers off there.
+};
+/// The name of an enumerator with a small first letter, for example "wall".
+[[nodiscard]] ASDFVK_API const char* nameOf(ThinKind kind);
+
 /// A region is a connected part of the surface that is thinner than the limit, together with the thin part on the other
 /// side of the same wall. Lengths are in the unit of the mesh.
 struct ThinRegion {
-  bool isSharp = false;    ///< The region contains a sharp edge or tip. If false, the region is a thin wall.
-  double min = 0;          ///< Least thickness; 0 in a sharp region.
-  uint64_t minFace = 0;    ///< Input face with the least thickness.
-  Vec3d place, opposite;   ///< Point of least thickness on this face, and its counterpart on the opposing wall.
-  uint64_t faceCount = 0;  ///< Number of input faces that have a part in the region.
-  double area = 0;         ///< Area of the thin parts of the faces.
-  double areaShare = 0;    ///< `area` divided by the area of the mesh, or of the computed region.
-};
-
-/// A sharp edge is a set of mesh edges that are connected by vertices. At each of these edges two opposing walls meet.
-/// A tip is a vertex at which opposing walls without a common edge meet, as on a cone. Sharp edges and tips have the
-/// thickness 0, whatever the triangulation.
-struct SharpEdge {
-  double angleDegrees = 0;  ///< Least inner angle between the walls.
-  double length = 0;        ///< Total length of the edges; 0 for a tip.
-  uint64_t edgeCount = 0;   ///< Number of edges; 0 for a tip.
-  Vec3d place;              ///< Middle of the edge with the least angle, or the tip.
-  uint64_t face = 0;        ///< Input face at `place`.
+  ThinKind kind = ThinKind::Edge;  ///< The greatest kind of all points of the region: a wall if a point is a wall.
+  /// The least thickness of all points of this kind. Beside a wall that tapers, its surface is thinner than this.
+  double min = 0;
+  uint64_t minFace = 0;     ///< Input face with this thickness.
+  Vec3d place, opposite;    ///< Point of this thickness on the face, and its counterpart on the opposing wall.
+  double least = 0;         ///< The least thickness of all points of the region; 0 at a sharp edge.
+  double angleDegrees = 0;  ///< Angle between the two surfaces at the place of `least`; 0 if they are parallel.
+  double width = 0;         ///< Mean width of the thin surface, on both sides of an edge together.
+  uint64_t faceCount = 0;   ///< Number of input faces that have a part in the region.
+  double area = 0;          ///< Area of the thin parts of the faces.
+  double areaShare = 0;     ///< `area` divided by the area of the mesh, or of the computed region.
 };
 
 /// The largest ball inside of a closed component.
@@ -220,9 +222,9 @@ struct SectionBall {
 
 /// Result of comparing the thickness with a limit.
 enum class ThicknessVerdict {
-  Passed,     ///< No point of the surface is thinner than the limit.
-  Failed,     ///< A point is thinner than the limit. Sharp regions do not count if sharp edges are allowed.
-  NotJudged,  ///< No thinner point was found, but a part of the surface could not be judged.
+  Passed,     ///< No wall is thinner than the limit.
+  Failed,     ///< A wall is thinner than the limit, or another thin place that counts.
+  NotJudged,  ///< No such place was found, but a part of the surface could not be judged.
 };
 /// The name of an enumerator with a small first letter, for example "notJudged".
 [[nodiscard]] ASDFVK_API const char* nameOf(ThicknessVerdict verdict);
@@ -245,11 +247,13 @@ struct UnjudgedFaces {
 struct ThicknessReport {
   std::optional<ThicknessVerdict> verdict;  ///< Unset without a limit.
   std::optional<double> thinnerThan;        ///< The limit.
-  bool allowsSharpEdges = false;            ///< Verdict and minimum ignore regions with a sharp edge.
-  /// The least thickness over all points of the surface. Sharp regions do not count if sharp edges are allowed.
+  bool countsDetails = false;               ///< Details fail the check, too.
+  bool countsEdges = false;                 ///< Details and edges fail the check, too.
+  /// Failed: the least thickness of all thin regions that count. Otherwise: the next wall, which is the least wall at
+  /// the smallest limit at which the check fails. NaN if it was not searched or not found.
   double min = kNoValue;
-  std::optional<uint64_t> minFace;  ///< Input face with the least thickness; unset if no face has a thickness.
-  /// Point of least thickness on minFace, and the opposite point on the opposing wall.
+  std::optional<uint64_t> minFace;  ///< Input face with this thickness; unset if there is none.
+  /// Point of this thickness on minFace, and the opposite point on the opposing wall.
   std::optional<Vec3d> minPlace, minOpposite;
   /// Percentiles of the thickness at the barycentres of the triangles, weighted by area.
   double percentile1 = kNoValue, percentile5 = kNoValue, median = kNoValue, percentile95 = kNoValue, max = kNoValue;
@@ -257,12 +261,15 @@ struct ThicknessReport {
   UnjudgedFaces unjudged;     ///< Input faces for which the comparison with a limit is impossible or uncertain.
   /// The largest ball inside of a closed component; unset without a closed component.
   std::optional<SectionBall> greatestSection;
-  std::vector<SharpEdge> sharpEdges;  ///< Sharp edges and tips, by ascending angle.
   /// Area of all thin regions, and this area divided by the area of the mesh or of the computed region. NaN without a
   /// limit.
   double thinArea = kNoValue, thinAreaShare = kNoValue;
-  /// Thin regions: walls by ascending least thickness, then sharp regions by descending area. Empty without a limit.
+  /// Thin regions: walls, then details, then edges, each by ascending `min`. Empty without a limit.
   std::vector<ThinRegion> regions;
+
+  [[nodiscard]] bool counts(ThinKind kind) const {
+    return kind == ThinKind::Wall || countsEdges || (countsDetails && kind == ThinKind::Detail);
+  }
 };
 
 /// Variant of the Vulkan kernels.

@@ -35,7 +35,7 @@ Walls
   asdf-vk part.stl --thinner-than 0.8          places that are thinner than 0.8
   asdf-vk part.stl --fail-if-thinner 0.8       as above, with exit code 6
     --measure thickness           wall thickness of each face, without a limit
-    --allow-sharp-edges           leave sharp edges out of the verdict
+    --count-edges                 count thin edges and details, too
 
 Parts
   asdf-vk horse.ply --segment                  a part number for each face

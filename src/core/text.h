@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,14 @@ template <typename Names>
     if (!text.empty()) text += separator;
     text += name;
   }
+  return text;
+}
+
+/// "a", "a and b", or "a, b and c".
+[[nodiscard]] inline std::string enumeration(std::span<const std::string> names) {
+  std::string text;
+  for (size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
 }
 

@@ -231,9 +231,14 @@ const std::array kComputationRows{
                     const auto& settings = *static_cast<const ComputationSettings*>(target);
                     return lengthValue(settings.failIfThinner, settings.failIfThinnerUnit);
                   }},
-    OptionRow{.name = "allow-sharp-edges",
-              .access = COMPUTATION_MEMBER(options.thickness.allowsSharpEdges),
-              .text = "Leave sharp edges and tips, where the thickness is 0, out of the verdict. The report lists them",
+    OptionRow{.name = "count-details",
+              .access = COMPUTATION_MEMBER(options.thickness.countsDetails),
+              .text = "Details fail the check, too: thin places that are too small for a wall, such as low ribs. The "
+                      "report lists them",
+              .needs = "thinner-than"},
+    OptionRow{.name = "count-edges",
+              .access = COMPUTATION_MEMBER(options.thickness.countsEdges),
+              .text = "Details and edges fail the check, too: each point that is thinner than T",
               .needs = "thinner-than"},
     OptionRow{.name = "wall-angle",
               .access = COMPUTATION_MEMBER(options.thickness.wallAngleDegrees),

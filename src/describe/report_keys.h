@@ -17,6 +17,7 @@ inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents"
     "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged", "rangeDominated", "thinShell",
     "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts", "coarseParts"};
 inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
+inline constexpr std::array kThinKindNames{"wall", "detail", "edge"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
 template <typename Visit, typename... Members>
@@ -44,10 +45,9 @@ ASDFVK_KEYS(PostprocessReport, min, max)
 ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShares)
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, selfCrossedCount)
 ASDFVK_KEYS(SectionBall, diameter, centre)
-ASDFVK_KEYS(SharpEdge, angleDegrees, length, edgeCount, place, face)
-ASDFVK_KEYS(ThinRegion, isSharp, min, minFace, place, opposite, faceCount, area, areaShare)
-ASDFVK_KEYS(ThicknessReport, verdict, thinnerThan, allowsSharpEdges, min, minFace, minPlace, minOpposite, percentile1,
-            percentile5, median, percentile95, max, noValueCount, unjudged, greatestSection, sharpEdges, thinArea,
+ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, least, angleDegrees, width, faceCount, area, areaShare)
+ASDFVK_KEYS(ThicknessReport, verdict, thinnerThan, countsDetails, countsEdges, min, minFace, minPlace, minOpposite, percentile1,
+            percentile5, median, percentile95, max, noValueCount, unjudged, greatestSection, thinArea,
             thinAreaShare, regions)
 ASDFVK_KEYS(WorstFace, face, error)
 ASDFVK_KEYS(ErrorEstimate, average, standardError, robustAverage, relativeMedian, relativePercentile90,

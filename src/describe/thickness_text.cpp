@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "core/text.h"
 #include "describe/computation_options.h"
@@ -11,17 +13,46 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kListedCount = 5;
+/// Relative difference of thicknesses that are reported as different.
+constexpr double kEqualThickness = 0.01;
 
 std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x, point.y, point.z); }
 
-/// The least thickness: "0.3 at (1, 2, 3), face 12". Precondition: a face has a thickness.
-std::string leastText(const ThicknessReport& thickness) {
-  return fmt::format("{} at {}, face {}{}", lengthText(thickness.min, thickness.thinnerThan),
-                     pointText(*thickness.minPlace), *thickness.minFace, thickness.min == 0 ? ", a sharp edge" : "");
+std::string placeText(const Vec3d& point, uint64_t face) {
+  return fmt::format("at {}, face {}", pointText(point), face);
 }
 
-const char* sharpException(const ThicknessReport& thickness) {
-  return thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " except at sharp edges" : "";
+/// The least thickness: "0.3 at (1, 2, 3), face 12". Precondition: there is one.
+std::string leastText(const ThicknessReport& thickness) {
+  return fmt::format("{} {}", lengthText(thickness.min, thickness.thinnerThan),
+                     placeText(*thickness.minPlace, *thickness.minFace));
+}
+
+struct KindCount {
+  ThinKind kind;
+  uint64_t count = 0;
+  double least = kNoValue;
+};
+
+std::array<KindCount, 3> countKinds(const ThicknessReport& thickness) {
+  std::array<KindCount, 3> counts{{{ThinKind::Wall}, {ThinKind::Detail}, {ThinKind::Edge}}};
+  for (const ThinRegion& region : thickness.regions) {
+    KindCount& of = counts[static_cast<size_t>(region.kind)];
+    if (of.count++ == 0) of.least = region.min;
+  }
+  return counts;
+}
+
+/// For example "6 details (least 0.32) and 14 edges". Only kinds that count, or only kinds that do not.
+std::string kindsText(const ThicknessReport& thickness, bool areCounted) {
+  std::vector<std::string> texts;
+  for (const auto& [kind, count, least] : countKinds(thickness)) {
+    if (count == 0 || thickness.counts(kind) != areCounted) continue;
+    texts.push_back(counted(count, nameOf(kind)));
+    if (!areCounted && kind == ThinKind::Detail)
+      texts.back() += fmt::format(" (least {})", lengthText(least, thickness.thinnerThan));
+  }
+  return enumeration(texts);
 }
 
 /// One row per kind of faces that cannot be judged with certainty.
@@ -43,37 +74,39 @@ ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) 
 }
 
 std::string regionText(const ThinRegion& region, const ThicknessReport& thickness) {
-  const std::string size =
-      fmt::format("face {}; {}, area {} ({:.3g} %)", region.minFace, counted(region.faceCount, "face"),
-                  lengthText(region.area), 100 * region.areaShare);
-  if (region.isSharp) return fmt::format("sharp edge at {}, {}", pointText(region.place), size);
-  return fmt::format("wall {} from {} to {}, {}", lengthText(region.min, thickness.thinnerThan),
-                     pointText(region.place), pointText(region.opposite), size);
-}
-
-std::string edgeText(const SharpEdge& edge, const ThicknessReport&) {
-  const std::string place = fmt::format("at {}, face {}", pointText(edge.place), edge.face);
-  if (edge.edgeCount == 0) return fmt::format("tip of {:.3g} degrees {}", edge.angleDegrees, place);
-  return fmt::format("edge of {:.3g} degrees, length {}, {}", edge.angleDegrees, lengthText(edge.length), place);
+  const auto lengthOf = [&](double value) { return lengthText(value, thickness.thinnerThan); };
+  const std::string size = fmt::format("{}, area {} ({:.3g} %)", counted(region.faceCount, "face"),
+                                       lengthText(region.area), 100 * region.areaShare);
+  if (region.kind == ThinKind::Edge)
+    return fmt::format("edge of {:.3g} degrees, thin over {}, {} {}; {}", region.angleDegrees, lengthText(region.width),
+                       lengthOf(region.min), placeText(region.place, region.minFace), size);
+  const std::string beside = region.least < region.min * (1 - kEqualThickness)
+                                 ? fmt::format(", {} beside it", lengthOf(region.least))
+                                 : "";
+  return fmt::format("{} {} from {} to {}, face {}{}; {}", nameOf(region.kind), lengthOf(region.min),
+                     pointText(region.place), pointText(region.opposite), region.minFace, beside, size);
 }
 
 std::string verdictOf(const ThicknessReport& thickness) {
-  if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
+  const bool hasLeast = !std::isnan(thickness.min);
+  if (!thickness.verdict) return hasLeast ? "least wall " + leastText(thickness) : "no thickness";
+  const std::string limit = limitText(*thickness.thinnerThan), others = kindsText(thickness, false);
+  const std::string notCounted = others.empty() ? "" : fmt::format("; {} not counted", others);
   switch (*thickness.verdict) {
     case ThicknessVerdict::Failed:
-      return fmt::format("FAIL: thinner than {}: {}", limitText(*thickness.thinnerThan), leastText(thickness));
+      return fmt::format("FAIL: {} thinner than {}: {}", kindsText(thickness, true), limit, leastText(thickness));
     case ThicknessVerdict::Passed:
-      return fmt::format("PASS: nowhere thinner than {}{}", limitText(*thickness.thinnerThan),
-                         sharpException(thickness));
+      return fmt::format("PASS: {} thinner than {}{}{}", thickness.countsEdges ? "nowhere" : "no wall", limit,
+                         hasLeast ? "; the next is " + leastText(thickness) : "", notCounted);
     case ThicknessVerdict::NotJudged:
       break;
   }
-  return "NOT JUDGED: none of the judged faces is thinner than " + limitText(*thickness.thinnerThan);
+  return fmt::format("NOT JUDGED: no wall thinner than {} was found{}", limit, notCounted);
 }
 
 /// Adds a row with title and heading, then rows for at most kListedCount items.
 template <typename Item>
-void addList(const char* title, const std::string& heading, const std::vector<Item>& items,
+void addList(const std::string& title, const std::string& heading, const std::vector<Item>& items,
              std::string (*textOf)(const Item&, const ThicknessReport&), const ThicknessReport& thickness,
              OptionSpelling spelling, ReportRows& rows) {
   rows.emplace_back(title, heading);
@@ -83,12 +116,19 @@ void addList(const char* title, const std::string& heading, const std::vector<It
                                       spelling == OptionSpelling::Flag ? "; --json has all" : ""));
 }
 
-std::string sharpHeading(const ThicknessReport& thickness, OptionSpelling spelling) {
-  const std::string count = counted(thickness.sharpEdges.size(), "sharp edge or tip", "sharp edges or tips");
-  if (!thickness.thinnerThan) return count;
-  if (thickness.allowsSharpEdges) return count + ": allowed, together with the thin surface around them";
-  return count + withSpelledOptions(computationRows(), ": thinner than any limit; {allow-sharp-edges} leaves them out",
-                                    spelling);
+/// One list for each kind of thin regions.
+void addRegions(const ThicknessReport& thickness, OptionSpelling spelling, ReportRows& rows) {
+  if (thickness.regions.empty()) return;
+  rows.emplace_back("thin", fmt::format("area {} ({:.3g} %) below {}", lengthText(thickness.thinArea),
+                                        100 * thickness.thinAreaShare, limitText(*thickness.thinnerThan)));
+  for (const KindCount& of : countKinds(thickness)) {
+    if (of.count == 0) continue;
+    std::vector<ThinRegion> regions;
+    std::copy_if(thickness.regions.begin(), thickness.regions.end(), std::back_inserter(regions),
+                 [&](const ThinRegion& region) { return region.kind == of.kind; });
+    const std::string heading = counted(of.count, nameOf(of.kind)) + (thickness.counts(of.kind) ? "" : ", not counted");
+    addList(fmt::format("{}s", nameOf(of.kind)), heading, regions, regionText, thickness, spelling, rows);
+  }
 }
 
 }  // namespace
@@ -103,12 +143,9 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling s
                                               groupDigits(unjudged.selfCrossedCount)));
   if (!hasValues) return rows;
   std::string text = fmt::format("median {}, greatest {}", lengthText(thickness.median), lengthText(thickness.max));
-  if (!thickness.regions.empty()) {
-    text += fmt::format("; {}, {:.3g} % of the area{}", counted(thickness.regions.size(), "thin region"),
-                        100 * thickness.thinAreaShare, spelling == OptionSpelling::Flag ? " (--verbose)" : "");
-  } else if (thickness.verdict) {
-    text = fmt::format("least {}, ", lengthText(thickness.min, thickness.thinnerThan)) + text;
-  }
+  if (!thickness.regions.empty())
+    text += fmt::format("; {:.3g} % of the area below {}{}", 100 * thickness.thinAreaShare,
+                        limitText(*thickness.thinnerThan), spelling == OptionSpelling::Flag ? " (--verbose)" : "");
   rows.emplace_back("thickness", text);
   return rows;
 }
@@ -119,14 +156,7 @@ ReportRows thicknessRows(const Report& report, OptionSpelling spelling) {
   for (auto& row : unjudgedRows(thickness.unjudged, spelling)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));
-  if (!thickness.regions.empty())
-    addList(
-        "thin",
-        fmt::format("{} below {}: area {} ({:.3g} %)", counted(thickness.regions.size(), "region"),
-                    limitText(*thickness.thinnerThan), lengthText(thickness.thinArea), 100 * thickness.thinAreaShare),
-        thickness.regions, regionText, thickness, spelling, rows);
-  if (!thickness.sharpEdges.empty())
-    addList("sharp", sharpHeading(thickness, spelling), thickness.sharpEdges, edgeText, thickness, spelling, rows);
+  addRegions(thickness, spelling, rows);
   if (const auto& ball = thickness.greatestSection)
     rows.emplace_back("section", fmt::format("{}, the diameter (to 0.1 %) of the largest ball inside, centre {}",
                                              lengthText(ball->diameter), pointText(ball->centre)));

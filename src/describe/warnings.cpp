@@ -27,6 +27,7 @@ std::vector<ErrorDetail> detailsOf(const SolverReport& solver) {
 static_assert(kStageNames.size() == kStageCount);
 
 const char* nameOf(Stage stage) { return kStageNames[static_cast<size_t>(stage)]; }
+const char* nameOf(ThinKind kind) { return kThinKindNames[static_cast<size_t>(kind)]; }
 const char* nameOf(ThicknessVerdict verdict) { return kThicknessVerdictNames[static_cast<size_t>(verdict)]; }
 const char* nameOf(WarningCode code) { return kWarningCodeNames[static_cast<size_t>(code)]; }
 

@@ -24,7 +24,7 @@ Json describe(const PageThinPlaces& thin) {
                                {"area", number(region.area)},
                                {"areaShare", number(region.areaShare)},
                                {"faceCount", region.faceCount},
-                               {"isSharp", region.isSharp},
+                               {"kind", nameOf(region.kind)},
                                {"place", arrayOf(region.place)},
                                {"opposite", arrayOf(region.opposite)}});
   return json;

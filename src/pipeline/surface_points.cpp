@@ -80,7 +80,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
   for (const uint32_t face : nearest)
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
   const std::vector<GreatestSection> sections =
-      findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestDone, kSectionsDone));
+      findGreatestSections(view, solids.solidOf, isWanted, kQuickSection, control.part(kNearestDone, kSectionsDone));
   const WallTree tree(view, makeOpposingWalls(options), &solids);
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
   // In the order of the hierarchy, consecutive points are near the same walls.

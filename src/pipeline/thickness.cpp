@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "trace/crossed_faces.h"
+#include "trace/nearest_point.h"
+#include "trace/next_wall.h"
 #include "trace/solids.h"
+#include "trace/wall_rule.h"
 
 namespace asdfvk {
 namespace {
@@ -15,9 +19,9 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr size_t kBlockFaceCount = size_t{1} << 16;
 // Progress after the greatest sections, and after the balls of all faces.
 constexpr double kSectionsProgress = 0.2, kBallsProgress = 0.9;
-// Large thin faces are divided into parts whose sides are at most as long as the larger of limit / kPartsPerLimit and
-// kMinPartLength (normalised).
-constexpr double kPartsPerLimit = 4, kMinPartLength = 0x1p-10;
+constexpr double kLeastLimit = 2 * kUnresolved;
+/// Limits of the next wall of a surface that bounds no body are at most this number (normalised).
+constexpr double kLargestLimit = 2;
 
 class Measurement {
  public:
@@ -29,33 +33,30 @@ class Measurement {
         opposing_(makeOpposingWalls(computation.options.thickness)),
         solids_(findSolids(scene_.mesh, computation.prepared.components)),
         fans_(mesh_) {
-    // Coordinates in float32 do not resolve whether a wall is thinner than the limit by less than kContactDistance.
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
-      limit_ = std::max(*limit * unit_.scale - kContactDistance, kContactDistance);
+      limit_ = std::max(*limit * unit_.scale, kLeastLimit);
   }
 
   FaceThickness run(const RunControl& control) {
     const size_t count = mesh_.faceCount();
-    thickness_ = {std::vector<double>(count, kNoValue),
-                  std::vector<double>(count, kNoValue),
-                  std::vector<uint32_t>(count, kNoFace),
-                  std::vector<uint8_t>(count),
-                  {},
-                  {},
-                  {},
-                  {}};
+    thickness_ = {std::vector<double>(count, kNoValue), std::vector<double>(count, kNoValue),
+                  std::vector<uint8_t>(count), {}, {}, {}, {}};
     control.checkpoint(0);
-    findSharp();
-    const std::vector<GreatestSection> sections =
-        findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
+    std::vector<GreatestSection> sections = findGreatestSections(scene_, solids_.solidOf, solids_.isClosed,
+                                                                 kQuickSection, control.part(0, kSectionsProgress));
     keepGreatest(sections);
     const WallTree tree(scene_, opposing_, &solids_, control.withoutProgress());
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
     countUnjudged(control.withoutProgress());
-    if (limit_)
-      thickness_.thinParts =
-          findThinParts(tree, fans_, thickness_.sharp, thin, *limit_,
-                        std::max(*limit_ / kPartsPerLimit, kMinPartLength), control.withoutProgress());
+    if (limit_) {
+      ThinPieces pieces(tree, fans_, thin, kThinShare * *limit_);
+      pieces.divide(std::max(*limit_ / kPiecesPerLimit, kMinPieceLength), control.withoutProgress());
+      thickness_.regions = findThinRegions(pieces, *limit_, control.withoutProgress());
+      addThinBodies(sections, control.withoutProgress());
+      const auto isWall = [](const ConnectedThinParts& region) { return region.kind == ThinKind::Wall; };
+      if (std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
+        keepNextWall(tree, sections, control.withoutProgress());
+    }
     control.checkpoint(1);
     return std::move(thickness_);
   }
@@ -63,13 +64,59 @@ class Measurement {
  private:
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
 
-  void findSharp() {
-    SharpEdges& sharp = thickness_.sharp;
-    sharp =
-        findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine, unit_.contactLength(), &solids_);
-    std::erase_if(sharp.lines, [&](const SharpLine& line) { return !isInDomain(line.face); });
+  /// A body whose greatest section is below the limit is a wall as a whole.
+  void addThinBodies(std::vector<GreatestSection>& sections, const RunControl& control) {
+    // Sections that were not searched far enough.
+    std::vector<uint8_t> isOpen(sections.size());
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      isOpen[solid] = solids_.isClosed[solid] != 0 && sections[solid].diameter < kThinShare * *limit_ &&
+                              !isThinBody(sections[solid])
+                          ? 1
+                          : 0;
+    for (const ConnectedThinParts& region : thickness_.regions)
+      if (region.kind == ThinKind::Wall) isOpen[solids_.solidOf[region.place.face]] = 0;
+    if (std::find(isOpen.begin(), isOpen.end(), 1) != isOpen.end()) {
+      const std::vector<GreatestSection> searched = findGreatestSections(
+          scene_, solids_.solidOf, isOpen, {.enough = kThinShare * *limit_}, control);
+      for (size_t solid = 0; solid < sections.size(); ++solid)
+        if (isOpen[solid] != 0) sections[solid] = searched[solid];
+    }
+    std::map<uint32_t, ConnectedThinParts> bodies;
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
-      if (!isInDomain(face)) sharp.faceBits[face] = 0;
+      if (thickness_.isJudged[face] != 0 && isThinBody(sections[solids_.solidOf[face]]))
+        bodies[solids_.solidOf[face]].parts.push_back({face, triangleOf(scene_, face).corners, true});
+    for (auto& [solid, region] : bodies) {
+      region.kind = ThinKind::Wall;
+      region.place = region.leastPlace = placeOf(sections[solid]);
+      thickness_.regions.push_back(std::move(region));
+    }
+  }
+
+  [[nodiscard]] bool isThinBody(const GreatestSection& section) const {
+    return limit_ && section.bound < kThinShare * *limit_;
+  }
+
+  /// The place of a body that is a wall as a whole: the point of the surface nearest to the centre of the greatest ball.
+  [[nodiscard]] WallPlace placeOf(const GreatestSection& section) const {
+    const SurfacePoint foot = nearestSurfacePoint(scene_, section.centre, 0, [](uint32_t face) { return face; });
+    WallPlace place{.face = foot.face, .point = foot.point};
+    place.ball.ball = {section.diameter, foot.point, 2.0 * section.centre - foot.point};
+    return place;
+  }
+
+  void keepNextWall(const WallTree& tree, std::span<const GreatestSection> sections, const RunControl& control) {
+    const GreatestSection* thinnest = nullptr;
+    std::vector<double> least(mesh_.faceCount(), kNoValue);
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
+      if (thickness_.isJudged[face] == 0) continue;
+      least[face] = thickness_.least[face] * unit_.scale;
+      const GreatestSection& section = sections[solids_.solidOf[face]];
+      if (thinnest == nullptr || section.bound < thinnest->bound) thinnest = &section;
+    }
+    if (thinnest == nullptr) return;
+    const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
+    thickness_.nextWall = findNextWall(tree, fans_, least, *limit_, last, control);
+    if (!thickness_.nextWall && thinnest->bound < kUnlimited) thickness_.nextWall = placeOf(*thinnest);
   }
 
   void keepGreatest(std::span<const GreatestSection> sections) {
@@ -106,9 +153,9 @@ class Measurement {
         const uint32_t component = computation_.prepared.components.componentOf[each.face];
         const bool isJudged = !std::isnan(least) && (isFlipped || solids_.isMisoriented[component] == 0);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
-        const double surelyBelow =
-            each.least.wall == kNoFace && least > 0 ? sections[solids_.solidOf[each.face]].bound : least * unit_.scale;
-        if (isJudged && limit_ && surelyBelow < *limit_) thin.push_back(each);
+        if (isJudged && limit_ && each.least.wall != kNoFace && each.least.ball.diameter < kThinShare * *limit_ &&
+            !isThinBody(sections[solids_.solidOf[each.face]]))
+          thin.push_back(each);
       }
     }
     return thin;
@@ -123,8 +170,7 @@ class Measurement {
     const uint32_t face = balls.face;
     thickness_.atBarycentre[face] = lengthOf(balls.atBarycentre);
     thickness_.least[face] = lengthOf(balls.least);
-    thickness_.leastWalls[face] = balls.least.wall;
-    if (thickness_.sharp.faceBits[face] != 0) thickness_.least[face] = 0;
+    if (balls.least.ball.diameter <= kUnresolved) thickness_.least[face] = 0;
     return thickness_.least[face];
   }
 

@@ -8,21 +8,19 @@
 #include "asdf_vk/session.h"
 #include "pipeline/computation.h"
 #include "trace/greatest_section.h"
-#include "trace/sharp_edges.h"
-#include "trace/thin_parts.h"
+#include "trace/thin_regions.h"
 
 namespace asdfvk {
 
 /// Thickness of all triangles of the domain. Lengths are in the unit of the mesh unless stated.
 struct FaceThickness {
   std::vector<double> atBarycentre;  ///< #F; NaN for no value.
-  std::vector<double> least;         ///< #F, over all points of the face; 0 at sharp edges.
-  std::vector<uint32_t> leastWalls;  ///< #F, the wall that limits `least`; kNoFace where the greatest section does.
+  std::vector<double> least;         ///< #F, over all points of the face; 0 if float32 does not resolve it.
   std::vector<uint8_t> isJudged;     ///< #F, 0 where `least` does not count: no value, or a misoriented component.
-  SharpEdges sharp;                  ///< Sharp edges of the domain.
   std::optional<GreatestSection> greatestSection;  ///< The greatest section of all closed solids.
   UnjudgedFaces unjudged;
-  std::vector<ThinPart> thinParts;  ///< Thin parts of faces, in normalised coordinates. Empty without a limit.
+  std::vector<ConnectedThinParts> regions;  ///< Normalised. Empty without a limit.
+  std::optional<WallPlace> nextWall;        ///< Normalised. Unset without a limit, if there is a wall, or if not found.
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
@@ -32,7 +30,7 @@ struct FaceThickness {
 /// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
-/// Percentiles, sharp edges and, with a limit, the verdict and the thin regions. surface: receives the thin parts.
+/// Percentiles and, with a limit, the verdict and the thin regions. surface: receives the thin parts.
 [[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
                                                 ThinSurface& surface);
 

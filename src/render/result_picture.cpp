@@ -33,31 +33,29 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
 }
 
 /// The legend of the thin places, for example "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", or
-/// "nowhere thinner than 0.8: least 1.2".
+/// "no wall thinner than 0.8; the next is 1.2".
 std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = "thinner than " + limitText(*thickness.thinnerThan);
   const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);
-  if (thickness.regions.empty())
-    return fmt::format("{}nowhere {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "",
-                       limit, value.empty() ? "" : ": least " + value);
-  const ThinRegion &first = thickness.regions.front(), &last = thickness.regions.back();
-  const std::string least = first.isSharp ? "0 at a sharp edge" : lengthText(first.min, thickness.thinnerThan);
-  return fmt::format("{} (pale: behind a wall): {}, least {}{}", limit, counted(thickness.regions.size(), "place"),
-                     least, last.isSharp && !first.isSharp ? ", and sharp edges" : "");
+  if (thickness.verdict != ThicknessVerdict::Failed)
+    return fmt::format("{}no wall {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "", limit,
+                       value.empty() ? "" : "; the next is " + value);
+  return fmt::format("{} (pale: behind a wall): {}, least {}", limit, counted(thickness.regions.size(), "place"), value);
 }
 
 std::string verdictText(ThicknessVerdict verdict) {
   return verdict == ThicknessVerdict::Passed ? "PASS" : verdict == ThicknessVerdict::Failed ? "FAIL" : "NOT JUDGED";
 }
 
-/// Callouts of the first kMaxCount regions. In ThicknessReport::regions, thin walls are before sharp regions.
+/// Callouts of the first kMaxCount regions. In ThicknessReport::regions, walls are first.
 std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   constexpr size_t kMaxCount = 8;
   std::vector<Callout> callouts;
   for (const ThinRegion& region : thickness.regions) {
     if (callouts.size() == kMaxCount) break;
-    callouts.push_back(
-        {region.place, region.opposite, region.isSharp ? "sharp" : lengthText(region.min, thickness.thinnerThan)});
+    const std::string value = lengthText(region.min, thickness.thinnerThan);
+    callouts.push_back({region.place, region.opposite,
+                        region.kind == ThinKind::Edge ? fmt::format("edge {}", value) : value});
   }
   return callouts;
 }

@@ -15,8 +15,8 @@
 namespace asdfvk {
 namespace {
 
-/// Largest number of cubes that a search divides. A search that reaches this number returns the bound of the last cube.
-constexpr uint32_t kMaxCubeCount = 200'000;
+/// Number of faces of a solid from which rays go inwards.
+constexpr size_t kRayCount = 16;
 /// Number of first cubes along the longest side of the box of the solid.
 constexpr int kFirstCubeCount = 4;
 // Corners within this distance of a plane count as points of the plane. The distance is the resolution of coordinates
@@ -88,7 +88,12 @@ class Search {
   explicit Search(const SolidSurface& surface) : surface_(surface) {}
 
   /// stopOnly: for cancellation.
-  GreatestSection run(const Box3d& box, uint32_t maxCubeCount, const RunControl& stopOnly) {
+  GreatestSection run(const Box3d& box, std::span<const uint32_t> faces, const SectionSearch& search,
+                      const RunControl& stopOnly) {
+    const uint32_t maxCubeCount =
+        search.cubeCount + search.cubesPerFace * static_cast<uint32_t>(std::min<size_t>(faces.size(), 1u << 24));
+    for (size_t i = 0; i < std::min(kRayCount, faces.size()); ++i)
+      offerMiddle(faces[i * faces.size() / std::min(kRayCount, faces.size())]);
     const Vec3d size = box.size();
     const double side = std::max({size.x, size.y, size.z}) / kFirstCubeCount;
     for (int i = 0; i < kFirstCubeCount * kFirstCubeCount * kFirstCubeCount; ++i) {
@@ -99,7 +104,8 @@ class Search {
     }
     for (uint32_t count = 0; !cubes_.empty() && cubes_.top().bound > (1 + kSectionTolerance) * radius_; ++count) {
       if (count % 256 == 0) stopOnly.checkpoint(0);
-      if (count == maxCubeCount) return {centre_, 2 * radius_, 2 * cubes_.top().bound};
+      if (count == maxCubeCount || 2 * radius_ >= search.enough || 2 * cubes_.top().bound < search.enough)
+        return {centre_, 2 * radius_, 2 * cubes_.top().bound};
       const Cube cube = cubes_.top();
       cubes_.pop();
       for (uint32_t i = 0; i < 8; ++i) {
@@ -111,6 +117,14 @@ class Search {
   }
 
  private:
+  /// The ball in the middle of the ray from a face inwards.
+  void offerMiddle(uint32_t face) {
+    const std::array<Vec3d, 3> corners = surface_.triangle(face).corners;
+    const Vec3d start = (corners[0] + corners[1] + corners[2]) / 3.0, inwards = -surface_.normal(face);
+    const RayHit hit = surface_.opposite(start + kContactDistance * inwards, inwards);
+    if (hit.face != kNoFace) improve(start + 0.5 * (hit.distance + kContactDistance) * inwards);
+  }
+
   void add(const Vec3d& centre, double halfSide) {
     const double reach = std::sqrt(3.0) * halfSide;
     const double enough = (1 + kSectionTolerance) * radius_ - reach;
@@ -167,18 +181,24 @@ class Search {
 }  // namespace
 
 std::vector<GreatestSection> findGreatestSections(const TraceScene& scene, std::span<const uint32_t> solidOf,
-                                                  std::span<const uint8_t> isWanted, const RunControl& control) {
+                                                  std::span<const uint8_t> isWanted, const SectionSearch& search,
+                                                  const RunControl& control) {
   const Buckets<uint32_t> copies = groupCopies(scene.representatives);
   std::vector<Box3d> boxes(isWanted.size());
-  for (uint32_t face = 0; face < scene.mesh.faceCount(); ++face)
+  std::vector<std::vector<uint32_t>> faces(isWanted.size());
+  for (uint32_t face = 0; face < scene.mesh.faceCount(); ++face) {
+    const uint32_t solid = solidOf[face];
+    if (isWanted[solid] == 0 || scene.geometry.isDegenerate(face)) continue;
+    faces[solid].push_back(face);
     for (const uint32_t vertex : scene.mesh.faces[face])
-      boxes[solidOf[face]].add(scene.bvh.normalization.toNormalized(scene.mesh.vertices[vertex]));
+      boxes[solid].add(scene.bvh.normalization.toNormalized(scene.mesh.vertices[vertex]));
+  }
   std::vector<GreatestSection> sections(isWanted.size());
   for (uint32_t solid = 0; solid < sections.size(); ++solid) {
     control.checkpoint(static_cast<double>(solid) / static_cast<double>(sections.size()));
+    if (isWanted[solid] == 0) continue;
     const SolidSurface surface(scene, copies, solidOf, solid);
-    if (isWanted[solid] != 0)
-      sections[solid] = Search(surface).run(boxes[solid], kMaxCubeCount, control.withoutProgress());
+    sections[solid] = Search(surface).run(boxes[solid], faces[solid], search, control.withoutProgress());
   }
   return sections;
 }

@@ -15,20 +15,31 @@ struct GreatestSection {
   Vec3d centre;
   double diameter = std::numeric_limits<double>::infinity();
   /// Bound of the diameters of all balls inside. The bound is at most (1 + kSectionTolerance) * diameter, or greater if
-  /// the search reached its limit.
+  /// the search ended early.
   double bound = std::numeric_limits<double>::infinity();
 };
 
 inline constexpr double kSectionTolerance = 1e-3;
 
+/// Where a search for a greatest section ends before the tolerance.
+struct SectionSearch {
+  uint32_t cubeCount = 200'000;  ///< Largest number of cubes that are divided.
+  uint32_t cubesPerFace = 0;     ///< Added for each face of the solid.
+  /// The search ends as soon as a ball with this diameter is found, or as no ball can have it.
+  double enough = std::numeric_limits<double>::infinity();
+};
+/// The work is in proportion to the faces.
+inline constexpr SectionSearch kQuickSection{.cubeCount = 32, .cubesPerFace = 1};
+
 /// The greatest section of each wanted solid; infinite for other solids. Branch and bound over cubes in the box of the
-/// solid. Three bounds limit the radii of the balls with centres in a cube. The first is the distance from the centre
-/// of the cube to the surface, plus half of the diagonal of the cube. The second is a bound by two points of opposite
-/// walls, which no ball contains. The third is a bound by the planes of flat walls. Precondition: the faces of a wanted
-/// solid are closed and consistently wound. solidOf: #F. isWanted: one entry per solid. Throws Error{Cancelled}.
+/// solid, which begins with the middles of some inward rays. Three bounds limit the radii of the balls with centres in a
+/// cube. The first is the distance from the centre of the cube to the surface, plus half of the diagonal of the cube.
+/// The second is a bound by two points of opposite walls, which no ball contains. The third is a bound by the planes of
+/// flat walls. Precondition: the faces of a wanted solid are closed and consistently wound. solidOf: #F. isWanted: one
+/// entry per solid. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<GreatestSection> findGreatestSections(const TraceScene& scene,
                                                                 std::span<const uint32_t> solidOf,
                                                                 std::span<const uint8_t> isWanted,
-                                                                const RunControl& control);
+                                                                const SectionSearch& search, const RunControl& control);
 
 }  // namespace asdfvk

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "asdf_vk/run_control.h"
+#include "trace/thin_regions.h"
+
+namespace asdfvk {
+
+/// The wall at the least limit from `first` to `last` at which the surface has a wall; unset if it has none. least: #F,
+/// the least thickness of each face (normalised); NaN for a face that is not judged. Throws Error{Cancelled}.
+[[nodiscard]] std::optional<WallPlace> findNextWall(const WallTree& tree, const PointFans& fans,
+                                                    std::span<const double> least, double first, double last,
+                                                    const RunControl& control);
+
+/// Pieces are divided until their sides are at most as long as the larger of limit / kPiecesPerLimit and
+/// kMinPieceLength (normalised), or as their place requires.
+inline constexpr double kPiecesPerLimit = 4, kMinPieceLength = 0x1p-10;
+
+}  // namespace asdfvk

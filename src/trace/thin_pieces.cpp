@@ -1,0 +1,148 @@
+#include "trace/thin_pieces.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+
+namespace asdfvk {
+namespace {
+
+/// Largest number of halves. A piece takes 300 bytes.
+constexpr size_t kMaxHalfCount = size_t{1} << 20;
+constexpr size_t kBlockSize = 256;
+/// Length of a line in steps: a power of two, so that halves are exact.
+constexpr uint32_t kLineLength = uint32_t{1} << 31;
+
+}  // namespace
+
+std::pair<size_t, double> ThinPiece::longestSide() const {
+  std::pair<size_t, double> longest{0, -1};
+  for (size_t k = 0; k < 3; ++k)
+    if (const double side = length(corners[(k + 1) % 3] - corners[k]); side > longest.second) longest = {k, side};
+  return longest;
+}
+
+ThinPieces::ThinPieces(const WallTree& tree, const PointFans& fans, std::span<const FaceBalls> faces, double limit)
+    : tree_(tree), fans_(fans), limit_(limit), roots_(tree.scene().mesh.faceCount(), kNoPiece) {
+  pieces_.reserve(faces.size());
+  for (const FaceBalls& balls : faces) {
+    roots_[balls.face] = static_cast<uint32_t>(pieces_.size());
+    pieces_.push_back(rootPiece(balls));
+  }
+  rootCount_ = pieces_.size();
+}
+
+ThinPiece ThinPieces::rootPiece(const FaceBalls& balls) {
+  const uint32_t face = balls.face;
+  ThinPiece piece{.face = face, .corners = triangleOf(tree_.scene(), face).corners, .least = balls.least};
+  piece.atMiddle = std::min(balls.atBarycentre.ball.diameter, limit_);
+  for (size_t k = 0; k < 3; ++k) {
+    const Face& vertices = tree_.scene().mesh.faces[face];
+    const uint32_t a = fans_.pointOf(vertices[k]), b = fans_.pointOf(vertices[(k + 1) % 3]);
+    const auto [edge, isNew] = edges_.try_emplace(std::pair(std::min(a, b), std::max(a, b)), lineCount_);
+    lineCount_ += isNew ? 1 : 0;
+    const uint32_t from = a < b ? 0 : kLineLength;
+    piece.sides[k] = {edge->second, from, kLineLength - from};
+  }
+  piece.greatest = boundOf(piece, balls.atBarycentre.wall);
+  return piece;
+}
+
+/// If one wall limits the balls, the diameter is a convex function of the point: the diameters at the corners are a
+/// bound.
+double ThinPieces::boundOf(const ThinPiece& piece, uint32_t middleWall) const {
+  double bound = limit_;
+  const auto limitBy = [&](uint32_t face) {
+    const PlaneTriangle wall = triangleOf(tree_.scene(), face);
+    double greatest = 0;
+    for (const Vec3d& corner : piece.corners)
+      greatest = std::max(greatest,
+                          leastTouchingBall(corner, normal(piece.face), wall, kContactDistance, limit_).diameter);
+    bound = std::min(bound, greatest);
+  };
+  if (piece.least.wall != kNoFace) limitBy(piece.least.wall);
+  if (middleWall != kNoFace && middleWall != piece.least.wall) limitBy(middleWall);
+  return bound;
+}
+
+bool ThinPieces::mayHalve() const { return pieces_.size() - rootCount_ < kMaxHalfCount; }
+
+void ThinPieces::divide(double maxLength, const RunControl& control) {
+  const auto mustHalve = [&](uint32_t i) {
+    return isThin(i) && pieces_[i].greatest >= limit_ && pieces_[i].longestSide().second > maxLength;
+  };
+  for (size_t begin = 0; begin < pieces_.size() && mayHalve();) {
+    control.checkpoint(0.5);
+    const size_t end = pieces_.size();
+    for (size_t i = begin; i < end; ++i)
+      if (mustHalve(static_cast<uint32_t>(i))) addHalves(static_cast<uint32_t>(i));
+    measure(std::span(pieces_).subspan(end));
+    begin = end;
+  }
+}
+
+uint32_t ThinPieces::halvesOf(uint32_t piece) {
+  if (pieces_[piece].firstHalf != kNoPiece || !mayHalve()) return pieces_[piece].firstHalf;
+  const uint32_t first = addHalves(piece);
+  measure(std::span(pieces_).subspan(first));
+  return first;
+}
+
+uint32_t ThinPieces::addHalves(uint32_t index) {
+  const ThinPiece piece = pieces_[index];
+  const size_t k = piece.longestSide().first, next = (k + 1) % 3, opposite = (k + 2) % 3;
+  const std::array<Vec3d, 3>& corners = piece.corners;
+  const Vec3d middle = 0.5 * (corners[k] + corners[next]);
+  const LinePart &side = piece.sides[k], cut{lineCount_++, 0, kLineLength};
+  const uint32_t halfway = side.from / 2 + side.to / 2;
+  const auto first = static_cast<uint32_t>(pieces_.size());
+  const auto add = [&](const std::array<Vec3d, 3>& half, const std::array<LinePart, 3>& sides) {
+    pieces_.push_back({.face = piece.face, .corners = half, .least = {}, .sides = sides});
+  };
+  add({corners[k], middle, corners[opposite]}, {LinePart{side.line, side.from, halfway}, cut, piece.sides[opposite]});
+  add({middle, corners[next], corners[opposite]},
+      {LinePart{side.line, halfway, side.to}, piece.sides[next], LinePart{cut.line, cut.to, cut.from}});
+  pieces_[index].firstHalf = first;
+  return first;
+}
+
+void ThinPieces::measure(std::span<ThinPiece> pieces) const {
+  forEachTask((pieces.size() + kBlockSize - 1) / kBlockSize, [&](size_t block) {
+    const size_t first = block * kBlockSize;
+    const std::span<ThinPiece> own = pieces.subspan(first, std::min(kBlockSize, pieces.size() - first));
+    std::vector<BallQuery> queries(own.size());
+    for (size_t i = 0; i < own.size(); ++i) {
+      queries[i] = {{own[i].corners, normal(own[i].face)}, own[i].middle(), {}, {}, tree_.bodyOf(own[i].face)};
+      queries[i].atPoint.ball.diameter = queries[i].least.ball.diameter = limit_;
+    }
+    tree_.shrink(queries);
+    for (size_t i = 0; i < own.size(); ++i) {
+      own[i].least = queries[i].least;
+      own[i].atMiddle = queries[i].atPoint.ball.diameter;
+      own[i].greatest = boundOf(own[i], queries[i].atPoint.wall);
+    }
+  });
+}
+
+const std::array<double, 3>& ThinPieces::atCornersOf(uint32_t index) {
+  ThinPiece& piece = pieces_[index];
+  if (piece.atCorners[0] > 0) return piece.atCorners;
+  std::array<BallQuery, 3> queries;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d& corner = piece.corners[k];
+    queries[k] = {{{corner, corner, corner}, normal(piece.face)}, corner, {}, {}, tree_.bodyOf(piece.face)};
+    queries[k].atPoint.ball.diameter = queries[k].least.ball.diameter = kCornerRange * limit_;
+  }
+  tree_.shrink(queries);
+  for (size_t k = 0; k < 3; ++k) piece.atCorners[k] = queries[k].atPoint.ball.diameter;
+  return piece.atCorners;
+}
+
+InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point) const {
+  BallQuery query{{{point, point, point}, normal(face)}, point, {}, {}, tree_.bodyOf(face)};
+  query.atPoint.ball.diameter = query.least.ball.diameter = limit_;
+  tree_.shrink({&query, 1});
+  return query.atPoint;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "asdf_vk/run_control.h"
+#include "mesh/point_fans.h"
+#include "trace/face_balls.h"
+
+namespace asdfvk {
+
+inline constexpr uint32_t kNoPiece = 0xffffffff;
+inline constexpr double kCornerRange = 2;
+
+/// A part of a line. The line is an edge of the mesh, or a line along which a piece was halved.
+struct LinePart {
+  uint32_t line = 0, from = 0, to = 0;
+};
+
+/// A piece of a face in normalised coordinates: the whole face, or a half of a piece. All diameters above the limit of
+/// the pieces are replaced by the limit.
+struct ThinPiece {
+  uint32_t face = 0;
+  std::array<Vec3d, 3> corners;
+  InscribedBall least;  ///< The least ball over the piece. It has no wall if it is not below the limit.
+  double atMiddle = 0;  ///< Diameter of the ball at the middle.
+  double greatest = 0;  ///< Upper bound of the diameters of the balls at all points of the piece.
+  /// Diameters of the balls at the corners, at most kCornerRange times the limit; see ThinPieces::atCornersOf().
+  std::array<double, 3> atCorners{};
+  uint32_t firstHalf = kNoPiece;      ///< The other half follows. kNoPiece for a piece that was not halved.
+  std::array<LinePart, 3> sides{};    ///< Side k runs from corner k to the next corner.
+
+  [[nodiscard]] Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
+  /// Index and length of the longest side.
+  [[nodiscard]] std::pair<size_t, double> longestSide() const;
+};
+
+/// The faces that have a point below a limit, as trees of pieces. A piece is halved at its longest side.
+class ThinPieces {
+ public:
+  /// faces: the faces that have a point below the limit, with their balls; the other faces of the mesh are thicker
+  /// everywhere. The arguments must outlive the pieces.
+  ThinPieces(const WallTree& tree, const PointFans& fans, std::span<const FaceBalls> faces, double limit);
+
+  /// Halves the pieces that have a point below the limit, until their sides are at most maxLength long, or one wall
+  /// shows that they are below the limit everywhere. On all cores. Throws Error{Cancelled}.
+  void divide(double maxLength, const RunControl& control);
+  /// Returns the first half of a piece, which is halved if it was not. kNoPiece if there are too many pieces.
+  uint32_t halvesOf(uint32_t piece);
+
+  /// The diameters at the corners of a piece, which are measured at the first call.
+  const std::array<double, 3>& atCornersOf(uint32_t piece);
+
+  [[nodiscard]] const ThinPiece& operator[](uint32_t piece) const { return pieces_[piece]; }
+  [[nodiscard]] size_t size() const { return pieces_.size(); }
+  [[nodiscard]] uint32_t rootOf(uint32_t face) const { return roots_[face]; }  ///< kNoPiece for a thicker face.
+  [[nodiscard]] bool isThin(uint32_t piece) const { return pieces_[piece].least.ball.diameter < limit_; }
+  [[nodiscard]] double limit() const { return limit_; }
+  [[nodiscard]] const WallTree& tree() const { return tree_; }
+  [[nodiscard]] const PointFans& fans() const { return fans_; }
+  [[nodiscard]] const Vec3d& normal(uint32_t face) const { return tree_.scene().geometry.normals[face]; }
+  /// The ball at a point of a face, with a diameter of at most the limit.
+  [[nodiscard]] InscribedBall ballAt(uint32_t face, const Vec3d& point) const;
+
+ private:
+  [[nodiscard]] ThinPiece rootPiece(const FaceBalls& balls);
+  [[nodiscard]] double boundOf(const ThinPiece& piece, uint32_t middleWall) const;
+  [[nodiscard]] bool mayHalve() const;
+  uint32_t addHalves(uint32_t piece);
+  void measure(std::span<ThinPiece> pieces) const;
+
+  const WallTree& tree_;
+  const PointFans& fans_;
+  double limit_;
+  std::vector<ThinPiece> pieces_;
+  std::vector<uint32_t> roots_;  // #F
+  size_t rootCount_ = 0;
+  /// Maps the two end points of a mesh edge, in ascending order, to the number of its line (LinePart::line).
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> edges_;
+  uint32_t lineCount_ = 0;
+};
+
+}  // namespace asdfvk
