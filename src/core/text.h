@@ -42,8 +42,7 @@ template <typename Names>
 /// "a", "a and b", or "a, b and c".
 [[nodiscard]] inline std::string enumeration(std::span<const std::string> names) {
   std::string text;
-  for (size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
 }
 

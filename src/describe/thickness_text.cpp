@@ -80,9 +80,8 @@ std::string regionText(const ThinRegion& region, const ThicknessReport& thicknes
   if (region.kind == ThinKind::Edge)
     return fmt::format("edge of {:.3g} degrees, thin over {}, {} {}; {}", region.angleDegrees, lengthText(region.width),
                        lengthOf(region.min), placeText(region.place, region.minFace), size);
-  const std::string beside = region.least < region.min * (1 - kEqualThickness)
-                                 ? fmt::format(", {} beside it", lengthOf(region.least))
-                                 : "";
+  const std::string beside =
+      region.least < region.min * (1 - kEqualThickness) ? fmt::format(", {} beside it", lengthOf(region.least)) : "";
   return fmt::format("{} {} from {} to {}, face {}{}; {}", nameOf(region.kind), lengthOf(region.min),
                      pointText(region.place), pointText(region.opposite), region.minFace, beside, size);
 }

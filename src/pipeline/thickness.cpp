@@ -39,8 +39,13 @@ class Measurement {
 
   FaceThickness run(const RunControl& control) {
     const size_t count = mesh_.faceCount();
-    thickness_ = {std::vector<double>(count, kNoValue), std::vector<double>(count, kNoValue),
-                  std::vector<uint8_t>(count), {}, {}, {}, {}};
+    thickness_ = {std::vector<double>(count, kNoValue),
+                  std::vector<double>(count, kNoValue),
+                  std::vector<uint8_t>(count),
+                  {},
+                  {},
+                  {},
+                  {}};
     control.checkpoint(0);
     std::vector<GreatestSection> sections = findGreatestSections(scene_, solids_.solidOf, solids_.isClosed,
                                                                  kQuickSection, control.part(0, kSectionsProgress));
@@ -54,7 +59,8 @@ class Measurement {
       thickness_.regions = findThinRegions(pieces, *limit_, control.withoutProgress());
       addThinBodies(sections, control.withoutProgress());
       const auto isWall = [](const ConnectedThinParts& region) { return region.kind == ThinKind::Wall; };
-      if (std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
+      if (!thickness_.unjudged.preventVerdict() &&
+          std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
         keepNextWall(tree, sections, control.withoutProgress());
     }
     control.checkpoint(1);
@@ -76,8 +82,8 @@ class Measurement {
     for (const ConnectedThinParts& region : thickness_.regions)
       if (region.kind == ThinKind::Wall) isOpen[solids_.solidOf[region.place.face]] = 0;
     if (std::find(isOpen.begin(), isOpen.end(), 1) != isOpen.end()) {
-      const std::vector<GreatestSection> searched = findGreatestSections(
-          scene_, solids_.solidOf, isOpen, {.enough = kThinShare * *limit_}, control);
+      const std::vector<GreatestSection> searched =
+          findGreatestSections(scene_, solids_.solidOf, isOpen, {.enough = kThinShare * *limit_}, control);
       for (size_t solid = 0; solid < sections.size(); ++solid)
         if (isOpen[solid] != 0) sections[solid] = searched[solid];
     }
@@ -96,7 +102,8 @@ class Measurement {
     return limit_ && section.bound < kThinShare * *limit_;
   }
 
-  /// The place of a body that is a wall as a whole: the point of the surface nearest to the centre of the greatest ball.
+  /// The place of a body that is a wall as a whole: the point of the surface nearest to the centre of the greatest
+  /// ball.
   [[nodiscard]] WallPlace placeOf(const GreatestSection& section) const {
     const SurfacePoint foot = nearestSurfacePoint(scene_, section.centre, 0, [](uint32_t face) { return face; });
     WallPlace place{.face = foot.face, .point = foot.point};
@@ -115,8 +122,9 @@ class Measurement {
     }
     if (thinnest == nullptr) return;
     const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
-    thickness_.nextWall = findNextWall(tree, fans_, least, *limit_, last, control);
-    if (!thickness_.nextWall && thinnest->bound < kUnlimited) thickness_.nextWall = placeOf(*thinnest);
+    const LeastLimit next = findNextWall(tree, fans_, least, *limit_, last, control);
+    thickness_.nextWall = next.wall;
+    if (next.isKnown && !next.wall && thinnest->bound < kUnlimited) thickness_.nextWall = placeOf(*thinnest);
   }
 
   void keepGreatest(std::span<const GreatestSection> sections) {

@@ -143,8 +143,8 @@ class Description {
     const WallPlace& next = *thickness_.nextWall;
     // A wall that tapers may be thinner than the limit at which it becomes a wall.
     const double limit = *report_.thinnerThan, least = thicknessOf(next);
-    takeLeast(least < kThinShare * limit ? std::max(unit_.toMeshLength(next.limit), limit) : least, prepared_.mesh.inputFaceOf(next.face), toMesh(next.ball.ball.onFace),
-              toMesh(next.ball.ball.onWall));
+    takeLeast(least < kThinShare * limit ? std::max(unit_.toMeshLength(next.limit), limit) : least,
+              prepared_.mesh.inputFaceOf(next.face), toMesh(next.ball.ball.onFace), toMesh(next.ball.ball.onWall));
   }
 
   void takeLeast(double least, uint64_t face, const Vec3d& place, const Vec3d& opposite) {

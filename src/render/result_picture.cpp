@@ -38,9 +38,10 @@ std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = "thinner than " + limitText(*thickness.thinnerThan);
   const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);
   if (thickness.verdict != ThicknessVerdict::Failed)
-    return fmt::format("{}no wall {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "", limit,
-                       value.empty() ? "" : "; the next is " + value);
-  return fmt::format("{} (pale: behind a wall): {}, least {}", limit, counted(thickness.regions.size(), "place"), value);
+    return fmt::format("{}no wall {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "",
+                       limit, value.empty() ? "" : "; the next is " + value);
+  return fmt::format("{} (pale: behind a wall): {}, least {}", limit, counted(thickness.regions.size(), "place"),
+                     value);
 }
 
 std::string verdictText(ThicknessVerdict verdict) {
@@ -54,8 +55,8 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   for (const ThinRegion& region : thickness.regions) {
     if (callouts.size() == kMaxCount) break;
     const std::string value = lengthText(region.min, thickness.thinnerThan);
-    callouts.push_back({region.place, region.opposite,
-                        region.kind == ThinKind::Edge ? fmt::format("edge {}", value) : value});
+    callouts.push_back(
+        {region.place, region.opposite, region.kind == ThinKind::Edge ? fmt::format("edge {}", value) : value});
   }
   return callouts;
 }

@@ -32,8 +32,8 @@ struct SectionSearch {
 inline constexpr SectionSearch kQuickSection{.cubeCount = 32, .cubesPerFace = 1};
 
 /// The greatest section of each wanted solid; infinite for other solids. Branch and bound over cubes in the box of the
-/// solid, which begins with the middles of some inward rays. Three bounds limit the radii of the balls with centres in a
-/// cube. The first is the distance from the centre of the cube to the surface, plus half of the diagonal of the cube.
+/// solid, which begins with the middles of some inward rays. Three bounds limit the radii of the balls with centres in
+/// a cube. The first is the distance from the centre of the cube to the surface, plus half of the diagonal of the cube.
 /// The second is a bound by two points of opposite walls, which no ball contains. The third is a bound by the planes of
 /// flat walls. Precondition: the faces of a wanted solid are closed and consistently wound. solidOf: #F. isWanted: one
 /// entry per solid. Throws Error{Cancelled}.

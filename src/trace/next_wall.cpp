@@ -14,10 +14,10 @@ constexpr double kStep = 2;
 
 }  // namespace
 
-std::optional<WallPlace> findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least,
-                                      double first, double last, const RunControl& control) {
-  std::optional<WallPlace> wall;
-  for (double low = first; !wall && low < last; low *= kStep) {
+LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least, double first,
+                        double last, const RunControl& control) {
+  LeastLimit found;
+  for (double low = first; found.isKnown && !found.wall && low < last; low *= kStep) {
     const double limit = std::min(kStep * low, last), thin = kThinShare * limit;
     std::vector<FaceBalls> faces;
     for (const Wall& each : tree.walls())
@@ -28,9 +28,9 @@ std::optional<WallPlace> findNextWall(const WallTree& tree, const PointFans& fan
     shrinkFaceBalls(tree, faces, control);
     ThinPieces pieces(tree, fans, faces, thin);
     pieces.divide(std::max(low / kPiecesPerLimit, kMinPieceLength), control);
-    wall = findLeastLimit(pieces, limit, first, control);
+    found = findLeastLimit(pieces, limit, first, control);
   }
-  return wall;
+  return found;
 }
 
 }  // namespace asdfvk

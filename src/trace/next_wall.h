@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "asdf_vk/run_control.h"
@@ -8,11 +7,10 @@
 
 namespace asdfvk {
 
-/// The wall at the least limit from `first` to `last` at which the surface has a wall; unset if it has none. least: #F,
+/// The wall at the least limit from `first` to `last` at which the surface has a wall. least: #F,
 /// the least thickness of each face (normalised); NaN for a face that is not judged. Throws Error{Cancelled}.
-[[nodiscard]] std::optional<WallPlace> findNextWall(const WallTree& tree, const PointFans& fans,
-                                                    std::span<const double> least, double first, double last,
-                                                    const RunControl& control);
+[[nodiscard]] LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least,
+                                      double first, double last, const RunControl& control);
 
 /// Pieces are divided until their sides are at most as long as the larger of limit / kPiecesPerLimit and
 /// kMinPieceLength (normalised), or as their place requires.

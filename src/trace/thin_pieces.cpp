@@ -1,6 +1,7 @@
 #include "trace/thin_pieces.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/parallel.h"
 
@@ -44,24 +45,25 @@ ThinPiece ThinPieces::rootPiece(const FaceBalls& balls) {
     const uint32_t from = a < b ? 0 : kLineLength;
     piece.sides[k] = {edge->second, from, kLineLength - from};
   }
-  piece.greatest = boundOf(piece, balls.atBarycentre.wall);
+  piece.middleWall = balls.atBarycentre.wall;
+  piece.greatest = boundOf(piece);
   return piece;
 }
 
 /// If one wall limits the balls, the diameter is a convex function of the point: the diameters at the corners are a
 /// bound.
-double ThinPieces::boundOf(const ThinPiece& piece, uint32_t middleWall) const {
+double ThinPieces::boundOf(const ThinPiece& piece) const {
   double bound = limit_;
   const auto limitBy = [&](uint32_t face) {
     const PlaneTriangle wall = triangleOf(tree_.scene(), face);
     double greatest = 0;
     for (const Vec3d& corner : piece.corners)
-      greatest = std::max(greatest,
-                          leastTouchingBall(corner, normal(piece.face), wall, kContactDistance, limit_).diameter);
+      greatest =
+          std::max(greatest, leastTouchingBall(corner, normal(piece.face), wall, kContactDistance, limit_).diameter);
     bound = std::min(bound, greatest);
   };
   if (piece.least.wall != kNoFace) limitBy(piece.least.wall);
-  if (middleWall != kNoFace && middleWall != piece.least.wall) limitBy(middleWall);
+  if (piece.middleWall != kNoFace && piece.middleWall != piece.least.wall) limitBy(piece.middleWall);
   return bound;
 }
 
@@ -79,13 +81,6 @@ void ThinPieces::divide(double maxLength, const RunControl& control) {
     measure(std::span(pieces_).subspan(end));
     begin = end;
   }
-}
-
-uint32_t ThinPieces::halvesOf(uint32_t piece) {
-  if (pieces_[piece].firstHalf != kNoPiece || !mayHalve()) return pieces_[piece].firstHalf;
-  const uint32_t first = addHalves(piece);
-  measure(std::span(pieces_).subspan(first));
-  return first;
 }
 
 uint32_t ThinPieces::addHalves(uint32_t index) {
@@ -119,23 +114,35 @@ void ThinPieces::measure(std::span<ThinPiece> pieces) const {
     for (size_t i = 0; i < own.size(); ++i) {
       own[i].least = queries[i].least;
       own[i].atMiddle = queries[i].atPoint.ball.diameter;
-      own[i].greatest = boundOf(own[i], queries[i].atPoint.wall);
+      own[i].middleWall = queries[i].atPoint.wall;
+      own[i].greatest = boundOf(own[i]);
     }
   });
 }
 
-const std::array<double, 3>& ThinPieces::atCornersOf(uint32_t index) {
-  ThinPiece& piece = pieces_[index];
-  if (piece.atCorners[0] > 0) return piece.atCorners;
-  std::array<BallQuery, 3> queries;
-  for (size_t k = 0; k < 3; ++k) {
-    const Vec3d& corner = piece.corners[k];
-    queries[k] = {{{corner, corner, corner}, normal(piece.face)}, corner, {}, {}, tree_.bodyOf(piece.face)};
-    queries[k].atPoint.ball.diameter = queries[k].least.ball.diameter = kCornerRange * limit_;
+void ThinPieces::measureCorners(std::span<const uint32_t> pieces) {
+  std::vector<BallQuery> queries;
+  std::vector<double*> results;
+  for (const uint32_t i : pieces) {
+    ThinPiece& piece = pieces_[i];
+    if (piece.atCorners[0] > 0) continue;
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3d& corner = piece.corners[k];
+      queries.push_back({{{corner, corner, corner}, normal(piece.face)}, corner, {}, {}, tree_.bodyOf(piece.face)});
+      queries.back().atPoint.ball.diameter = queries.back().least.ball.diameter = kCornerRange * limit_;
+      results.push_back(&piece.atCorners[k]);
+    }
   }
   tree_.shrink(queries);
-  for (size_t k = 0; k < 3; ++k) piece.atCorners[k] = queries[k].atPoint.ball.diameter;
-  return piece.atCorners;
+  for (size_t i = 0; i < queries.size(); ++i) *results[i] = queries[i].atPoint.ball.diameter;
+}
+
+InscribedBall ThinPieces::ballAtMiddle(uint32_t index) const {
+  const ThinPiece& piece = pieces_[index];
+  if (piece.middleWall == kNoFace) return {{piece.atMiddle, {}, {}}, kNoFace};
+  return {leastTouchingBall(piece.middle(), normal(piece.face), triangleOf(tree_.scene(), piece.middleWall),
+                            kContactDistance, std::numeric_limits<double>::infinity()),
+          piece.middleWall};
 }
 
 InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point) const {

@@ -26,13 +26,14 @@ struct LinePart {
 struct ThinPiece {
   uint32_t face = 0;
   std::array<Vec3d, 3> corners;
-  InscribedBall least;  ///< The least ball over the piece. It has no wall if it is not below the limit.
-  double atMiddle = 0;  ///< Diameter of the ball at the middle.
-  double greatest = 0;  ///< Upper bound of the diameters of the balls at all points of the piece.
-  /// Diameters of the balls at the corners, at most kCornerRange times the limit; see ThinPieces::atCornersOf().
+  InscribedBall least;            ///< The least ball over the piece. It has no wall if it is not below the limit.
+  double atMiddle = 0;            ///< Diameter of the ball at the middle.
+  uint32_t middleWall = kNoFace;  ///< The wall of this ball.
+  double greatest = 0;            ///< Upper bound of the diameters of the balls at all points of the piece.
+  /// Diameters of the balls at the corners, at most kCornerRange times the limit; 0 before measureCorners().
   std::array<double, 3> atCorners{};
-  uint32_t firstHalf = kNoPiece;      ///< The other half follows. kNoPiece for a piece that was not halved.
-  std::array<LinePart, 3> sides{};    ///< Side k runs from corner k to the next corner.
+  uint32_t firstHalf = kNoPiece;    ///< The other half follows. kNoPiece for a piece that was not halved.
+  std::array<LinePart, 3> sides{};  ///< Side k runs from corner k to the next corner.
 
   [[nodiscard]] Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
   /// Index and length of the longest side.
@@ -49,11 +50,10 @@ class ThinPieces {
   /// Halves the pieces that have a point below the limit, until their sides are at most maxLength long, or one wall
   /// shows that they are below the limit everywhere. On all cores. Throws Error{Cancelled}.
   void divide(double maxLength, const RunControl& control);
-  /// Returns the first half of a piece, which is halved if it was not. kNoPiece if there are too many pieces.
-  uint32_t halvesOf(uint32_t piece);
 
-  /// The diameters at the corners of a piece, which are measured at the first call.
-  const std::array<double, 3>& atCornersOf(uint32_t piece);
+  /// Measures the diameters at the corners of some pieces, unless they are measured.
+  void measureCorners(std::span<const uint32_t> pieces);
+  [[nodiscard]] InscribedBall ballAtMiddle(uint32_t piece) const;
 
   [[nodiscard]] const ThinPiece& operator[](uint32_t piece) const { return pieces_[piece]; }
   [[nodiscard]] size_t size() const { return pieces_.size(); }
@@ -68,7 +68,7 @@ class ThinPieces {
 
  private:
   [[nodiscard]] ThinPiece rootPiece(const FaceBalls& balls);
-  [[nodiscard]] double boundOf(const ThinPiece& piece, uint32_t middleWall) const;
+  [[nodiscard]] double boundOf(const ThinPiece& piece) const;
   [[nodiscard]] bool mayHalve() const;
   uint32_t addHalves(uint32_t piece);
   void measure(std::span<ThinPiece> pieces) const;

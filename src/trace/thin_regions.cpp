@@ -142,9 +142,9 @@ class Regions {
 
   ThinPieces& pieces_;
   double limit_;
-  std::vector<uint32_t> leaves_, regionOf_;          // Thin pieces that are not halved, and their regions.
-  std::vector<std::vector<uint32_t>> piecesOf_;      // The pieces of each region.
-  std::vector<double> perimeters_;                   // One entry per region.
+  std::vector<uint32_t> leaves_, regionOf_;            // Thin pieces that are not halved, and their regions.
+  std::vector<std::vector<uint32_t>> piecesOf_;        // The pieces of each region.
+  std::vector<double> perimeters_;                     // One entry per region.
   std::vector<std::pair<uint32_t, uint32_t>> byFace_;  // Faces and leaves.
 };
 
@@ -154,7 +154,7 @@ std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit
   return Regions(pieces, limit).run(control);
 }
 
-std::optional<WallPlace> findLeastLimit(ThinPieces& pieces, double limit, double floor, const RunControl& control) {
+LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, const RunControl& control) {
   control.checkpoint(0.5);
   return WallSearch(pieces, limit).leastLimit(Regions(pieces, limit).leaves(), floor);
 }

@@ -22,9 +22,9 @@ struct ThinPart {
 struct ConnectedThinParts {
   std::vector<ThinPart> parts;
   ThinKind kind = ThinKind::Edge;
-  WallPlace place;      ///< The least wall or a detail; for an edge the point of the least ball.
-  WallPlace leastPlace; ///< The point of the least ball of all parts.
-  double perimeter = 0; ///< Length of the border of the parts.
+  WallPlace place;       ///< The least wall or a detail; for an edge the point of the least ball.
+  WallPlace leastPlace;  ///< The point of the least ball of all parts.
+  double perimeter = 0;  ///< Length of the border of the parts.
 };
 
 /// The thin regions at a limit. pieces: divided pieces; receives further halves. Two sides belong to one region if the
@@ -32,8 +32,7 @@ struct ConnectedThinParts {
 [[nodiscard]] std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit,
                                                               const RunControl& control);
 
-/// The wall at the least limit from `floor` to `limit`; unset if there is none. pieces: as in findThinRegions().
-[[nodiscard]] std::optional<WallPlace> findLeastLimit(ThinPieces& pieces, double limit, double floor,
-                                                      const RunControl& control);
+/// The wall at the least limit from `floor` to `limit`. pieces: as in findThinRegions().
+[[nodiscard]] LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, const RunControl& control);
 
 }  // namespace asdfvk

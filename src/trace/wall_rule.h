@@ -13,8 +13,8 @@ namespace asdfvk {
 inline constexpr double kThinShare = 0.999;
 /// All points of the surface around a wall are thin, as far as this share of L.
 inline constexpr double kThinReach = 1.0 / 3;
-/// No point of the surface around a wall, as far as the share kTaperReach of L, is thinner than the share kTaperShare of
-/// the thickness of the wall.
+/// No point of the surface around a wall, as far as the share kTaperReach of L, is thinner than the share kTaperShare
+/// of the thickness of the wall.
 inline constexpr double kTaperReach = 3.0 / 8, kTaperShare = 7.0 / 8;
 /// The surface around a point has normals that differ by less than 107 degrees from the normal at the point. It
 /// contains the surface behind a right angle, but not the other side of a wall.

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "core/function_ref.h"
+#include "trace/surface_disc.h"
 #include "trace/thin_pieces.h"
-#include "trace/wall_rule.h"
 
 namespace asdfvk {
 
@@ -20,10 +22,15 @@ struct WallPlace {
   double limit = 0;  ///< The least limit of a detail that was found; normalised.
 };
 
-/// Finds walls and details among thin pieces, by the rule of wall_rule.h. Pieces are visited by ascending thickness. The
-/// middle of a piece is a wall, or a point near it contradicts. In the second case the search goes on farther away from
-/// this point, which also excludes the pieces around it. Longer pieces are halved. Halves pieces, and therefore runs on
-/// one thread.
+/// The wall at the least limit, unset if there is none; or a search that gave up.
+struct LeastLimit {
+  std::optional<WallPlace> wall;
+  bool isKnown = true;
+};
+
+/// Finds walls and details among thin pieces, by the rule of wall_rule.h. Triangles of the surface are visited by
+/// ascending thickness. The middle of a triangle is a wall, or a point near it contradicts. In the second case the
+/// search goes on farther away from this point, which may also exclude triangles around it. Long triangles are halved.
 class WallSearch {
  public:
   /// limit: the limit L, normalised. Precondition: the limit of the pieces is kThinShare * limit.
@@ -31,52 +38,37 @@ class WallSearch {
 
   /// The least wall among the given pieces; unset if none is a wall.
   [[nodiscard]] std::optional<WallPlace> leastWall(std::span<const uint32_t> pieces);
-  /// The wall at the least limit from `floor` to the limit L, and this limit.
-  [[nodiscard]] std::optional<WallPlace> leastLimit(std::span<const uint32_t> pieces, double floor);
+  /// The wall at the least limit from `floor` to the limit L. The search gives up if it takes too long.
+  [[nodiscard]] LeastLimit leastLimit(std::span<const uint32_t> pieces, double floor);
   /// A detail among the pieces that have no wall.
   [[nodiscard]] std::optional<WallPlace> findDetail(std::span<const uint32_t> pieces);
 
  private:
-  /// A point that shows that another point is not a wall.
-  struct Contradiction {
-    Vec3d point;
+  /// A part of a piece. Diameters as in ThinPiece.
+  struct Part {
+    std::array<Vec3d, 3> corners;
+    InscribedBall atMiddle;
+    double least = 0, size = 0;
     uint32_t face = kNoFace;
-    double diameter = 0;
-    bool isThinner = false;  ///< Below kTaperShare of the other point; else not thin.
-  };
-  /// A point with the diameter of its ball, and a limit at which it may be a wall.
-  struct Disc {
-    uint32_t face = kNoFace;
-    Vec3d point;
-    double diameter = 0, limit = 0;
   };
 
-  void forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(uint32_t)> isDone,
-                    FunctionRef<void(const Disc&)> visit);
-  [[nodiscard]] std::optional<Contradiction> contradictionFrom(Disc& disc, double floor);
-  [[nodiscard]] std::optional<Contradiction> contradictionAt(const Disc& disc);
-  [[nodiscard]] std::optional<Contradiction> contradictionIn(uint32_t piece, const Disc& disc);
-  [[nodiscard]] std::optional<Contradiction> hiddenContradictionIn(uint32_t piece, const Disc& disc);
-  [[nodiscard]] std::optional<Contradiction> rimNear(uint32_t face, const Disc& disc) const;
-  [[nodiscard]] bool isExcludedBy(const Contradiction& contradiction, const ThinPiece& piece, double floor) const;
-  void exclude(const Contradiction& contradiction, double floor);
-  void excludePieces(uint32_t piece, const Contradiction& contradiction, double floor);
-  void markExcluded(uint32_t piece);
-  uint32_t halvesOf(uint32_t piece);
-  /// Visits the faces connected to `face` that are at most `radius` away from `point`, on the same side, near ones
-  /// first. visit(face, nearest point, distance) returns whether the walk goes on.
-  void forEachFaceAround(const Vec3d& point, uint32_t face, double radius,
-                         FunctionRef<bool(uint32_t, const Vec3d&, double)> visit);
-  [[nodiscard]] Vec3d pointAwayFrom(const Contradiction& contradiction, const Vec3d& point, uint32_t piece,
-                                    double reach) const;
+  void forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(double)> isDone,
+                    FunctionRef<void(const SurfacePointDisc&)> visit);
+  void testPoints(const Part& part, double floor, FunctionRef<void(const SurfacePointDisc&)> visit);
+  [[nodiscard]] std::array<Part, 2> halvesOf(const Part& part) const;
+  [[nodiscard]] std::optional<Contradiction> contradictionFrom(SurfacePointDisc& disc, double floor);
+  [[nodiscard]] bool excludes(const Contradiction& contradiction, const Part& part, double floor) const;
+  [[nodiscard]] bool isExcluded(const Part& part, double floor) const;
+  void keep(const Contradiction& contradiction);
+  [[nodiscard]] bool isTooLong() const;
+  [[nodiscard]] static WallPlace placeOf(const SurfacePointDisc& disc);
 
   ThinPieces& pieces_;
   double limit_;
-  std::vector<uint8_t> isExcluded_;  // One entry per piece.
-  std::vector<uint32_t> visits_;     // #F, number of the last walk that visited the face.
-  std::vector<uint32_t> queue_, uncertain_;
+  DiscCheck check_;
   std::unordered_set<uint64_t> cells_;  // Cells that contain a tested point.
-  uint32_t walkCount_ = 0;
+  std::unordered_map<uint64_t, std::vector<Contradiction>> contradictions_;
+  size_t pointCount_ = 0;  // Number of tested points.
 };
 
 }  // namespace asdfvk

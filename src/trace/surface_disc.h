@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/function_ref.h"
+#include "trace/thin_pieces.h"
+#include "trace/wall_rule.h"
+
+namespace asdfvk {
+
+/// A point with its ball, and a limit at which it may be a wall. Its disc is the surface around it. All
+/// lengths are normalised.
+struct SurfacePointDisc {
+  uint32_t face = kNoFace;
+  Vec3d point;
+  InscribedBall ball;
+  double limit = 0;
+
+  [[nodiscard]] double diameter() const { return ball.ball.diameter; }
+};
+
+/// A point of a disc that shows that the middle of the disc is not a wall.
+struct Contradiction {
+  Vec3d point;
+  uint32_t face = kNoFace;
+  double diameter = 0;
+  bool isThinner = false;  ///< Below kTaperShare of the middle, or the end of the surface; else not thin.
+};
+
+/// Decides whether points are walls. On faces that have a point below the limit of the pieces, the thickness is known
+/// by their pieces. Short pieces are taken as linear between their corners, and long pieces are clipped to the disc.
+class DiscCheck {
+ public:
+  /// pieces: divided pieces. limit: the greatest limit of a disc.
+  DiscCheck(ThinPieces& pieces, double limit);
+
+  /// A contradiction, or unset if the middle of the disc is a wall.
+  [[nodiscard]] std::optional<Contradiction> contradictionAt(const SurfacePointDisc& disc);
+  /// Number of faces that were visited.
+  [[nodiscard]] size_t visitCount() const { return visitCount_; }
+
+ private:
+  [[nodiscard]] std::optional<Contradiction> taperAt(const SurfacePointDisc& disc) const;
+  [[nodiscard]] std::optional<Contradiction> contradictionIn(uint32_t piece, const SurfacePointDisc& disc);
+  [[nodiscard]] std::optional<Contradiction> hiddenContradictionIn(uint32_t piece, const SurfacePointDisc& disc);
+  [[nodiscard]] std::optional<Contradiction> contradictionInClipped(uint32_t piece, const SurfacePointDisc& disc) const;
+  [[nodiscard]] std::optional<Contradiction> rimNear(uint32_t face, const SurfacePointDisc& disc) const;
+  void forEachFaceAround(const SurfacePointDisc& disc, FunctionRef<bool(uint32_t, const Vec3d&, double)> visit);
+
+  ThinPieces& pieces_;
+  double limit_;
+  std::vector<uint32_t> visits_;  // #F, number of the last walk that visited the face.
+  std::vector<uint32_t> queue_, uncertain_;
+  uint32_t walkCount_ = 0;
+  size_t visitCount_ = 0;
+};
+
+}  // namespace asdfvk
