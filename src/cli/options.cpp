@@ -240,6 +240,7 @@ ArgumentParser parserOf(CommandLine& line) {
                         std::move(arguments));
   parser.shortHelp = kHelp;
   parser.footer = footer();
+  parser.removedText = [](std::string_view name) { return removedOptionText(name, OptionSpelling::Flag); };
   return parser;
 }
 

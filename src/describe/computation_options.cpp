@@ -1,6 +1,8 @@
 // One row per option of a computation.
 #include "describe/computation_options.h"
 
+#include <fmt/core.h>
+
 #include <array>
 
 #include "describe/option_values.h"
@@ -313,6 +315,15 @@ const std::array kComputationRows{
 OptionRows computationRows() {
   static const auto rows = withGroups(kComputationRows);
   return rows;
+}
+
+std::string removedOptionText(std::string_view name, OptionSpelling spelling) {
+  constexpr std::array kRemoved{
+      RemovedOption{"allow-sharp-edges", "thin edges do not count any more; {count-edges} counts them"}};
+  for (const RemovedOption& removed : kRemoved)
+    if (name == spelled(OptionRow{.name = removed.name}, spelling))
+      return fmt::format("{} was removed: {}", name, withSpelledOptions(computationRows(), removed.message, spelling));
+  return {};
 }
 
 }  // namespace asdfvk
