@@ -217,8 +217,8 @@ const std::array kComputationRows{
                   }},
     OptionRow{.name = "fail-if-thinner",
               .range = above(0),
-              .text = "Like --thinner-than, but with exit codes: 6 if a point is thinner than T, 5 if parts of the "
-                      "surface cannot be judged",
+              .text = "Like --thinner-than, but with exit codes: 6 if a wall is thinner than T, 5 if parts of the "
+                      "surface cannot be judged. Without -o, no result is written",
               .placeholder = "T",
               .defaultText = "-",
               .keyword = "",
