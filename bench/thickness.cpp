@@ -40,11 +40,11 @@ struct NamedMesh {
   Mesh mesh;
 };
 
-Options checkOptions(double limit, bool allowsSharpEdges = false) {
+Options checkOptions(double limit, bool countsEdges = false) {
   Options options;
   options.measure = Measure::Thickness;
   options.thickness.thinnerThan = limit;
-  options.thickness.allowsSharpEdges = allowsSharpEdges;
+  options.thickness.countsEdges = countsEdges;
   return options;
 }
 
@@ -66,7 +66,8 @@ struct Truth {
     diagonal = scene.geometry.bounds.diagonal();
     const Solids solids = findSolids(scene.mesh, traceable.prepared.components);
     std::vector<Section> all(solids.isClosed.size(), {kUnlimited, kUnlimited});
-    const std::vector<GreatestSection> found = findGreatestSections(scene, solids.solidOf, solids.isClosed, {});
+    const std::vector<GreatestSection> found =
+        findGreatestSections(scene, solids.solidOf, solids.isClosed, SectionSearch{}, {});
     for (size_t solid = 0; solid < all.size(); ++solid)
       if (solids.isClosed[solid] != 0)
         all[solid] = {normalization.toMeshLength(found[solid].diameter),
@@ -147,33 +148,40 @@ void printTimes(const NamedMesh& named, Session& session, uint32_t runs, const R
                           toText(ratioOf(thickness, diameter), 2)));
 }
 
+/// The narrowest angle of an edge that is not a wall.
+constexpr double kEdgeDegrees = 17;
+
 /// Prints least thickness and verdict of each part, with few faces and with divided edges.
 void printParts(Session& session, double longestEdge, const RunControl& control) {
   writeOutput(
-      fmt::format("| part | faces | known | {} | relative difference | verdict at {} | sharp edges allowed |\n"
+      fmt::format("| part | faces | known | {} | relative difference | verdict at {} | edges counted |\n"
                   "|---|---|---|---|---|---|---|\n",
                   session.backend(), kPartLimit));
   size_t wrongCount = 0;
   for (const std::string_view name : thicknessPartNames()) {
     const ThicknessPart part = makeThicknessPart(name);
+    const bool hasWall =
+        part.leastWall < kPartLimit || (part.sharpAngleDegrees > 0 && part.sharpAngleDegrees < kEdgeDegrees);
     for (const double edge : {SurfaceDivision{}.longestEdge, longestEdge}) {
       const Mesh mesh = part.solid.surface({.longestEdge = edge});
-      const auto check = [&](bool allowsSharpEdges) {
-        return *session.compute(mesh, checkOptions(kPartLimit, allowsSharpEdges), {control.stop, {}}).report.thickness;
+      const auto check = [&](bool countsEdges) {
+        return session.compute(mesh, checkOptions(kPartLimit, countsEdges), {control.stop, {}});
       };
-      const ThicknessReport report = check(false), allowed = check(true);
+      const Result result = check(false), counted = check(true);
+      const std::vector<double>& values = *result.field("least_thickness")->reals();
+      const double least = *std::min_element(values.begin(), values.end());
       const double unit = part.leastThickness > 0 ? part.leastThickness : 1;
-      const double difference = std::abs(report.min - part.leastThickness) / unit;
-      const auto verdict = [&](const ThicknessReport& found, double least) {
-        const bool isRight =
-            found.verdict == (least < kPartLimit ? ThicknessVerdict::Failed : ThicknessVerdict::Passed);
-        return fmt::format("{}{}", nameOf(*found.verdict), isRight ? "" : ", wrong");
+      const double difference = std::abs(least - part.leastThickness) / unit;
+      const auto verdict = [&](const Result& found, bool isThin) {
+        const ThicknessVerdict verdict = found.report.thickness->verdict.value();
+        const bool isRight = verdict == (isThin ? ThicknessVerdict::Failed : ThicknessVerdict::Passed);
+        return fmt::format("{}{}", nameOf(verdict), isRight ? "" : ", wrong");
       };
-      const std::string verdicts = verdict(report, part.leastThickness) + " | " +
-                                   verdict(allowed, std::max(part.leastThickness, part.leastWall));
+      const std::string verdicts =
+          verdict(result, hasWall) + " | " + verdict(counted, part.leastThickness < kPartLimit);
       wrongCount += difference <= 1e-6 && verdicts.find("wrong") == std::string::npos ? 0 : 1;
       writeOutput(fmt::format("| {} | {} | {:.6g} | {:.6g} | {:.1e} | {} |\n", name, mesh.faces.size(),
-                              part.leastThickness, report.min, difference, verdicts));
+                              part.leastThickness, least, difference, verdicts));
     }
   }
   writeOutput(fmt::format("\n{} of {} wrong\n", wrongCount, 2 * thicknessPartNames().size()));

@@ -47,7 +47,7 @@ walls = scene.thickness()
 limit = float(np.nanpercentile(walls, 5))
 info = scene.compute(measure="thickness", thinner_than=limit)
 assert info.thickness is not None
-print(f"{len(info.thickness.regions)} regions thinner than {limit:.4g}, the least {info.thickness.min:.4g}")
+print(info.thickness.sentence)
 
 # %% The thin faces alone, with more rays: only they cast rays.
 region = info.fields["least_thickness"] < limit

@@ -246,9 +246,11 @@ struct UnjudgedFaces {
 /// The wall thickness (docs/thickness.md). Lengths are in the unit of the mesh.
 struct ThicknessReport {
   std::optional<ThicknessVerdict> verdict;  ///< Unset without a limit.
-  std::optional<double> thinnerThan;        ///< The limit.
-  bool countsDetails = false;               ///< Details fail the check, too.
-  bool countsEdges = false;                 ///< Details and edges fail the check, too.
+  /// The verdict, or without a limit the least wall, in one sentence; the first line of the text report.
+  std::string sentence;
+  std::optional<double> thinnerThan;  ///< The limit.
+  bool countsDetails = false;         ///< Details fail the check, too.
+  bool countsEdges = false;           ///< Details and edges fail the check, too.
   /// Failed: the least thickness of all thin regions that count. Otherwise: the next wall, which is the least wall at
   /// the smallest limit at which the check fails. NaN if it was not searched or not found.
   double min = kNoValue;

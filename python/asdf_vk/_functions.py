@@ -68,7 +68,8 @@ def thickness(
     vertices, faces: as for compute(). All faces are measured; `seeds` has no effect. Further options:
     thinner_than: a limit in the unit of the mesh. compute(..., measure="thickness", thinner_than=X).thickness then has
         the verdict and the regions that are thinner than the limit.
-    allow_sharp_edges: leave thin regions with a sharp edge or tip out of the verdict. Needs thinner_than.
+    count_details: thin places that are too small for a wall fail, too. Needs thinner_than.
+    count_edges: details and thin edges fail, too. Needs thinner_than.
 
     Returns float32 (m,) at the barycentres, or (n,) with per="vertex", in the unit of the mesh. NaN means no value.
     Raises and warns like compute().

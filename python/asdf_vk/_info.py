@@ -40,12 +40,12 @@ class Info(Report):
 
     @property
     def thin(self) -> NDArray[np.bool_]:
-        """(m,): whether a point of the face is thinner than the limit. All false without a limit."""
+        """(m,): whether a point of the face is below 0.999 of the limit. All false without a limit."""
         report = self.thickness
         if report is None or report.thinner_than is None or not report.regions:
             # If the report has no thin region, values are below the limit only because of rounding.
             return np.zeros(self.face_count, bool)
-        return self.fields["least_thickness"] < np.float32(report.thinner_than)
+        return self.fields["least_thickness"] < np.float32(0.999 * report.thinner_than)
 
 
 def info_of(computed: _core.ComputedFields) -> Info:

@@ -27,7 +27,8 @@ def check_names(names: Iterable[str], allowed: Collection[str]) -> None:
         if name not in allowed:
             similar = _core.similar_keywords(name, list(allowed))
             hint = f"; did you mean {similar}?" if similar else ""
-            raise error_of("unknownName", f"there is no option '{name}'{hint}", {"option": name})
+            text = _core.removed_keyword_text(name) or f"there is no option '{name}'{hint}"
+            raise error_of("unknownName", text, {"option": name})
 
 
 class ConeOptions(TypedDict, total=False):

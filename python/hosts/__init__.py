@@ -13,6 +13,18 @@ def digits_of(text_of, value, other) -> str:
     return text_of(value, next((n for n in (4, 5, 6) if text_of(value, n) != text_of(other, n)), 4))
 
 
+def verdict_text(report, text_of) -> str:
+    """Returns a text such as "FAIL, least wall 0.3 mm" or "PASS, next wall 1.2 mm". text_of(value): text of a length.
+
+    The words wall, detail and edge have the meaning of docs/thickness.md.
+    """
+    verdict = VERDICTS[report.verdict]
+    if np.isnan(report.min):
+        return verdict
+    place = f"least {report.regions[0].kind}" if report.verdict == "failed" else "next wall"
+    return f"{verdict}, {place} {text_of(report.min)}"
+
+
 def colours_of(values, low: float, high: float, thin, grey: float):
     """Returns (m, 3) sRGB colours: red if `thin`, grey without a value, else viridis from low to high."""
     colours = np.full((len(values), 3), grey)

@@ -194,12 +194,12 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
     elif measure == "THICKNESS":
         report, thin = info.thickness, info.thin
         set_colours(mesh, colours_of(info.fields["least_thickness"], thin))
-        text = f"least thickness {length(context, report.min, limit)}"
+        text = f"least thickness {length(context, np.nanmin(info.fields['least_thickness'], initial=np.inf))}"
         if limit > 0:
             select_faces(mesh, thin)
             context.tool_settings.mesh_select_mode = (False, False, True)
-            verdict = module().hosts.VERDICTS[report.verdict]
-            text = f"{verdict}: {text}, {np.count_nonzero(thin)} faces below {length(context, limit, report.min)}"
+            verdict = module().hosts.verdict_text(report, lambda value: length(context, value, limit))
+            text = f"{verdict}; {np.count_nonzero(thin)} faces below {length(context, limit, report.min)}"
     else:
         set_colours(mesh, colours_of(info.fields["sdf"], info.thin))
         text = f"median diameter {length(context, info.sdf.median)}"
@@ -212,7 +212,8 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
 
 class Options:
     limit: FloatProperty(name="Limit", description="Least allowed thickness; 0: none", min=0, unit="LENGTH", precision=4)
-    allow_sharp_edges: BoolProperty(name="Allow sharp edges", description="Thin places at a sharp edge do not count")
+    count_details: BoolProperty(name="Count details", description="Thin places that are too small for a wall fail, too")
+    count_edges: BoolProperty(name="Count edges", description="Details and thin edges fail, too: each thin point")
     parts: IntProperty(name="Parts", description="Number of parts; 0: automatic", min=0, max=100)
     all_faces: BoolProperty(name="Trace all faces",
                             description="Cast rays from every face: slower, but no value is interpolated")
@@ -244,7 +245,7 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         if self.measure == "THICKNESS":
             options["measure"] = "thickness"
             if self.limit > 0:
-                options.update(thinner_than=self.limit, allow_sharp_edges=self.allow_sharp_edges)
+                options.update(thinner_than=self.limit, count_details=self.count_details, count_edges=self.count_edges)
         elif self.all_faces:
             options["seeds"] = "all"
         if self.measure == "PARTS":
@@ -324,7 +325,7 @@ class VIEW3D_PT_asdf_vk(bpy.types.Panel):
 
     def draw(self, context):
         settings, column = context.scene.asdf_vk, self.layout.column()
-        for (measure, label, _), names in zip(MEASURES, ((), ("limit", "allow_sharp_edges"), ("parts",))):
+        for (measure, label, _), names in zip(MEASURES, ((), ("limit", "count_details", "count_edges"), ("parts",))):
             box = column.box()
             for name in names:
                 box.prop(settings, name)

@@ -45,8 +45,7 @@ def length(value: float, limit: float) -> str:
 
 
 def summary(report) -> str:
-    least = length(report.min, report.thinner_than)
-    return module().hosts.VERDICTS[report.verdict] + ("" if np.isnan(report.min) else f", least thickness {least}")
+    return module().hosts.verdict_text(report, lambda value: length(value, report.thinner_than))
 
 
 def triangles_of(obj, deviation: float):
@@ -91,11 +90,12 @@ def divided(vertices, triangles):
     return vertices, triangles
 
 
-def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = False, progress=None):
+def check(obj, limit: float, deviation: float = 0.05, count_details=False, count_edges=False, progress=None):
     """Checks the walls of an object, and adds the result to its document.
 
     limit: in mm. deviation: greatest distance between the triangles and curved faces, in mm; the measured thickness
-    between two curved faces can be too small by twice this length. progress: called with a fraction from 0 to 1 and a
+    between two curved faces can be too small by twice this length. count_details, count_edges: whether details and edges
+    fail, too (docs/thickness.md). progress: called with a fraction from 0 to 1 and a
     text; if it returns False, the check is cancelled. Returns the report of asdf_vk.compute(), for example
     .thickness.verdict, .thickness.min, .thickness.regions, .fields. Raises ImportError, ValueError, asdf_vk.Error. A
     cancelled check (asdf_vk.CancelledError) does not change the document.
@@ -104,7 +104,7 @@ def check(obj, limit: float, deviation: float = 0.05, allow_sharp_edges: bool = 
     if not limit > 0 or not deviation > 0:
         raise ValueError("the limit and the deviation are lengths above 0 mm")
     vertices, triangles = triangles_of(obj, deviation)
-    options = {"measure": "thickness", "thinner_than": limit, "allow_sharp_edges": allow_sharp_edges}
+    options = {"measure": "thickness", "thinner_than": limit, "count_details": count_details, "count_edges": count_edges}
     info = asdf_vk.compute(vertices, triangles, progress=progress, **options)
     obj.Document.openTransaction("Check wall thickness")
     try:
@@ -161,13 +161,12 @@ def add_result(obj, vertices, triangles, info, limit: float) -> None:
 
 
 def add_place(document, region, limit: float):
-    """Adds a thin place: a line through the wall, or a point at a sharp edge."""
+    """Adds a thin place: a line through the wall, or a point at a sharp edge. The label has the kind."""
     place, opposite = FreeCAD.Vector(*region.place), FreeCAD.Vector(*region.opposite)
     is_point = place.distanceToPoint(opposite) < 1e-7
     line = document.addObject("Part::Feature", "Place")
     line.Shape = Part.Vertex(place) if is_point else Part.makeLine(place, opposite)
-    kind = "sharp edge" if region.is_sharp else f"wall {length(region.min, limit)}"
-    line.Label = f"{kind} at ({place.x:.4g}, {place.y:.4g}, {place.z:.4g})"
+    line.Label = f"{region.kind} {length(region.min, limit)} at ({place.x:.4g}, {place.y:.4g}, {place.z:.4g})"
     if FreeCAD.GuiUp:
         view = line.ViewObject
         view.LineWidth, view.PointSize, view.LineColor, view.PointColor = 5, 10, RED, RED
@@ -208,11 +207,11 @@ class Panel:
             box.setSuffix(" mm")
             box.setValue(value)
             layout.addRow(text, box)
-        self.sharp = QtGui.QCheckBox("Allow sharp edges")
+        self.details, self.edges = QtGui.QCheckBox("Count details"), QtGui.QCheckBox("Count edges")
         self.button = QtGui.QPushButton(f"Check {obj.Label}")
         self.result, self.places = QtGui.QLabel(""), QtGui.QListWidget()
         self.result.setWordWrap(True)
-        for widget in (self.sharp, self.button, self.result, self.places):
+        for widget in (self.details, self.edges, self.button, self.result, self.places):
             layout.addRow(widget)
         self.button.clicked.connect(self.run)
         self.places.currentRowChanged.connect(self.go_to)
@@ -231,7 +230,8 @@ class Panel:
 
         self.places.clear()
         try:
-            info = check(self.obj, self.limit.value(), self.deviation.value(), self.sharp.isChecked(), progress)
+            counted = {"count_details": self.details.isChecked(), "count_edges": self.edges.isChecked()}
+            info = check(self.obj, self.limit.value(), self.deviation.value(), progress=progress, **counted)
         except Exception as error:
             self.result.setText("cancelled" if type(error).__name__ == "CancelledError" else str(error))
             return
@@ -239,7 +239,7 @@ class Panel:
             dialog.close()
         report = info.thickness
         click = " A click shows a place." if report.regions else ""
-        self.result.setText(f"{summary(report)}; places: {len(report.regions)}.{click}")
+        self.result.setText(f"{report.sentence}.{click}")
         self.objects = result_of(self.obj).Group[1:]
         self.places.addItems([place.Label for place in self.objects])
 

@@ -102,10 +102,15 @@ class WallThickness(SurfaceFilter):
     def SetLimit(self, value: float) -> None:
         self.set_option("thinner_than", value or None)
 
-    @smproperty.intvector(name="AllowSharpEdges", label="Allow Sharp Edges", default_values=0)
+    @smproperty.intvector(name="CountDetails", label="Count Details", default_values=0)
     @smdomain.xml(YES_OR_NO)
-    def SetAllowSharpEdges(self, value: int) -> None:
-        self.set_option("allow_sharp_edges", bool(value) or None)
+    def SetCountDetails(self, value: int) -> None:
+        self.set_option("count_details", bool(value) or None)
+
+    @smproperty.intvector(name="CountEdges", label="Count Edges", default_values=0)
+    @smdomain.xml(YES_OR_NO)
+    def SetCountEdges(self, value: int) -> None:
+        self.set_option("count_edges", bool(value) or None)
 
     def describe(self, surface: vtkPolyData, info: asdf_vk.Info) -> None:
         if self.options.get("thinner_than") is None:

@@ -69,6 +69,7 @@ PYBIND11_MODULE(_core, module) {
   py::register_local_exception_translator(translate);
   module.def("option_names", optionNames);
   module.def("similar_keywords", similarKeywords);
+  module.def("removed_keyword_text", removedKeywordText);
   module.def("session_key", [](const py::dict& values) {
     const SessionSettings session = sessionOf(values);
     return py::make_tuple(session.backend, session.device, session.requireGpu, session.threadCount);

@@ -80,6 +80,8 @@ std::vector<std::string> optionNames() {
   return names;
 }
 
+std::string removedKeywordText(std::string_view name) { return removedOptionText(name, kSpelling); }
+
 std::string similarKeywords(std::string_view name, const std::vector<std::string>& keywords) {
   std::string flag(name);
   std::replace(flag.begin(), flag.end(), '_', '-');

@@ -16,6 +16,8 @@ namespace asdfvk::python {
 [[nodiscard]] SessionSettings sessionOf(const pybind11::dict& values);
 
 [[nodiscard]] std::vector<std::string> optionNames();
+/// The message for a keyword of earlier versions, else an empty text.
+[[nodiscard]] std::string removedKeywordText(std::string_view name);
 /// If an option has this name on the command line, returns its keyword, such as "random_seed" for "rng_seed". Otherwise
 /// returns the result of similarNames().
 [[nodiscard]] std::string similarKeywords(std::string_view name, const std::vector<std::string>& keywords);

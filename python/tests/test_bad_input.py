@@ -197,7 +197,9 @@ def test_wrong_arguments_of_the_other_functions(reference: asdf_vk.Session) -> N
     assert fails(segment(postprocess="x")) and fails(segment(seeds=-1))
     assert fails(thickness(thinner_than=0)) and fails(thickness(thinner_than=float("nan")))
     assert fails(thickness(wall_angle=90)) and fails(thickness(wall_angle=181)) and fails(thickness(per="x"))
-    assert fails(thickness(allow_sharp_edges=True)) and fails(thickness(thinner_than=1, allow_sharp_edges=1))
+    for name in ("count_details", "count_edges"):
+        assert fails(thickness(**{name: True})) and fails(thickness(thinner_than=1, **{name: 1}))
+    assert fails(thickness(thinner_than=1, allow_sharp_edges=True))
 
 
 def test_wrong_files(tmp_path: Any) -> None:

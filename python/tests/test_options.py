@@ -76,6 +76,14 @@ def test_an_unknown_option_has_a_hint() -> None:
         assert str(error.value) == f"there is no option '{name}'{hint}"
 
 
+def test_a_removed_option_has_its_reason() -> None:
+    with pytest.raises(asdf_vk.UsageError) as error:
+        asdf_vk.compute(*cube(), thinner_than=0.5, allow_sharp_edges=True)  # type: ignore[call-arg]
+    assert str(error.value) == (
+        "allow_sharp_edges was removed: thin edges do not count any more; count_edges counts them"
+    )
+
+
 def test_a_number_of_parts_in_the_wrong_place_has_a_hint(reference: asdf_vk.Session) -> None:
     with pytest.raises(asdf_vk.UsageError) as error:
         asdf_vk.segment(*cube(), session=reference, segment=5)  # type: ignore[arg-type]

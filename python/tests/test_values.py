@@ -49,7 +49,8 @@ def test_the_verdict_of_the_thickness() -> None:
     assert report.min_face is not None and values[report.min_face] == pytest.approx(1, rel=1e-6)
     assert report.min_place is not None and report.min_opposite is not None
     assert abs(report.min_place[1] - report.min_opposite[1]) == pytest.approx(1, rel=1e-6)
-    assert len(report.regions) >= 1 and not report.regions[0].is_sharp and report.sharp_edges == ()
+    assert report.sentence.startswith("FAIL: 1 wall thinner than 1.5: 1 at (")
+    assert [region.kind for region in report.regions] == ["wall"] and report.regions[0].least == report.min
     assert report.regions[0].min == report.min and len(report.regions[0].opposite) == 3
     assert report.greatest_section is not None
     assert report.greatest_section.diameter == pytest.approx(1, rel=2e-3)
@@ -60,9 +61,9 @@ def test_the_verdict_of_the_thickness() -> None:
     for seeds in given:
         np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)
     sound = asdf_vk.compute(
-        vertices, faces, measure="thickness", thinner_than=0.5, allow_sharp_edges=True
+        vertices, faces, measure="thickness", thinner_than=0.5, count_edges=True
     ).thickness
-    assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allows_sharp_edges
+    assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.counts_edges
     assert "sdf" not in info.fields and info.ray_count == 0
     both = asdf_vk.compute(vertices, faces, measure="both", thinner_than=0.5)
     np.testing.assert_array_equal(both.fields["sdf"], asdf_vk.shape_diameter(vertices, faces))

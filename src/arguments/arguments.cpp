@@ -67,6 +67,7 @@ ArgumentParser::Entry& ArgumentParser::find(std::string_view name) {
     const std::string& names = entry.argument.names;
     if (entry.argument.name() == name || (name.size() == 2 && names.starts_with(std::string(name) + ","))) return entry;
   }
+  if (const std::string removed = removedText ? removedText(name) : ""; !removed.empty()) refuse(removed);
   std::vector<std::string> known;
   for (const Entry& entry : entries_)
     if (!isPositional(entry.argument)) known.push_back(entry.argument.name());

@@ -45,6 +45,8 @@ class ArgumentParser {
 
   std::string shortHelp;  ///< The answer to --help; empty: help(). The answer to --help=all is always help().
   std::string footer;     ///< Text below the options in help().
+  /// Returns the message for an option of earlier versions, else an empty text. name: with dashes. May be null.
+  std::function<std::string(std::string_view name)> removedText;
 
   /// arguments: the command line without the name of the program. Returns the answer to --help or --version, else an
   /// empty text. Throws Error{OptionOutOfRange} for invalid arguments, and the errors of Argument::receive.

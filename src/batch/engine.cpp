@@ -128,7 +128,7 @@ class Engine {
         monitor_.add(index, std::move(result));
         return !answer.at("isSpent").get<bool>();
       }
-    } else {
+    } else if (!job.output.empty()) {
       const auto folder = std::filesystem::path(job.output).parent_path();
       removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
     }

@@ -38,7 +38,7 @@ std::optional<std::string> outputHashOf(const fs::path& output) {
 bool hasOutputRecord(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);
-  return output != "-" && (fs::is_regular_file(status) || !fs::exists(status));
+  return !output.empty() && output != "-" && (fs::is_regular_file(status) || !fs::exists(status));
 }
 
 fs::path outputRecordPath(const fs::path& output) { return output.string() + ".json"; }

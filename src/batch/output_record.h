@@ -8,7 +8,8 @@
 
 namespace asdfvk {
 
-/// Whether a record is written beside the output. Regular files and new files have a record; "-" has none.
+/// Whether a record is written beside the output. Regular files and new files have a record; "-" and an empty path have
+/// none.
 [[nodiscard]] bool hasOutputRecord(const std::filesystem::path& output);
 
 /// Path of the record beside an output: "horse.asdf.ply.json".

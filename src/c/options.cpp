@@ -43,6 +43,8 @@ GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle
 }
 
 [[noreturn]] void failName(const std::string& name) {
+  if (const std::string removed = removedOptionText(name, kSpelling); !removed.empty())
+    throw Error(ErrorCode::UnknownName, removed, {{"option", name}});
   std::vector<std::string> names;
   for (const OptionRows rows : {computationRows(), sessionRows()})
     for (const OptionRow& row : rows)

@@ -81,7 +81,8 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
 /// Removes temporary files that killed processes left in the folders of the outputs.
 void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
   std::set<fs::path> folders;
-  for (const Job& job : jobs) folders.insert(fs::path(job.output).parent_path());
+  for (const Job& job : jobs)
+    if (!job.output.empty()) folders.insert(fs::path(job.output).parent_path());
   for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 

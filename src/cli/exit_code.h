@@ -18,7 +18,7 @@ enum class ExitCode : int {
   Device = 3,       ///< There is no usable device or the device was lost, and no fallback is allowed.
   Output = 4,       ///< A result or report cannot be written.
   CheckFailed = 5,  ///< --check failed or had no traced face to compare; or --fail-if-thinner could not be judged.
-  TooThin = 6,      ///< A point of the surface is thinner than --fail-if-thinner.
+  TooThin = 6,      ///< A wall is thinner than --fail-if-thinner.
   SomeFailed = 7,   ///< Some of several meshes failed; the others are done.
   Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
   Internal = 70,    ///< A defect of the program.

@@ -86,7 +86,7 @@ MeshRecord JobRecords::begin(const Job& job) const {
 JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
                              const std::optional<MeshRecord>& old) const {
   if (run.report) fillRecord(record, *run.report);
-  if (run.hasResult) record.output = job.output;
+  if (run.hasResult && !job.output.empty()) record.output = job.output;
   if (run.failure) fillRecord(record, *run.failure);
   if (!run.failure && settings_.isOfBatch) {
     try {

@@ -124,7 +124,7 @@ class MeshFiles {
 
   void requireWritable() const {
     if (settings_.makesFolders) makeFolderOf(output_);
-    requireWritablePlace(output_);
+    if (!output_.empty()) requireWritablePlace(output_);
     if (settings_.isOfBatch && hasOutputRecord(output_)) requireWritablePlace(outputRecordPath(output_).string());
     for (const std::string& further : {settings_.outputs.picture, settings_.outputs.points})
       if (!further.empty()) requireWritablePlace(further);
@@ -141,8 +141,9 @@ class MeshFiles {
     return work(control);
   }
 
-  /// Precondition: the output is not a page.
+  /// Writes nothing if the output is empty. Precondition: the output is not a page.
   void writeResult(Mesh& mesh, const Options& options, const Result& result) const {
+    if (output_.empty()) return;
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
     flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has its own copy of the faces.
     const AwaitedReader reader(output_, stop_);
@@ -172,7 +173,7 @@ class MeshFiles {
   const std::stop_token stop_;
 };
 
-/// Adds warnings, reports and failed checks. Precondition: the result was written.
+/// Adds warnings, reports and failed checks. Precondition: the result was written, unless there is no output.
 void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   const Report& report = outcome.result.report;
   const bool showsReport = !outcome.outputs.quiet && !isOfBatch;

@@ -50,8 +50,8 @@ struct LoadedMesh {
 /// Outcome of a mesh. `json` and `text` are empty or consist of complete lines.
 struct MeshRun {
   std::optional<Failure> failure;  ///< The first failure, or the cancellation.
-  std::optional<Report> report;    ///< Set if the result was written.
-  bool hasResult = false;          ///< Whether a result was written.
+  std::optional<Report> report;    ///< Set if the mesh was computed, and its result was written.
+  bool hasResult = false;          ///< Whether the mesh was computed, and its result was written.
   std::string json;                ///< Lines of --json.
   std::string text;                ///< Errors. Outside of batches and without --quiet, also warnings and the report.
 
@@ -64,9 +64,9 @@ struct SharedPage {
   std::string name;  ///< Name of the mesh in the page.
 };
 
-/// Computes a mesh and writes its result. Failures are returned in the MeshRun. A stop request or the expiry of
-/// `deadline` ends the computation. showsBar: shows a progress bar if standard error is a terminal. sharedPage: if not
-/// null, receives the result instead of the file `output`.
+/// Computes a mesh and writes its result. output: empty for no result. Failures are returned in the MeshRun. A stop
+/// request or the expiry of `deadline` ends the computation. showsBar: shows a progress bar if standard error is a
+/// terminal. sharedPage: if not null, receives the result instead of the file `output`.
 [[nodiscard]] MeshRun computeMesh(Session& session, const std::string& input, const std::string& output,
                                   LoadedMesh loaded, const MeshSettings& settings, const Deadline& deadline,
                                   bool showsBar, const SharedPage* sharedPage = nullptr);

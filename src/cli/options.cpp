@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -158,6 +159,16 @@ void completeFields(CommandLine& line) {
   }
 }
 
+/// A run for a verdict writes a result only if an option about the result is given.
+void completeResult(CommandLine& line, const GivenOptions& given) {
+  constexpr std::array kAboutResult{"output", "format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
+  line.outputs.writesResult =
+      !line.computation.failIfThinner ||
+      std::any_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  if (!line.outputs.writesResult && line.batch.skipsExisting)
+    refuseOptions("--skip-existing looks for results, but --fail-if-thinner writes none without -o; give -o");
+}
+
 void completePage(CommandLine& line) {
   Outputs& outputs = line.outputs;
   if (outputs.opensPage && outputs.path.empty() && outputs.format.empty()) outputs.format = kPageFormat;
@@ -240,6 +251,7 @@ ArgumentParser parserOf(CommandLine& line) {
                         std::move(arguments));
   parser.shortHelp = kHelp;
   parser.footer = footer();
+  parser.removedText = [](std::string_view name) { return removedOptionText(name, OptionSpelling::Flag); };
   return parser;
 }
 
@@ -260,6 +272,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   requireValid(line.session, given.spelling);
   for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
   completeFields(line);
+  completeResult(line, given);
   completePage(line);
   completeBatch(line, given);
   validateOptions(line);

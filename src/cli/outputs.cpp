@@ -64,6 +64,7 @@ bool takesFolder(const Outputs& outputs, const BatchOptions& batch) {
 
 std::string planOutput(const InputFile& input, const Outputs& outputs, const BatchOptions& batch) {
   const std::string& mesh = input.path;
+  if (!outputs.writesResult) return {};
   if (outputs.path == "-") return "-";
   if (takesFolder(outputs, batch))
     return (fs::path(outputs.path) / input.folder / resultName(mesh, outputs.format)).string();
@@ -145,6 +146,10 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   for (const InputFile& file : files) {
     const std::string& mesh = file.path;
     const std::string output = planOutput(file, outputs, batch);
+    if (output.empty()) {
+      paths.emplace_back();
+      continue;
+    }
     const std::string format = writesPages(outputs) ? kPageFormat : plannedFormat(output, options);
     if (outputs.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (outputs.coloursVertices && format != "ply") usageError("--vertex-colours is for PLY only; drop it");
@@ -173,7 +178,8 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   };
   for (size_t i = 0; i < (sharePage ? 1 : paths.size()); ++i) {
     plan(paths[i], "the result of " + files[i].path, "-o");
-    if (batch.isBatch()) plan(outputRecordPath(paths[i]).string(), "the record of " + paths[i], "-o");
+    if (batch.isBatch() && !paths[i].empty())
+      plan(outputRecordPath(paths[i]).string(), "the record of " + paths[i], "-o");
   }
   plan(outputs.picture, "the picture", "--picture");
   plan(outputs.points, "the points", "--points");

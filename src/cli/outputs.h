@@ -25,6 +25,8 @@ struct Outputs {
   std::string pictureOf;  ///< Name of the field that the picture shows; empty: see shownField().
   View pictureView;
   bool choosesView = false;  ///< Whether --picture-view is given.
+  /// False: the run writes no result. True with -o or another option about the result, and without --fail-if-thinner.
+  bool writesResult = true;
   std::string points;      ///< Path of the .ply or .swc file of skeleton points, "-" for standard output; empty: none.
   bool opensPage = false;  ///< Opens the page in the browser.
   bool json = false;
@@ -67,10 +69,10 @@ inline constexpr const char* kPageFormat = "html";
 
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
 
-/// Returns the path of the result of each input, "-" for standard output. If BatchOptions::hasTree(), results are in a
-/// tree below -o, whose folders need not exist. Throws Error{OptionConflict} in three cases: two outputs (results,
-/// records, log, picture, points) have the same path; an output is also an input; several meshes have one output that
-/// is not a page.
+/// Returns the path of the result of each input, "-" for standard output, empty for no result. If
+/// BatchOptions::hasTree(), results are in a tree below -o, whose folders need not exist. Throws Error{OptionConflict}
+/// in three cases: two outputs (results, records, log, picture, points) have the same path; an output is also an input;
+/// several meshes have one output that is not a page.
 [[nodiscard]] std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                                    std::span<const InputFile> inputs);
 

@@ -103,7 +103,7 @@ const std::array kOutputRows{
                       "results of all meshes in a browser",
               .more = "[page.md](page.md) and [formats.md](formats.md) describe the formats.",
               .placeholder = "FILE|DIR|-",
-              .defaultText = "NAME.asdf.ply beside the input",
+              .defaultText = "NAME.asdf.ply beside the input; none with --fail-if-thinner",
               .flags = "-o,--output",
               .wanted = "a name",
               .read = readName<&Outputs::path>,

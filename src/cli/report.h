@@ -18,7 +18,7 @@ namespace asdfvk {
 
 struct MeshOutcome {
   const std::string& mesh;    ///< Path of the mesh, as on the command line.
-  const std::string& output;  ///< Path of the result; "-" for standard output.
+  const std::string& output;  ///< Path of the result; "-" for standard output; empty: none.
   const ComputationSettings& computation;
   const SessionSettings& session;
   const Outputs& outputs;

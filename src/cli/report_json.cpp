@@ -53,7 +53,7 @@ Json defaultsOf(const DeviceReport& report) {
 std::string jsonReport(const MeshOutcome& outcome) {
   const auto orNull = [](const std::string& path) { return path.empty() ? Json(nullptr) : Json(path); };
   Json json{{"mesh", outcome.mesh},
-            {"output", outcome.output},
+            {"output", orNull(outcome.output)},
             {"picture", orNull(outcome.outputs.picture)},
             {"points", orNull(outcome.outputs.points)}};
   Report report = outcome.result.report;

@@ -12,10 +12,11 @@ std::string textReport(const MeshOutcome& outcome) {
   ReportRows rows = outcome.outputs.verbose ? reportRows(report, OptionSpelling::Flag)
                                             : shortReportRows(report, OptionSpelling::Flag);
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
-  std::string files = placeText(outcome.output);
-  if (!outcome.outputs.points.empty()) files += ", points " + placeText(outcome.outputs.points);
-  if (!outcome.outputs.picture.empty()) files += ", picture " + placeText(outcome.outputs.picture);
-  rows.emplace_back("output", files);
+  std::vector<std::string> files;
+  if (!outcome.output.empty()) files.push_back(placeText(outcome.output));
+  if (!outcome.outputs.points.empty()) files.push_back("points " + placeText(outcome.outputs.points));
+  if (!outcome.outputs.picture.empty()) files.push_back("picture " + placeText(outcome.outputs.picture));
+  if (!files.empty()) rows.emplace_back("output", joined(files, ", "));
   std::string text = fmt::format("{}: {}\n", outcome.mesh, rows.front().second);
   for (size_t i = 1; i < rows.size(); ++i) text += fmt::format("  {:<9} {}\n", rows[i].first, rows[i].second);
   return text;

@@ -1,6 +1,8 @@
 // One row per option of a computation.
 #include "describe/computation_options.h"
 
+#include <fmt/core.h>
+
 #include <array>
 
 #include "describe/option_values.h"
@@ -215,8 +217,8 @@ const std::array kComputationRows{
                   }},
     OptionRow{.name = "fail-if-thinner",
               .range = above(0),
-              .text = "Like --thinner-than, but with exit codes: 6 if a point is thinner than T, 5 if parts of the "
-                      "surface cannot be judged",
+              .text = "Like --thinner-than, but with exit codes: 6 if a wall is thinner than T, 5 if parts of the "
+                      "surface cannot be judged. Without -o, no result is written",
               .placeholder = "T",
               .defaultText = "-",
               .keyword = "",
@@ -313,6 +315,15 @@ const std::array kComputationRows{
 OptionRows computationRows() {
   static const auto rows = withGroups(kComputationRows);
   return rows;
+}
+
+std::string removedOptionText(std::string_view name, OptionSpelling spelling) {
+  constexpr std::array kRemoved{
+      RemovedOption{"allow-sharp-edges", "thin edges do not count any more; {count-edges} counts them"}};
+  for (const RemovedOption& removed : kRemoved)
+    if (name == spelled(OptionRow{.name = removed.name}, spelling))
+      return fmt::format("{} was removed: {}", name, withSpelledOptions(computationRows(), removed.message, spelling));
+  return {};
 }
 
 }  // namespace asdfvk

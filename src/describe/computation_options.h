@@ -26,6 +26,10 @@ inline constexpr const char* kExperimentGroup = "Experiments (the defaults are b
 [[nodiscard]] ASDFVK_API OptionRows computationRows();
 [[nodiscard]] ASDFVK_API OptionRows sessionRows();
 
+/// A message such as "--allow-sharp-edges was removed: ...; --count-edges counts them" for an option of earlier
+/// versions, else an empty text. name: the name in the spelling.
+[[nodiscard]] ASDFVK_API std::string removedOptionText(std::string_view name, OptionSpelling spelling);
+
 /// Applies what the given options imply; idempotent. Throws Error{OptionOutOfRange}, Error{UnknownName}, and
 /// Error{OptionConflict} if given options have no effect or contradict each other.
 ASDFVK_API void complete(ComputationSettings& computation, const GivenOptions& given);

@@ -130,6 +130,12 @@ template <size_t N>
   return rows;
 }
 
+/// An option of earlier versions.
+struct RemovedOption {
+  const char* name;     ///< "allow-sharp-edges"
+  const char* message;  ///< What has changed, and what to do. Options of the computation are in braces.
+};
+
 /// Null if there is no such row.
 [[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
 

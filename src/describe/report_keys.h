@@ -16,8 +16,8 @@ inline constexpr std::array kStageNames{"read", "geometry", "graph", "bvh", "enc
 inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "missingValues",
     "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged", "rangeDominated", "thinShell",
     "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts", "coarseParts"};
-inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
 inline constexpr std::array kThinKindNames{"wall", "detail", "edge"};
+inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
 template <typename Visit, typename... Members>
@@ -46,9 +46,9 @@ ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShare
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, selfCrossedCount)
 ASDFVK_KEYS(SectionBall, diameter, centre)
 ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, least, angleDegrees, width, faceCount, area, areaShare)
-ASDFVK_KEYS(ThicknessReport, verdict, thinnerThan, countsDetails, countsEdges, min, minFace, minPlace, minOpposite, percentile1,
-            percentile5, median, percentile95, max, noValueCount, unjudged, greatestSection, thinArea,
-            thinAreaShare, regions)
+ASDFVK_KEYS(ThicknessReport, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace, minPlace,
+            minOpposite, percentile1, percentile5, median, percentile95, max, noValueCount, unjudged, greatestSection,
+            thinArea, thinAreaShare, regions)
 ASDFVK_KEYS(WorstFace, face, error)
 ASDFVK_KEYS(ErrorEstimate, average, standardError, robustAverage, relativeMedian, relativePercentile90,
             relativeMedianStandardError, heldOutCount, worstFaces)

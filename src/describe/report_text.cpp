@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "core/text.h"
 #include "describe/computation_options.h"
@@ -149,14 +151,15 @@ std::string timeRow(const StageSeconds& seconds) {
   return fmt::format("{:.3g} s{}", sum, stages);
 }
 
-/// The rows of the full report without the list of thin regions. Titles are capitalised. A row that continues another
+/// The rows of the full report without the lists of thin regions. Titles are capitalised. A row that continues another
 /// row is appended to that row.
 ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spelling) {
   ReportRows summary;
+  constexpr std::array kListed{"walls", "details", "edges"};
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
     if (!showsTimes && (title == "time" || title == "rate")) continue;
-    if (!title.empty()) isThinRow = title == "thin";
+    if (!title.empty()) isThinRow = std::find(kListed.begin(), kListed.end(), title) != kListed.end();
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;
       continue;
@@ -190,9 +193,12 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
   bool hasDiameter = true;
   if (report.thickness) {
     rows = shortThicknessRows(*report.thickness, spelling);
-    rows.emplace_back(
-        "mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}", counted(report.faceCount, "face"),
-                            report.size.x, report.size.y, report.size.z, report.unit.empty() ? "" : " " + report.unit));
+    if (std::string question = unitQuestion(report); !question.empty())
+      rows.emplace_back("unit", std::move(question));
+    else
+      rows.emplace_back("mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}",
+                                            counted(report.faceCount, "face"), report.size.x, report.size.y,
+                                            report.size.z, report.unit.empty() ? "" : " " + report.unit));
     // Parts and the result of a check were asked for, so they come before the diameter if there is not room for all.
     const size_t askedCount = (report.segmentCount ? 1U : 0U) + (report.check ? 1U : 0U);
     hasDiameter = report.seedCount > 0 && rows.size() + askedCount < kMaxRows;

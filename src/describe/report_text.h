@@ -27,17 +27,27 @@ struct ReportTexts {
   std::string errorSentence;  ///< The origin of the values and their expected errors.
   std::vector<std::string> warnings, defects;
 };
-/// The summary has the rows of the full report without the list of thin regions, which a page has elsewhere.
+/// The summary has the rows of the full report without the lists of thin regions, which a page has elsewhere.
 /// showsTimes: if false, the texts depend on mesh and options only.
 [[nodiscard]] ReportTexts reportTexts(const Report& report, bool showsTimes, OptionSpelling spelling);
 
-/// Verdict, unjudged faces, size, thin regions, sharp edges and more. Precondition: report.thickness is set.
+/// Verdict, unjudged faces, size, thin regions and more. Precondition: report.thickness is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report, OptionSpelling spelling);
 
-/// At most three rows. The first has the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12"; without
-/// a limit, the first row has the least thickness. The second has the numbers of unjudged faces, if there are any. The
-/// last has the thickness and the thin regions.
+/// The verdict, such as "FAIL: 2 walls thinner than 0.8: 0.3 at (0, 1, 2), face 12"; without a limit, the least wall.
+/// hasPlaces: if false, the sentence has no coordinates, for pictures.
+[[nodiscard]] std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces = true);
+
+/// The word "PASS", "FAIL" or "NOT JUDGED", with which verdictSentence() begins.
+[[nodiscard]] const char* verdictWord(ThicknessVerdict verdict);
+
+/// At most three rows. The first is the verdictSentence(). The second has the numbers of unjudged faces, if there are
+/// any. The last has the thickness and the share of the thin area.
 [[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling);
+
+/// The question for the unit if the check fails at nearly the whole surface and the file states no unit: "the part is 2
+/// x 1 x 0.05: inches or metres?". Empty otherwise. Precondition: report.thickness is set.
+[[nodiscard]] std::string unitQuestion(const Report& report);
 
 /// One line: "the check failed: " and the reason.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);

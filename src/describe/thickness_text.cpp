@@ -22,10 +22,10 @@ std::string placeText(const Vec3d& point, uint64_t face) {
   return fmt::format("at {}, face {}", pointText(point), face);
 }
 
-/// The least thickness: "0.3 at (1, 2, 3), face 12". Precondition: there is one.
-std::string leastText(const ThicknessReport& thickness) {
-  return fmt::format("{} {}", lengthText(thickness.min, thickness.thinnerThan),
-                     placeText(*thickness.minPlace, *thickness.minFace));
+/// The least thickness: "0.3 at (1, 2, 3), face 12", or "0.3". Precondition: there is one.
+std::string leastText(const ThicknessReport& thickness, bool hasPlace) {
+  const std::string value = lengthText(thickness.min, thickness.thinnerThan);
+  return hasPlace ? fmt::format("{} {}", value, placeText(*thickness.minPlace, *thickness.minFace)) : value;
 }
 
 struct KindCount {
@@ -86,23 +86,6 @@ std::string regionText(const ThinRegion& region, const ThicknessReport& thicknes
                      pointText(region.place), pointText(region.opposite), region.minFace, beside, size);
 }
 
-std::string verdictOf(const ThicknessReport& thickness) {
-  const bool hasLeast = !std::isnan(thickness.min);
-  if (!thickness.verdict) return hasLeast ? "least wall " + leastText(thickness) : "no thickness";
-  const std::string limit = limitText(*thickness.thinnerThan), others = kindsText(thickness, false);
-  const std::string notCounted = others.empty() ? "" : fmt::format("; {} not counted", others);
-  switch (*thickness.verdict) {
-    case ThicknessVerdict::Failed:
-      return fmt::format("FAIL: {} thinner than {}: {}", kindsText(thickness, true), limit, leastText(thickness));
-    case ThicknessVerdict::Passed:
-      return fmt::format("PASS: {} thinner than {}{}{}", thickness.countsEdges ? "nowhere" : "no wall", limit,
-                         hasLeast ? "; the next is " + leastText(thickness) : "", notCounted);
-    case ThicknessVerdict::NotJudged:
-      break;
-  }
-  return fmt::format("NOT JUDGED: no wall thinner than {} was found{}", limit, notCounted);
-}
-
 /// Adds a row with title and heading, then rows for at most kListedCount items.
 template <typename Item>
 void addList(const std::string& title, const std::string& heading, const std::vector<Item>& items,
@@ -132,8 +115,31 @@ void addRegions(const ThicknessReport& thickness, OptionSpelling spelling, Repor
 
 }  // namespace
 
+const char* verdictWord(ThicknessVerdict verdict) {
+  constexpr std::array kWords{"PASS", "FAIL", "NOT JUDGED"};
+  return kWords[static_cast<size_t>(verdict)];
+}
+
+std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces) {
+  const std::string least = std::isnan(thickness.min) ? "" : leastText(thickness, hasPlaces);
+  if (!thickness.verdict) return least.empty() ? "no thickness" : "least wall " + least;
+  const std::string limit = limitText(*thickness.thinnerThan), others = kindsText(thickness, false);
+  const std::string begin = std::string(verdictWord(*thickness.verdict)) + ": ";
+  const std::string notCounted = others.empty() ? "" : fmt::format("; {} not counted", others);
+  switch (*thickness.verdict) {
+    case ThicknessVerdict::Failed:
+      return begin + fmt::format("{} thinner than {}: {}", kindsText(thickness, true), limit, least);
+    case ThicknessVerdict::Passed:
+      return begin + fmt::format("{} thinner than {}{}{}", thickness.countsEdges ? "nowhere" : "no wall", limit,
+                                 least.empty() ? "" : "; the next is " + least, notCounted);
+    case ThicknessVerdict::NotJudged:
+      break;
+  }
+  return begin + fmt::format("no wall thinner than {} was found{}", limit, notCounted);
+}
+
 ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling) {
-  ReportRows rows{{"verdict", verdictOf(thickness)}};
+  ReportRows rows{{"verdict", verdictSentence(thickness)}};
   const bool hasValues = !std::isnan(thickness.median);
   const UnjudgedFaces& unjudged = thickness.unjudged;
   if (!hasValues || unjudged.preventVerdict())
@@ -149,9 +155,20 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling s
   return rows;
 }
 
+std::string unitQuestion(const Report& report) {
+  constexpr double kThinEverywhere = 0.9;
+  const ThicknessReport& thickness = *report.thickness;
+  const bool isSuspect = report.unit.empty() && thickness.verdict == ThicknessVerdict::Failed &&
+                         thickness.thinAreaShare >= kThinEverywhere;
+  return isSuspect ? fmt::format("the part is {:.6g} x {:.6g} x {:.6g}: inches or metres?", report.size.x,
+                                 report.size.y, report.size.z)
+                   : "";
+}
+
 ReportRows thicknessRows(const Report& report, OptionSpelling spelling) {
   const ThicknessReport& thickness = *report.thickness;
-  ReportRows rows{{"verdict", verdictOf(thickness)}};
+  ReportRows rows{{"verdict", verdictSentence(thickness)}};
+  if (std::string question = unitQuestion(report); !question.empty()) rows.emplace_back("unit", std::move(question));
   for (auto& row : unjudgedRows(thickness.unjudged, spelling)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));

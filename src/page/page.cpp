@@ -17,10 +17,14 @@ namespace asdfvk {
 namespace {
 
 Json describe(const PageThinPlaces& thin) {
-  Json json{{"limit", number(thin.limit)}, {"verdict", thin.verdict}, {"regions", Json::array()}};
+  Json json{{"limit", number(thin.limit)},         {"verdict", thin.verdict},         {"sentence", thin.sentence},
+            {"countsDetails", thin.countsDetails}, {"countsEdges", thin.countsEdges}, {"regions", Json::array()}};
   for (const ThinRegion& region : thin.regions)
     json["regions"].push_back({{"face", region.minFace},
                                {"value", number(region.min)},
+                               {"least", number(region.least)},
+                               {"angleDegrees", number(region.angleDegrees)},
+                               {"width", number(region.width)},
                                {"area", number(region.area)},
                                {"areaShare", number(region.areaShare)},
                                {"faceCount", region.faceCount},

@@ -28,7 +28,9 @@ using FieldSpan = std::span<const std::reference_wrapper<const Field>>;
 /// Result of comparing the thickness with a limit.
 struct PageThinPlaces {
   double limit = 0;
-  std::string verdict;  ///< "passed", "failed" or "notJudged".
+  std::string verdict;   ///< "passed", "failed" or "notJudged".
+  std::string sentence;  ///< ThicknessReport::sentence.
+  bool countsDetails = false, countsEdges = false;
   std::vector<ThinRegion> regions;
   ThinSurface surface;
 };

@@ -40,7 +40,13 @@ void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fiel
                const RunControl& control) {
   if (comparesThickness(result)) {
     const ThicknessReport& thickness = *result.report.thickness;
-    texts.thin = {*thickness.thinnerThan, nameOf(*thickness.verdict), thickness.regions, result.thinSurface};
+    texts.thin = {.limit = *thickness.thinnerThan,
+                  .verdict = nameOf(*thickness.verdict),
+                  .sentence = verdictSentence(thickness),
+                  .countsDetails = thickness.counts(ThinKind::Detail),
+                  .countsEdges = thickness.countsEdges,
+                  .regions = thickness.regions,
+                  .surface = result.thinSurface};
   }
   texts.up = nameOf(kUps, view.up);
   texts.azimuthDegrees = view.azimuthDegrees;

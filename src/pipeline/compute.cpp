@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "describe/computation_options.h"
 #include "describe/fields.h"
+#include "describe/report_text.h"
 #include "estimate/reference_check.h"
 #include "pipeline/aggregated_mesh.h"
 #include "pipeline/input_face_values.h"
@@ -108,6 +109,7 @@ void measureThickness(Result& result, const Computation& computation, const RunC
   result.fields.push_back(makeField("thickness", thicknessOfInputFaces(mesh, thickness.atBarycentre)));
   result.fields.push_back(makeField("least_thickness", thicknessOfInputFaces(mesh, thickness.least)));
   result.report.thickness = describeThickness(computation, thickness, result.thinSurface);
+  result.report.thickness->sentence = verdictSentence(*result.report.thickness);
 }
 
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {

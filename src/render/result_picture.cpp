@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "describe/report_text.h"
 #include "io/formats.h"
 #include "render/picture.h"
 #include "trace/scene_data.h"
@@ -32,20 +33,12 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// The legend of the thin places, for example "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3", or
-/// "no wall thinner than 0.8; the next is 1.2".
+/// The legend of the thin places: the sentence of the report without verdict and coordinates, for example "2 walls
+/// thinner than 0.8: 0.3 (pale: behind a wall)", or "no wall thinner than 0.8; the next is 1.2".
 std::string legendOf(const ThicknessReport& thickness) {
-  const std::string limit = "thinner than " + limitText(*thickness.thinnerThan);
-  const std::string value = std::isnan(thickness.min) ? "" : lengthText(thickness.min, thickness.thinnerThan);
-  if (thickness.verdict != ThicknessVerdict::Failed)
-    return fmt::format("{}no wall {}{}", thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, " : "",
-                       limit, value.empty() ? "" : "; the next is " + value);
-  return fmt::format("{} (pale: behind a wall): {}, least {}", limit, counted(thickness.regions.size(), "place"),
-                     value);
-}
-
-std::string verdictText(ThicknessVerdict verdict) {
-  return verdict == ThicknessVerdict::Passed ? "PASS" : verdict == ThicknessVerdict::Failed ? "FAIL" : "NOT JUDGED";
+  const std::string sentence = verdictSentence(thickness, false);
+  const size_t begin = std::string(verdictWord(*thickness.verdict)).size() + 2;
+  return sentence.substr(begin) + (thickness.regions.empty() ? "" : " (pale: behind a wall)");
 }
 
 /// Callouts of the first kMaxCount regions. In ThicknessReport::regions, walls are first.
@@ -55,8 +48,8 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   for (const ThinRegion& region : thickness.regions) {
     if (callouts.size() == kMaxCount) break;
     const std::string value = lengthText(region.min, thickness.thinnerThan);
-    callouts.push_back(
-        {region.place, region.opposite, region.kind == ThinKind::Edge ? fmt::format("edge {}", value) : value});
+    callouts.push_back({region.place, region.opposite,
+                        region.kind == ThinKind::Wall ? value : fmt::format("{} {}", nameOf(region.kind), value)});
   }
   return callouts;
 }
@@ -65,7 +58,7 @@ Image thinPictureOf(const Result& result, const View& view, const PictureStyle& 
   const ThicknessReport& thickness = *result.report.thickness;
   ThinPlaces places{.surface = result.thinSurface.triangles,
                     .callouts = calloutsOf(thickness),
-                    .verdict = verdictText(*thickness.verdict),
+                    .verdict = verdictWord(*thickness.verdict),
                     .isFailure = thickness.verdict != ThicknessVerdict::Passed};
   Picture picture = pictureWith(result, legendOf(thickness), view, style);
   picture.thinPlaces = std::move(places);

@@ -163,6 +163,8 @@ TEST_CASE("options have names, values and the objects that they belong to") {
   const Owned<asdf_vk_options> options = optionsOfC({{"estimate", "off"}, {"rays", "20"}});
   const auto set = [&](const char* name, const char* value) { return asdf_vk_options_set(options.get(), name, value); };
   CHECK_FAILS(set("seed", "1"), ASDF_VK_USAGE, "unknownName", "did you mean seeds or rng-seed?");
+  CHECK_FAILS(set("allow-sharp-edges", "on"), ASDF_VK_USAGE, "unknownName",
+              "allow-sharp-edges was removed: thin edges do not count any more; count-edges counts them");
   CHECK_FAILS(set("fail-if-thinner", "1"), ASDF_VK_USAGE, "unknownName", "no option 'fail-if-thinner'");
   CHECK_FAILS(set("rays", "0"), ASDF_VK_USAGE, "optionOutOfRange", "rays: '0' is not a whole number from 1 to 1024");
   CHECK_FAILS(set("estimate", "maybe"), ASDF_VK_USAGE, "optionOutOfRange", "estimate: 'maybe' is not on or off");

@@ -208,7 +208,7 @@ TEST_CASE("the options of a report repeat the run") {
        "12345678901234567890"},
       {"--recipe", "paper", "--max-error", "3%rel", "--sampler", "adaptive", "--check=all"},
       {"--definition", "cgal", "--segment", "cgal", "--clusters", "7", "--per", "vertex"},
-      {"--thinner-than", "0.1", "--allow-sharp-edges", "--wall-angle", "130", "--orient", "auto"},
+      {"--thinner-than", "0.1", "--count-edges", "--wall-angle", "130", "--orient", "auto"},
       {"--no-estimate", "--seeds", "50", "--smooth", "2x1", "--tolerance", "1e-5", "--fields", "centre"}};
   for (std::vector<std::string> arguments : calls) {
     CAPTURE(arguments.front());
@@ -226,7 +226,7 @@ TEST_CASE("the options of a report repeat the run") {
       else
         setOptionText(row, &again, textOf(value));
     }
-    if (!again.options.thickness.thinnerThan) given.names.erase("allow-sharp-edges");
+    if (!again.options.thickness.thinnerThan) given.names.erase("count-edges");
     complete(again, given);
     CHECK_EQ(optionValues(again, line.session), reported);
   }

@@ -24,13 +24,13 @@ TEST_CASE("a limit implies the measure, and nothing about the seeds") {
     CHECK(line.computation.options.seeds.share == plain.computation.options.seeds.share);
     CHECK(line.computation.options.seeds.kind == plain.computation.options.seeds.kind);
     CHECK_EQ(line.computation.options.thickness.thinnerThan.value(), 0.5);
-    CHECK_FALSE(line.computation.options.thickness.allowsSharpEdges);
+    CHECK_FALSE(line.computation.options.thickness.countsDetails);
+    CHECK_FALSE(line.computation.options.thickness.countsEdges);
     CHECK_EQ(fieldNames(line.outputs, line.computation.options),
              std::vector<std::string>{"thickness", "least_thickness"});
     CHECK_FALSE(line.computation.options.measuresDiameter());
     CHECK(line.outputs.pictureOf.empty());  // The thin places.
-    CHECK(parseCommandLine({"a.ply", option, "0.5", "--allow-sharp-edges"})
-              .computation.options.thickness.allowsSharpEdges);
+    CHECK(parseCommandLine({"a.ply", option, "0.5", "--count-edges"}).computation.options.thickness.countsEdges);
   }
   const CommandLine ofFields = parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"});
   CHECK_EQ(ofFields.outputs.fields, std::vector<std::string>{"sdf"});
@@ -53,8 +53,10 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
   };
   isRefused({"a.ply", "--wall-angle", "120"}, "--wall-angle needs --measure thickness");
   isRefused({"a.ply", "--measure", "sdf", "--thinner-than", "1"}, "contradicts --measure sdf");
-  isRefused({"a.ply", "--allow-sharp-edges"}, "--allow-sharp-edges needs --thinner-than");
-  isRefused({"a.ply", "--measure", "thickness", "--allow-sharp-edges"}, "--allow-sharp-edges needs --thinner-than");
+  isRefused({"a.ply", "--count-edges"}, "--count-edges needs --thinner-than");
+  isRefused({"a.ply", "--measure", "thickness", "--count-details"}, "--count-details needs --thinner-than");
+  isRefused({"a.ply", "--thinner-than", "1", "--allow-sharp-edges"},
+            "--allow-sharp-edges was removed: thin edges do not count any more; --count-edges counts them");
   for (const char* limit : {"0.5", "2"})
     isRefused({"a.ply", "--thinner-than", "1", "--fail-if-thinner", limit}, "have different limits");
   for (const std::string field : {"thickness", "least_thickness"}) {
@@ -84,7 +86,8 @@ TEST_CASE("the document has the verdict, the percentiles and the regions") {
   CHECK(thickness.at("minFace").get<int>() < 12);
   CHECK_EQ(thickness.at("greatestSection").at("diameter").get<double>(), doctest::Approx(1).epsilon(2e-3));
   CHECK_EQ(thickness.at("noValueCount"), 0);
-  CHECK(thickness.at("sharpEdges").empty());
+  const std::string sentence = thickness.at("sentence");
+  CHECK_MESSAGE(sentence.starts_with("FAIL: 1 wall thinner than 1.5: 1 at ("), sentence);
   CHECK_EQ(thickness.at("unjudged").at("openCount"), 0);
   REQUIRE_EQ(thickness.at("regions").size(), 1);
   const Json& region = thickness.at("regions").at(0);
@@ -92,13 +95,14 @@ TEST_CASE("the document has the verdict, the percentiles and the regions") {
   CHECK_EQ(region.at("area").get<double>(), doctest::Approx(6));
   CHECK_EQ(region.at("areaShare").get<double>(), doctest::Approx(1));
   CHECK_EQ(region.at("min").get<double>(), doctest::Approx(1));
-  CHECK_FALSE(region.at("isSharp").get<bool>());
+  CHECK_EQ(region.at("kind"), "wall");
   CHECK_EQ(region.at("place").size(), 3);
   CHECK_EQ(region.at("opposite").size(), 3);
   CHECK_EQ(json.at("options").at("measure"), "thickness");
   CHECK_EQ(json.at("options").at("thinnerThan"), 1.5);
   CHECK(json.at("options").at("failIfThinner").is_null());
-  CHECK_EQ(json.at("options").at("allowSharpEdges"), false);
+  CHECK_EQ(json.at("options").at("countDetails"), false);
+  CHECK_EQ(json.at("options").at("countEdges"), false);
   CHECK_EQ(json.at("options").at("wallAngleDegrees"), 120);
   CHECK(json.at("stageSeconds").at("thickness").get<double>() > 0);
   CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,thickness,least_thickness");
@@ -117,7 +121,7 @@ TEST_CASE("a mesh that is thinner than allowed ends with 6, one that cannot be j
   const ScratchFolder folder;
   const std::string cube = folder.write("cube.off", cubeOff());
   const ChildOutcome thin = runThickness({cube, "--fail-if-thinner", "1.5", "-o", folder / "thin.csv", "--json"});
-  checkFailure(thin, 6, "FAIL: thinner than 1.5: 1 at (");
+  checkFailure(thin, 6, "FAIL: 1 wall thinner than 1.5: 1 at (");
   CHECK_FALSE(folder.read("thin.csv").empty());
   CHECK_EQ(Json::parse(thin.output).at("thickness").at("regions").size(), 1);
   CHECK_EQ(runThickness({cube, "--fail-if-thinner", "0.9", "-o", folder / "out.csv"}).exitCode, 0);
@@ -129,7 +133,7 @@ TEST_CASE("a mesh that is thinner than allowed ends with 6, one that cannot be j
   CHECK_EQ(runThickness({sphere, cube, "--fail-if-thinner", "1.5"}).exitCode, 6);
   const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   const ChildOutcome none = runThickness({open, "--fail-if-thinner", "1", "-o", folder / "open.csv"});
-  checkFailure(none, 5, "NOT JUDGED: none of the judged faces is thinner than 1; unjudged faces: 1 of open components");
+  checkFailure(none, 5, "NOT JUDGED: no wall thinner than 1 was found; unjudged faces: 1 of open components");
   CHECK_FALSE(folder.read("open.csv").empty());
 }
 
@@ -144,12 +148,58 @@ TEST_CASE("the report begins with the verdict") {
   };
   const std::string thin = reportBelow("1.5"), sound = reportBelow("0.5");
   for (const char* part :
-       {"cube.off: FAIL: thinner than 1.5: 1 at (", "\n  size      1 x 1 x 1, bounding box",
-        "\n  thin      1 region below 1.5: area 6 (100 %)\n            wall 1 from (", "12 faces, area 6",
+       {"cube.off: FAIL: 1 wall thinner than 1.5: 1 at (", "\n  unit      the part is 1 x 1 x 1: inches or metres?\n",
+        "\n  size      1 x 1 x 1, bounding box",
+        "\n  thin      area 6 (100 %) below 1.5\n  walls     1 wall\n            wall 1 from (", "12 faces, area 6",
         "\n  thickness by area p1 1, p5 1, p50 1, p95 1, max 1\n", "\n  mesh      12 faces, 8 vertices, 1 component\n"})
     CHECK_MESSAGE(thin.find(part) != std::string::npos, thin);
-  CHECK_MESSAGE(sound.find("cube.off: PASS: nowhere thinner than 0.5\n") != std::string::npos, sound);
+  CHECK_MESSAGE(sound.find("cube.off: PASS: no wall thinner than 0.5") != std::string::npos, sound);
   CHECK_EQ(sound.find("\n  thin "), std::string::npos);
+}
+
+TEST_CASE("a run for a verdict writes no result without an option about the result") {
+  const ScratchFolder folder;
+  const std::string cube = folder.write("cube.off", cubeOff()), sphere = folder.write("sphere.off", sphereOff(6));
+  for (int i = 0; i < 2; ++i) {  // The second run has the same inputs.
+    const ChildOutcome one = runThickness({cube, "--fail-if-thinner", "0.5", "--json"});
+    CHECK_EQ(one.exitCode, 0);
+    CHECK(Json::parse(one.output).at("output").is_null());
+    CHECK_EQ(runThickness({cube, sphere, "--fail-if-thinner", "1.5"}).exitCode, 6);
+    CHECK_EQ(runThickness({"-r", folder / ".", "--fail-if-thinner", "1.5"}).exitCode, 6);
+    CHECK_EQ(runThickness({"-r", folder / ".", "--fail-if-thinner", "1.5", "--isolate"}).exitCode, 6);
+    CHECK_EQ(folder.names().size(), 2);
+  }
+  const ChildOutcome shown = runAsdf({cube, "--backend", "reference", "--fail-if-thinner", "0.5"});
+  CHECK_MESSAGE(shown.error.find("\n  output") == std::string::npos, shown.error);
+  CHECK_EQ(runThickness({"-r", folder / ".", "--fail-if-thinner", "1.5", "--log", folder / "log"}).exitCode, 6);
+  CHECK_EQ(folder.names().size(), 3);
+  CHECK(Json::parse(linesOf(folder.read("log")).at(0)).at("output").is_null());
+  for (const std::vector<std::string>& about : std::vector<std::vector<std::string>>{
+           {"--format", "csv"}, {"--fields", "thickness"}, {"-o", folder / "out.csv"}}) {
+    std::vector<std::string> arguments{cube, "--fail-if-thinner", "0.5"};
+    arguments.insert(arguments.end(), about.begin(), about.end());
+    CHECK_EQ(runThickness(arguments).exitCode, 0);
+  }
+  CHECK_EQ(folder.names().size(), 6);
+  const std::string message = refusal({"a.ply", "--fail-if-thinner", "1", "--skip-existing"});
+  CHECK_MESSAGE(message.find("give -o") != std::string::npos, message);
+}
+
+TEST_CASE("a part that is thin everywhere and has no unit raises the question of the unit") {
+  const ScratchFolder folder;
+  std::string off = "OFF\n8 12 0\n";
+  for (const char* z : {"0", "0.05"})
+    for (const char* xy : {"0 0", "2 0", "2 1", "0 1"}) off += std::string(xy) + " " + z + "\n";
+  for (const char* face :
+       {"0 2 1", "0 3 2", "4 5 6", "4 6 7", "0 1 5", "0 5 4", "1 2 6", "1 6 5", "2 3 7", "2 7 6", "3 0 4", "3 4 7"})
+    off += std::string("3 ") + face + "\n";
+  const std::string plate = folder.write("plate.off", off);
+  const auto reportBelow = [&](const char* limit) {
+    return runAsdf({plate, "--backend", "reference", "--thinner-than", limit, "-o", folder / "out.csv"}).error;
+  };
+  const std::string thin = reportBelow("0.8"), sound = reportBelow("0.04");
+  CHECK_MESSAGE(thin.find("\n  unit      the part is 2 x 1 x 0.05: inches or metres?\n") != std::string::npos, thin);
+  CHECK_MESSAGE(sound.find("inches") == std::string::npos, sound);
 }
 
 }  // namespace

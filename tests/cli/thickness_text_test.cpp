@@ -48,20 +48,50 @@ void checkHolds(const std::string& text, const std::string& part) {
   CHECK_MESSAGE(text.find(part) != std::string::npos, text);
 }
 
-TEST_CASE("the first line is the verdict with the limit, the least thickness and its place") {
-  CHECK(textOf(soundResult(0.8)).starts_with("part.stl: PASS: nowhere thinner than 0.8\n"));
-  CHECK(textOf(soundResult(1.5)).starts_with("part.stl: FAIL: thinner than 1.5: 1 at (1, 2, 3), face 3\n"));
-  CHECK(textOf(soundResult({})).starts_with("part.stl: least thickness 1 at (1, 2, 3), face 3\n"));
-  Result sharp = soundResult(0.8);
-  ThicknessReport& thickness = *sharp.report.thickness;
-  thickness.verdict = ThicknessVerdict::Failed;
-  thickness.min = 0;
-  CHECK(textOf(sharp).starts_with("part.stl: FAIL: thinner than 0.8: 0 at (1, 2, 3), face 3, a sharp edge\n"));
-  thickness.verdict = ThicknessVerdict::Passed;
-  thickness.min = 1;
-  thickness.allowsSharpEdges = true;
-  thickness.sharpEdges.resize(1);
-  CHECK(textOf(sharp).starts_with("part.stl: PASS: nowhere thinner than 0.8 except at sharp edges\n"));
+ThinRegion regionOf(ThinKind kind, double min) {
+  return {.kind = kind,
+          .min = min,
+          .minFace = 3,
+          .place = {1, 2, 3},
+          .opposite = {1, 2, 4},
+          .least = min,
+          .faceCount = 2,
+          .area = 12.5,
+          .areaShare = 0.02};
+}
+
+TEST_CASE("the first line is the verdict with the limit, the least wall and its place") {
+  CHECK(textOf(soundResult(0.8))
+            .starts_with("part.stl: PASS: no wall thinner than 0.8; the next is 1 at (1, 2, 3), face 3\n"));
+  CHECK(textOf(soundResult({})).starts_with("part.stl: least wall 1 at (1, 2, 3), face 3\n"));
+  Result result = soundResult(1.5);
+  ThicknessReport& thickness = *result.report.thickness;
+  thickness.regions = {regionOf(ThinKind::Wall, 1)};
+  CHECK(textOf(result).starts_with("part.stl: FAIL: 1 wall thinner than 1.5: 1 at (1, 2, 3), face 3\n"));
+  thickness.regions = {regionOf(ThinKind::Wall, 1), regionOf(ThinKind::Wall, 1.25), regionOf(ThinKind::Detail, 0.5),
+                       regionOf(ThinKind::Edge, 0)};
+  CHECK(verdictSentence(thickness) == "FAIL: 2 walls thinner than 1.5: 1 at (1, 2, 3), face 3");
+  CHECK(verdictSentence(thickness, false) == "FAIL: 2 walls thinner than 1.5: 1");
+  thickness.countsDetails = true;
+  CHECK(verdictSentence(thickness, false) == "FAIL: 2 walls and 1 detail thinner than 1.5: 1");
+  thickness.countsEdges = true;
+  CHECK(verdictSentence(thickness, false) == "FAIL: 2 walls, 1 detail and 1 edge thinner than 1.5: 1");
+}
+
+TEST_CASE("a verdict other than FAIL has the details and edges that do not count") {
+  Result result = soundResult(0.8);
+  ThicknessReport& thickness = *result.report.thickness;
+  thickness.regions = {regionOf(ThinKind::Detail, 0.5), regionOf(ThinKind::Detail, 0.6), regionOf(ThinKind::Edge, 0)};
+  const std::string others = "2 details (least 0.5) and 1 edge not counted";
+  CHECK(verdictSentence(thickness) == "PASS: no wall thinner than 0.8; the next is 1 at (1, 2, 3), face 3; " + others);
+  thickness.min = kNoValue;
+  CHECK(verdictSentence(thickness) == "PASS: no wall thinner than 0.8; " + others);
+  thickness.verdict = ThicknessVerdict::NotJudged;
+  CHECK(verdictSentence(thickness) == "NOT JUDGED: no wall thinner than 0.8 was found; " + others);
+  thickness = {.verdict = ThicknessVerdict::Passed, .thinnerThan = 0.8, .countsEdges = true};
+  CHECK(verdictSentence(thickness) == "PASS: nowhere thinner than 0.8");
+  thickness = {};
+  CHECK(verdictSentence(thickness) == "no thickness");
 }
 
 TEST_CASE("what is not judged is named, also where the verdict is another one") {
@@ -80,41 +110,60 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
   checkSentences();
   thickness.verdict = ThicknessVerdict::NotJudged;
   checkSentences();
-  CHECK(textOf(result).starts_with("part.stl: NOT JUDGED: none of the judged faces is thinner than 0.8\n"));
+  CHECK(textOf(result).starts_with("part.stl: NOT JUDGED: no wall thinner than 0.8 was found\n"));
 }
 
-TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, five of a list") {
+TEST_CASE("size, walls, details, edges, greatest section and percentiles follow, five of a list") {
   Result result = soundResult(1.5);
   ThicknessReport& thickness = *result.report.thickness;
-  thickness.regions.assign(3, {.min = 1,
-                               .minFace = 3,
-                               .place = {1, 2, 3},
-                               .opposite = {1, 2, 4},
-                               .faceCount = 2,
-                               .area = 12.5,
-                               .areaShare = 0.02});
-  thickness.regions.resize(
-      6, {.isSharp = true, .minFace = 7, .place = {0, 0, 5}, .faceCount = 1, .area = 0.5, .areaShare = 0.001});
+  thickness.regions.assign(6, regionOf(ThinKind::Wall, 1));
+  thickness.regions[0].least = 0.75;
+  thickness.regions.push_back(regionOf(ThinKind::Detail, 0.5));
+  thickness.regions.push_back({.kind = ThinKind::Edge,
+                               .minFace = 7,
+                               .place = {0, 0, 5},
+                               .angleDegrees = 30,
+                               .width = 2.5,
+                               .faceCount = 1,
+                               .area = 0.5,
+                               .areaShare = 0.001});
   thickness.thinArea = 39;
   thickness.thinAreaShare = 0.063;
-  thickness.sharpEdges = {{.angleDegrees = 12.25, .place = {5, 5, 5}, .face = 4},
-                          {.angleDegrees = 30, .length = 60, .edgeCount = 2, .place = {0, 0, 5}, .face = 7}};
-  const std::string text = textOf(result);
-  checkHolds(text,
+  const std::string wall = "            wall 1 from (1, 2, 3) to (1, 2, 4), face 3; 2 faces, area 12.5 (2 %)\n";
+  checkHolds(textOf(result),
              "\n  size      60 x 10 x 5, bounding box in the unit of the mesh\n"
-             "  thin      6 regions below 1.5: area 39 (6.3 %)\n"
-             "            wall 1 from (1, 2, 3) to (1, 2, 4), face 3; 2 faces, area 12.5 (2 %)\n");
-  checkHolds(text,
-             "            sharp edge at (0, 0, 5), face 7; 1 face, area 0.5 (0.1 %)\n"
-             "            and 1 more; --json has all\n"
-             "  sharp     2 sharp edges or tips: thinner than any limit; --allow-sharp-edges leaves them out\n"
-             "            tip of 12.2 degrees at (5, 5, 5), face 4\n"
-             "            edge of 30 degrees, length 60, at (0, 0, 5), face 7\n"
-             "  section   4, the diameter (to 0.1 %) of the largest ball inside, centre (30, 5, 2.5)\n"
-             "  thickness by area p1 1.1, p5 2, p50 2, p95 2, max 4\n"
-             "  mesh      ");
-  thickness.allowsSharpEdges = true;
-  checkHolds(textOf(result), "2 sharp edges or tips: allowed, together with the thin surface around them\n");
+             "  thin      area 39 (6.3 %) below 1.5\n"
+             "  walls     6 walls\n"
+             "            wall 1 from (1, 2, 3) to (1, 2, 4), face 3, 0.75 beside it; 2 faces, area 12.5 (2 %)\n" +
+                 wall + wall + wall + wall +
+                 "            and 1 more; --json has all\n"
+                 "  details   1 detail, not counted\n"
+                 "            detail 0.5 from (1, 2, 3) to (1, 2, 4), face 3; 2 faces, area 12.5 (2 %)\n"
+                 "  edges     1 edge, not counted\n"
+                 "            edge of 30 degrees, thin over 2.5, 0 at (0, 0, 5), face 7; 1 face, area 0.5 (0.1 %)\n"
+                 "  section   4, the diameter (to 0.1 %) of the largest ball inside, centre (30, 5, 2.5)\n"
+                 "  thickness by area p1 1.1, p5 2, p50 2, p95 2, max 4\n"
+                 "  mesh      ");
+  thickness.countsEdges = true;
+  checkHolds(textOf(result), "\n  details   1 detail\n");
+  checkHolds(textOf(result), "\n  edges     1 edge\n");
+}
+
+TEST_CASE("the unit is asked for if nearly everything is thin and the file states none") {
+  Result result = soundResult(1.5);
+  ThicknessReport& thickness = *result.report.thickness;
+  thickness.regions = {regionOf(ThinKind::Wall, 1)};
+  const std::string question = "the part is 60 x 10 x 5: inches or metres?";
+  thickness.thinAreaShare = 0.89;
+  CHECK(unitQuestion(result.report).empty());
+  thickness.thinAreaShare = 0.9;
+  CHECK(unitQuestion(result.report) == question);
+  const std::string text = textReport(outcomeOf(result, kDefaults.outputs));
+  checkHolds(text, "\n  unit      " + question + "\n");
+  CHECK(text.find("\n  mesh ") == std::string::npos);  // At most six lines.
+  checkHolds(textOf(result), "face 3\n  unit      " + question + "\n");
+  result.report.unit = "mm";
+  CHECK(unitQuestion(result.report).empty());
 }
 
 TEST_CASE("the short report has the diameter and its error if they were computed and there is room") {
@@ -150,15 +199,12 @@ TEST_CASE("the short report has the diameter and its error if they were computed
 TEST_CASE("the document has every value of the thickness") {
   Result result = soundResult(1.5);
   ThicknessReport& thickness = *result.report.thickness;
-  thickness.regions = {{.isSharp = true,
-                        .min = 1,
-                        .minFace = 3,
-                        .place = {1, 2, 3},
-                        .opposite = {1, 2, 4},
-                        .faceCount = 2,
-                        .area = 12.5,
-                        .areaShare = 0.5}};
-  thickness.sharpEdges = {{.angleDegrees = 30, .length = 60, .edgeCount = 2, .place = {0, 0, 5}, .face = 7}};
+  thickness.regions = {regionOf(ThinKind::Wall, 1)};
+  thickness.regions[0].least = 0.5;
+  thickness.regions[0].angleDegrees = 5;
+  thickness.regions[0].width = 2;
+  thickness.countsDetails = true;
+  thickness.sentence = "a sentence";
   thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4};
   const Json json = jsonOf(result);
   CHECK_EQ(json.at("verdict"), "failed");
@@ -167,10 +213,12 @@ TEST_CASE("the document has every value of the thickness") {
   CHECK_EQ(json.at("minPlace"), Json({1, 2, 3}));
   CHECK_EQ(json.at("minOpposite"), Json({1, 2, 4}));
   CHECK_EQ(json.at("greatestSection"), Json::parse(R"({"diameter": 4, "centre": [30, 5, 2.5]})"));
-  CHECK_EQ(json.at("regions"), Json::parse(R"([{"isSharp": true, "min": 1, "minFace": 3, "place": [1, 2, 3],
-      "opposite": [1, 2, 4], "faceCount": 2, "area": 12.5, "areaShare": 0.5}])"));
-  CHECK_EQ(json.at("sharpEdges"), Json::parse(R"([{"angleDegrees": 30, "length": 60, "edgeCount": 2,
-      "place": [0, 0, 5], "face": 7}])"));
+  CHECK_EQ(json.at("sentence"), "a sentence");
+  CHECK_EQ(json.at("countsDetails"), true);
+  CHECK_EQ(json.at("countsEdges"), false);
+  CHECK_EQ(json.at("regions"), Json::parse(R"([{"kind": "wall", "min": 1, "minFace": 3, "place": [1, 2, 3],
+      "opposite": [1, 2, 4], "least": 0.5, "angleDegrees": 5, "width": 2, "faceCount": 2, "area": 12.5,
+      "areaShare": 0.02}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
       "crossedCount": 4, "selfCrossedCount": 0})"));
   thickness = {};

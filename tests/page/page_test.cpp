@@ -85,7 +85,10 @@ TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
   texts.thin =
       PageThinPlaces{.limit = 0.5, .verdict = "failed", .regions = {ThinRegion{}, ThinRegion{}}, .surface = {}};
   texts.thin->regions[1].minFace = 7;
-  texts.thin->regions[1].isSharp = true;
+  texts.thin->regions[0].kind = ThinKind::Wall;
+  texts.thin->regions[1].kind = ThinKind::Detail;
+  texts.thin->regions[1].least = 0.125;
+  texts.thin->sentence = "FAIL: 1 wall thinner than 0.5: 0.25 at (1, 2, 3), face 0";
   // A whole face, and a part of another one that shares two corners with it.
   const auto& [a, b, c] = cube.faces[0];
   const Vec3d p = cube.vertices[a], q = cube.vertices[b], r = cube.vertices[c];
@@ -99,7 +102,12 @@ TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
   CHECK_EQ(mesh["thin"]["limit"], 0.5);
   CHECK_EQ(mesh["thin"]["verdict"], "failed");
   CHECK_EQ(mesh["thin"]["regions"][1]["face"], 7);
-  CHECK_EQ(mesh["thin"]["regions"][1]["isSharp"], true);
+  CHECK_EQ(mesh["thin"]["sentence"], "FAIL: 1 wall thinner than 0.5: 0.25 at (1, 2, 3), face 0");
+  CHECK_EQ(mesh["thin"]["countsDetails"], false);
+  CHECK_EQ(mesh["thin"]["countsEdges"], false);
+  CHECK_EQ(mesh["thin"]["regions"][0]["kind"], "wall");
+  CHECK_EQ(mesh["thin"]["regions"][1]["kind"], "detail");
+  CHECK_EQ(mesh["thin"]["regions"][1]["least"], 0.125);
   const test::DecodedMesh& thin = decoded.meshes[0].thinSurface.at(0);
   CHECK_EQ(thin.positions.size(), 4);
   CHECK_EQ(thin.description["boxMin"], mesh["boxMin"]);

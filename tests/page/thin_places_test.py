@@ -19,7 +19,7 @@ def page(open_page, cavities):
 
 def test_first_view_shows_the_hidden_place(page):
     assert alarm_share(settled_view(page)) > 0.005
-    assert page.text("verdict-0") == "FAIL least 0.5: 1 place thinner than 0.8"
+    assert page.text("verdict-0").startswith("FAIL: 1 wall thinner than 0.8: 0.5 at (")
     assert page.js("document.getElementById('thin').checked && document.getElementById('thin-at').value") == "0.8"
     assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").startswith("thinner than 0.8, ")
     assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").endswith("; pale: behind a wall")
@@ -88,7 +88,7 @@ def test_nothing_thin(open_page, cavities):
     page = open_page(cavities["thick"])
     picture = settled_view(page)
     assert alarm_share(picture) == 0 and drawn_share(picture) > 0.2
-    assert page.text("verdict-0") == "PASS nowhere thinner than 0.4"
+    assert page.text("verdict-0").startswith("PASS: no wall thinner than 0.4")
     assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").startswith("nowhere thinner than 0.4")
 
 

@@ -124,6 +124,7 @@ TEST_CASE("the dent of a slab and the face above it are one region") {
     const ThicknessReport& report = result.report.thickness.value();
     REQUIRE(report.regions.size() == 1);
     const ThinRegion& region = report.regions[0];
+    CHECK(region.kind == ThinKind::Wall);
     CHECK(region.min == doctest::Approx(kThin).epsilon(1e-6));
     CHECK(std::max(std::abs(region.place.x), std::abs(region.place.y)) < 0.45);
     CHECK(thicknessOf(result, "least_thickness")[region.minFace] == region.min);
@@ -133,7 +134,7 @@ TEST_CASE("the dent of a slab and the face above it are one region") {
     CHECK(region.areaShare == doctest::Approx(region.area / 11.2).epsilon(0.05));
     CHECK(report.thinArea == doctest::Approx(region.area));
     const auto& values = thicknessOf(result, "least_thickness");
-    CHECK(std::count_if(values.begin(), values.end(), [](double v) { return v < 0.2; }) ==
+    CHECK(std::count_if(values.begin(), values.end(), [](double v) { return v < 0.999 * 0.2; }) ==
           static_cast<std::ptrdiff_t>(region.faceCount));
     CHECK(report.min == doctest::Approx(kThin).epsilon(1e-6));
     CHECK(report.median == doctest::Approx(kThick).epsilon(1e-6));
@@ -152,7 +153,6 @@ TEST_CASE("percentiles are by area") {
   }();
   const Result result = referenceSession().compute(wedge, thickness());
   const ThicknessReport& report = result.report.thickness.value();
-  CHECK(report.min == doctest::Approx(0.2).epsilon(0.01));
   CHECK(report.percentile5 == doctest::Approx(0.21).epsilon(0.05));
   CHECK(report.median == doctest::Approx(0.3).epsilon(0.05));
   CHECK(report.max == doctest::Approx(0.4).epsilon(0.02));

@@ -24,7 +24,8 @@ namespace {
 double sectionOf(const TracedMesh& traced) {
   const std::vector<uint32_t> solidOf(traced.mesh.faceCount());
   const std::vector<uint8_t> isWanted{1};
-  const std::vector<GreatestSection> sections = findGreatestSections(traced.scene(), solidOf, isWanted, {});
+  const std::vector<GreatestSection> sections =
+      findGreatestSections(traced.scene(), solidOf, isWanted, SectionSearch{}, {});
   REQUIRE(sections.size() == 1);
   const SurfacePoint foot =
       nearestSurfacePoint(traced.scene(), sections[0].centre, 0, [](uint32_t face) { return face; });
@@ -127,7 +128,7 @@ namespace {
 std::array<double, 2> sectionsOfTwo(const TracedMesh& traced) {
   std::vector<uint32_t> solidOf(12, 0);
   solidOf.resize(24, 1);
-  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{1, 1}, {});
+  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{1, 1}, SectionSearch{}, {});
   REQUIRE(sections.size() == 2);
   const Normalization& unit = traced.bvh.normalization;
   return {unit.toMeshLength(sections[0].diameter), unit.toMeshLength(sections[1].diameter)};
@@ -155,7 +156,7 @@ TEST_CASE("solids that are not wanted have no section") {
   const TracedMesh traced(shapes::joined(shapes::grid(2), shapes::cube(), {9, 0, 0}));
   std::vector<uint32_t> solidOf(traced.mesh.faceCount(), 1);
   std::fill_n(solidOf.begin(), 8, 0);
-  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{0, 1}, {});
+  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{0, 1}, SectionSearch{}, {});
   REQUIRE(sections.size() == 2);
   CHECK(std::isinf(sections[0].diameter));
   CHECK(std::isinf(sections[0].bound));
@@ -168,7 +169,7 @@ TEST_CASE("a stop request ends the search for sections") {
   stop.request_stop();
   test::requireFailure(
       [&] {
-        (void)findGreatestSections(traced.scene(), std::vector<uint32_t>(12), std::vector<uint8_t>{1},
+        (void)findGreatestSections(traced.scene(), std::vector<uint32_t>(12), std::vector<uint8_t>{1}, SectionSearch{},
                                    {stop.get_token(), {}});
       },
       ErrorCode::Cancelled);

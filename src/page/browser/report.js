@@ -34,27 +34,29 @@ function link(text, id, action) {
   return button;
 }
 
-const kVerdicts = { passed: 'PASS', failed: 'FAIL', notJudged: 'NOT JUDGED' };
+// Captions of the lists of thin regions.
+const kKinds = { wall: 'Walls, thinnest first', detail: 'Details', edge: 'Edges' };
 
-/** The verdict of a result and its thin regions: walls, then sharp regions. */
+/** The verdict of a result and its thin regions: walls, then details, then edges. */
 function thinReport(mesh, index, hasOthers, visits) {
-  const { limit, verdict, regions } = mesh.thin, than = `thinner than ${formatValue(limit)}`;
-  const least = Math.min(...regions.map((region) => region.isSharp ? 0 : region.value));
-  const sentence = regions.length
-    ? `least ${formatValue(least, limit)}: ${formatCount(regions.length)} ${regions.length > 1 ? 'places' : 'place'} ${than}`
-    : `nowhere ${than}${verdict === 'notJudged' ? ' where it could be judged' : ''}`;
-  const row = (region, i) => [
-    link(region.isSharp ? '0, sharp' : formatValue(region.value, limit), `thin-${index}-${i}`, visits && (() => visits.region(index, i))),
-    `${formatValue(region.area)} (${formatShare(region.areaShare)})`, formatCount(region.faceCount)];
-  const rows = regions.map((region, i) => [region.isSharp, row(region, i)]);
-  const list = (caption, isSharp) => {
-    const some = rows.filter(([sharp]) => sharp === isSharp).map(([, cells]) => cells);
-    return some.length ? table(caption, ['thickness', 'thin area', 'faces'], some) : [];
+  const { limit, verdict, sentence, regions, countsDetails, countsEdges } = mesh.thin;
+  const counts = { wall: true, detail: countsDetails, edge: countsEdges };
+  const [word, ...rest] = sentence.split(':');
+  const row = (region, i) => {
+    const value = link(formatValue(region.value, limit), `thin-${index}-${i}`, visits && (() => visits.region(index, i)));
+    const area = `${formatValue(region.area)} (${formatShare(region.areaShare)})`, count = formatCount(region.faceCount);
+    if (region.kind === 'edge') return [value, `${formatValue(region.angleDegrees)}°`, formatValue(region.width), area, count];
+    return [value, formatValue(region.least, limit), area, count];
+  };
+  const list = (kind) => {
+    const rows = regions.flatMap((region, i) => region.kind === kind ? [row(region, i)] : []);
+    const heads = kind === 'edge' ? ['least', 'angle', 'width', 'thin area', 'faces'] : ['thickness', 'least beside it', 'thin area', 'faces'];
+    return rows.length ? table(kKinds[kind] + (counts[kind] ? '' : ', not counted'), heads, rows) : [];
   };
   return [
     ...(hasOthers ? [made('h3', {}, mesh.label || mesh.name)] : []),
-    made('p', { className: `verdict ${verdict}`, id: `verdict-${index}` }, made('strong', {}, kVerdicts[verdict]), ` ${sentence}`),
-    ...list('Thin walls, thinnest first', false), ...list('Sharp edges and tips', true)];
+    made('p', { className: `verdict ${verdict}`, id: `verdict-${index}` }, made('strong', {}, word), `:${rest.join(':')}`),
+    ...Object.keys(kKinds).flatMap(list)];
 }
 
 function meshReport(mesh, index, isOpen, visits) {

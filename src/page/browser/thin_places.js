@@ -29,8 +29,8 @@ export function thinShare({ thin, look, layers, models }) {
   return sum((model) => model.thin?.surface.totalArea ?? 0) / (sum((model) => model.totalArea) || 1);
 }
 
-/** The least thickness of a region as a text. */
-export const regionValue = (region, limit) => region.isSharp ? 'sharp' : formatValue(region.value, limit);
+/** The least thickness of a region as a text; walls have no word. */
+export const regionValue = (region, limit) => `${region.kind === 'wall' ? '' : `${region.kind} `}${formatValue(region.value, limit)}`;
 
 /** The regions whose thinnest places are marked in the view. */
 export const markedRegions = (model) => model.thin?.regions.slice(0, kMarkerCount) ?? [];
