@@ -130,6 +130,17 @@ def test_extreme_units(dtype: Any) -> None:
         np.testing.assert_allclose(asdf_vk.shape_diameter(vertices * scale, faces) / scale, expected, rtol=1e-6)
 
 
+@pytest.mark.parametrize("orient", ["keep", "flip"])
+def test_open_and_inconsistent_meshes_have_no_verdict(orient: str, reference: asdf_vk.Session) -> None:
+    vertices, faces = cube()
+    mixed = faces.copy()
+    mixed[5] = mixed[5][::-1]
+    for given in (faces[:-1], faces[:-1, ::-1], mixed, mixed[:, ::-1]):
+        with pytest.warns(asdf_vk.MeshWarning):
+            report = asdf_vk.compute(vertices, given, thinner_than=0.5, orient=orient, session=reference).thickness
+        assert report is not None and report.verdict == "notJudged"
+
+
 @pytest.mark.parametrize("empty", [[], (), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, object)])
 def test_empty_faces_are_named(empty: Any, reference: asdf_vk.Session) -> None:
     with pytest.raises(asdf_vk.InputError, match="no faces") as caught:

@@ -63,6 +63,18 @@ class Measurement {
  private:
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
 
+  [[nodiscard]] const Component& componentOf(uint32_t face) const {
+    const Components& components = computation_.prepared.components;
+    return components.components[components.componentOf[face]];
+  }
+
+  /// A flipped mesh is turned inside out on purpose. Faces that are wound against each other remain so.
+  [[nodiscard]] bool isMisoriented(uint32_t face) const {
+    const bool isFlipped = computation_.options.orientation == Orientation::Flip;
+    return solids_.isMisoriented[computation_.prepared.components.componentOf[face]] != 0 &&
+           !(isFlipped && componentOf(face).isConsistentlyWound);
+  }
+
   void findSharp() {
     SharpEdges& sharp = thickness_.sharp;
     sharp =
@@ -84,7 +96,6 @@ class Measurement {
   /// Returns the balls of the faces that have a point below the limit.
   std::vector<FaceBalls> measureFaces(const WallTree& tree, std::span<const GreatestSection> sections,
                                       const RunControl& control) {
-    const bool isFlipped = computation_.options.orientation == Orientation::Flip;
     std::vector<uint32_t> faces;
     faces.reserve(computation_.domain.traceableFaces.size());
     for (const Wall& wall : tree.walls())
@@ -103,8 +114,7 @@ class Measurement {
       for (FaceBalls& each : balls) {
         const double greatest = sections[solids_.solidOf[each.face]].diameter;
         const double least = take(each, greatest);
-        const uint32_t component = computation_.prepared.components.componentOf[each.face];
-        const bool isJudged = !std::isnan(least) && (isFlipped || solids_.isMisoriented[component] == 0);
+        const bool isJudged = !std::isnan(least) && !isMisoriented(each.face);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
         const double surelyBelow =
             each.least.wall == kNoFace && least > 0 ? sections[solids_.solidOf[each.face]].bound : least * unit_.scale;
@@ -145,16 +155,9 @@ class Measurement {
     UnjudgedFaces& unjudged = thickness_.unjudged;
     const FaceGeometry& geometry = computation_.prepared.geometry;
     unjudged.degenerateCount = countInputFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
-    if (computation_.options.orientation != Orientation::Flip) {
-      const auto isMisoriented = [&](uint32_t face) {
-        return solids_.isMisoriented[computation_.prepared.components.componentOf[face]] != 0;
-      };
-      unjudged.invertedCount = countInputFaces(isMisoriented);
-      const Components& components = computation_.prepared.components;
-      unjudged.openCount = countInputFaces([&](uint32_t face) {
-        return !geometry.isDegenerate(face) && !components.components[components.componentOf[face]].isClosed;
-      });
-    }
+    unjudged.invertedCount = countInputFaces([&](uint32_t face) { return isMisoriented(face); });
+    unjudged.openCount =
+        countInputFaces([&](uint32_t face) { return !geometry.isDegenerate(face) && !componentOf(face).isClosed; });
     if (!limit_) return;
     const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, kContactDistance, control);
     unjudged.crossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedByOther) != 0; });

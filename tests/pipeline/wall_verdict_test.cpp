@@ -90,6 +90,23 @@ TEST_CASE("a mesh that the caller flips is not misoriented") {
   CHECK(outside.verdict == ThicknessVerdict::NotJudged);
 }
 
+TEST_CASE("flipping does not judge a mesh that is open or wound against itself") {
+  Mesh mixed = shapes::inverted(shapes::cube());
+  std::swap(mixed.faces[7][0], mixed.faces[7][1]);
+  const Mesh open = shapes::openBox({4, 3, 5}, 2);
+  for (const Orientation orientation : {Orientation::Keep, Orientation::Flip}) {
+    CAPTURE(static_cast<int>(orientation));
+    for (const Mesh& mesh : {open, shapes::inverted(open)}) {
+      CHECK(check(mesh, 1, orientation).unjudged.openCount == 40);
+      CHECK(check(mesh, 1, orientation).verdict == ThicknessVerdict::NotJudged);
+    }
+    for (const Mesh& mesh : {mixed, shapes::inverted(mixed)}) {
+      CHECK(check(mesh, 0.1, orientation).unjudged.invertedCount == 12);
+      CHECK(check(mesh, 0.1, orientation).verdict == ThicknessVerdict::NotJudged);
+    }
+  }
+}
+
 TEST_CASE("the gap between two bodies is that of the flipped mesh") {
   const Mesh two = shapes::joined(shapes::box({3, 3, 1}), shapes::box({3, 3, 1}), {0, 0, 1.25});
   for (const double limit : {0.2, 0.3}) {
