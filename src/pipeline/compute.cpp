@@ -118,7 +118,7 @@ void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, 
         "component", labelsOfInputFaces(prepared.mesh, prepared.components.componentOf, prepared.geometry.areas)));
   }
   if (options.per != PerElement::Vertices) return;
-  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
+  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.vertexOf, prepared.geometry.areas, fields);
   fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
 }
 

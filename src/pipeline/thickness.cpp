@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/winding.h"
 #include "trace/crossed_faces.h"
 #include "trace/solids.h"
 
@@ -156,12 +157,51 @@ class Measurement {
     const FaceGeometry& geometry = computation_.prepared.geometry;
     unjudged.degenerateCount = countInputFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
     unjudged.invertedCount = countInputFaces([&](uint32_t face) { return isMisoriented(face); });
-    unjudged.openCount =
-        countInputFaces([&](uint32_t face) { return !geometry.isDegenerate(face) && !componentOf(face).isClosed; });
+    unjudged.openCount = countInputFaces([&](uint32_t face) { return isOpen(face); });
+    addReasons();
     if (!limit_) return;
     const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, kContactDistance, control);
     unjudged.crossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedByOther) != 0; });
-    unjudged.selfCrossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedBySame) != 0; });
+    const auto isSelfCrossed = [&](uint32_t face) { return (crossed[face] & kCrossedBySame) != 0; };
+    unjudged.selfCrossedCount = countInputFaces(isSelfCrossed);
+    addReason(UnjudgedCause::SelfCrossed, isSelfCrossed);
+  }
+
+  [[nodiscard]] bool isOpen(uint32_t face) const {
+    return !computation_.prepared.geometry.isDegenerate(face) && !componentOf(face).isClosed;
+  }
+
+  void addReasons() {
+    addReason(UnjudgedCause::Border, [&](uint32_t face) { return isOpen(face) && !componentOf(face).isBranching; });
+    addReason(UnjudgedCause::Branching, [&](uint32_t face) { return isOpen(face) && componentOf(face).isBranching; });
+    addReason(UnjudgedCause::WoundAgainst,
+              [&](uint32_t face) { return isMisoriented(face) && !componentOf(face).isConsistentlyWound; });
+    addReason(UnjudgedCause::Inverted,
+              [&](uint32_t face) { return isMisoriented(face) && componentOf(face).isConsistentlyWound; });
+  }
+
+  /// Adds the cause with the first face of the domain for which holds(face) is true, if there is one.
+  template <typename Holds>
+  void addReason(UnjudgedCause cause, const Holds& holds) {
+    UnjudgedReason reason{.cause = cause, .faceCount = countInputFaces(holds)};
+    if (reason.faceCount == 0) return;
+    uint32_t first = 0;
+    while (!isInDomain(first) || !holds(first)) ++first;
+    reason.face = mesh_.inputFaceOf(first);
+    reason.place = computation_.prepared.geometry.barycentres[first];
+    const PreparedMesh& prepared = computation_.prepared;
+    const EdgeKind kind = cause == UnjudgedCause::Border         ? EdgeKind::Boundary
+                          : cause == UnjudgedCause::Branching    ? EdgeKind::Branching
+                          : cause == UnjudgedCause::WoundAgainst ? EdgeKind::Inconsistent
+                                                                 : EdgeKind::Regular;
+    if (const EdgesOfKind& edges = prepared.openEdges[static_cast<size_t>(kind)]; edges.count > 0) {
+      reason.edgeCount = edges.count;
+      reason.face = mesh_.inputFaceOf(edges.firstCorner / 3);
+      reason.place = edges.place;
+    }
+    reason.isRepairable =
+        cause == UnjudgedCause::Inverted || (cause == UnjudgedCause::WoundAgainst && canBeTurned(mesh_, unit_));
+    thickness_.unjudged.reasons.push_back(reason);
   }
 
   const Computation& computation_;

@@ -107,6 +107,102 @@ TEST_CASE("flipping does not judge a mesh that is open or wound against itself")
   }
 }
 
+namespace {
+
+/// Every face with vertices of its own.
+Mesh split(const Mesh& mesh) {
+  Mesh result;
+  for (const Face& face : mesh.faces) {
+    const auto first = static_cast<uint32_t>(result.vertices.size());
+    for (const uint32_t vertex : face) result.vertices.push_back(mesh.vertices[vertex]);
+    result.faces.push_back({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+/// One vertex per position, as readers of STL files make it.
+Mesh welded(Mesh mesh) {
+  for (Face& face : mesh.faces)
+    for (uint32_t& vertex : face)
+      vertex = static_cast<uint32_t>(std::find(mesh.vertices.begin(), mesh.vertices.end(), mesh.vertices[vertex]) -
+                                     mesh.vertices.begin());
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a closed surface is judged with vertices that are split or shared between bodies") {
+  const Mesh box = shapes::box({2, 2, 2}), plate = shapes::box({2, 2, 0.25});
+  struct Case {
+    const char* name;
+    Mesh mesh;
+    double least;
+  };
+  for (const Case& each : {Case{"one", box, 2}, Case{"side by side", shapes::joined(plate, plate, {2, 0, 0}), 0.25},
+                           Case{"at an edge", shapes::joined(box, plate, {2, 0, 1.125}), 0.25}}) {
+    CAPTURE(each.name);
+    for (const Mesh& mesh : {each.mesh, split(each.mesh), welded(each.mesh)}) {
+      const ThicknessReport passed = check(mesh, 0.9 * each.least), failed = check(mesh, 1.1 * each.least);
+      CHECK(passed.verdict == ThicknessVerdict::Passed);
+      CHECK(passed.unjudged.reasons.empty());
+      CHECK(failed.verdict == ThicknessVerdict::Failed);
+      CHECK(failed.min == doctest::Approx(each.least).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("the report counts welded vertices, and values do not depend on them") {
+  const Mesh ball = shapes::icosphere(2), soup = split(ball);
+  const Result whole = referenceSession().compute(ball, {}), apart = referenceSession().compute(soup, {});
+  CHECK(whole.report.defects.weldedVertexCount == 0);
+  CHECK(apart.report.defects.weldedVertexCount == soup.vertices.size() - ball.vertices.size());
+  CHECK(apart.report.defects.unreferencedVertexCount == 0);
+  CHECK(apart.report.defects.boundaryEdgeCount == 0);
+  CHECK(apart.report.componentCount == 1);
+  CHECK(apart.report.faceCount == ball.faces.size());
+  CHECK(apart.report.vertexCount == soup.vertices.size());
+  CHECK(apart.report.seedCount == whole.report.seedCount);
+}
+
+TEST_CASE("each reason has its cause, its first place and whether --orient auto helps") {
+  const auto reasonOf = [](const Mesh& mesh) {
+    const ThicknessReport report = check(mesh, 0.1);
+    CHECK(report.verdict == ThicknessVerdict::NotJudged);
+    REQUIRE(report.unjudged.reasons.size() == 1);
+    return report.unjudged.reasons[0];
+  };
+  const UnjudgedReason open = reasonOf(shapes::openBox({4, 3, 5}, 1));
+  CHECK(open.cause == UnjudgedCause::Border);
+  CHECK(open.edgeCount == 4);
+  CHECK(open.place.z == doctest::Approx(2.5));
+  CHECK_FALSE(open.isRepairable);
+  Mesh imprinted = shapes::joined(shapes::cube(), shapes::cube(), {2, 0, 0});
+  std::erase_if(imprinted.faces, [&](const Face& face) {
+    return std::all_of(face.begin(), face.end(), [&](uint32_t v) { return v >= 8 && imprinted.vertices[v].x == 1; });
+  });
+  const UnjudgedReason branching = reasonOf(welded(imprinted));
+  CHECK(branching.cause == UnjudgedCause::Branching);
+  CHECK(branching.edgeCount == 4);
+  CHECK(branching.place.x == 1);
+  Mesh mixed = shapes::cube();
+  std::swap(mixed.faces[7][0], mixed.faces[7][1]);
+  const UnjudgedReason wound = reasonOf(mixed);
+  CHECK(wound.cause == UnjudgedCause::WoundAgainst);
+  CHECK(wound.edgeCount == 3);
+  CHECK(wound.isRepairable);
+  CHECK(check(mixed, 0.1, Orientation::Auto).verdict == ThicknessVerdict::Passed);
+  const Result turned = referenceSession().compute(mixed, limitedTo(0.1, Orientation::Auto));
+  CHECK(turned.report.reversedFaceCount == 1);
+  CHECK(turned.reversedFaces == std::vector<uint64_t>{7});
+  const Result both = referenceSession().compute(shapes::inverted(mixed), limitedTo(0.1, Orientation::Auto));
+  CHECK(both.report.thickness->verdict == ThicknessVerdict::Passed);
+  CHECK(both.reversedFaces == std::vector<uint64_t>{0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11});
+  const UnjudgedReason inwards = reasonOf(shapes::inverted(shapes::cube()));
+  CHECK(inwards.cause == UnjudgedCause::Inverted);
+  CHECK(inwards.face == 0);
+  CHECK(inwards.isRepairable);
+}
+
 TEST_CASE("the gap between two bodies is that of the flipped mesh") {
   const Mesh two = shapes::joined(shapes::box({3, 3, 1}), shapes::box({3, 3, 1}), {0, 0, 1.25});
   for (const double limit : {0.2, 0.3}) {
