@@ -236,7 +236,7 @@ enum class UnjudgedCause {
   Branching,     ///< Edges with three faces or another odd number: inside and outside are not defined.
   WoundAgainst,  ///< Edges whose faces are wound against each other.
   Inverted,      ///< Bodies wound inwards.
-  SelfCrossed,   ///< Faces that intersect a face of the same solid.
+  DoubleSided,   ///< Each face has a copy that is wound the other way: there is no material.
 };
 /// The name of an enumerator with a small first letter, for example "woundAgainst".
 [[nodiscard]] ASDFVK_API const char* nameOf(UnjudgedCause cause);
@@ -256,10 +256,8 @@ struct UnjudgedFaces {
   uint64_t openCount = 0;        ///< Faces of open components, because closing such a component may add a thin wall.
   uint64_t invertedCount = 0;    ///< Faces of closed components that are oriented inwards or inconsistently.
   uint64_t degenerateCount = 0;  ///< Faces without a normal or with a non-finite corner, which are ignored.
-  /// Faces that intersect a face of another solid. Each solid is judged separately, because the union of solids is at
-  /// least as thick.
-  uint64_t crossedCount = 0;
-  uint64_t selfCrossedCount = 0;  ///< Faces that intersect a face of the same solid: inside and outside are ambiguous.
+  uint64_t crossedCount = 0;     ///< Faces that other faces cross. They are judged in pieces.
+  uint64_t insideCount = 0;      ///< Faces with a part inside of the material, which is no wall and is not judged.
   std::vector<UnjudgedReason> reasons;  ///< The causes that prevent a verdict, each with its place.
 
   /// Whether the surface may be thinner at some point than the least thickness that was found.

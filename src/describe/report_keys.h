@@ -18,7 +18,7 @@ inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents"
     "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts",
     "coarseParts"};
 inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
-inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "selfCrossed"};
+inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
 template <typename Visit, typename... Members>
@@ -45,7 +45,7 @@ ASDFVK_KEYS(ValueRange, min, percentile1, median, percentile99, max)
 ASDFVK_KEYS(PostprocessReport, min, max)
 ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShares)
 ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable)
-ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, selfCrossedCount, reasons)
+ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
 ASDFVK_KEYS(SharpEdge, angleDegrees, length, edgeCount, place, face)
 ASDFVK_KEYS(ThinRegion, isSharp, min, minFace, place, opposite, faceCount, area, areaShare)

@@ -29,22 +29,25 @@ std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
                          faces, edges, isOneEdge ? "has" : "have", place);
       break;
     case UnjudgedCause::Branching:
-      text = fmt::format("{} of ambiguous components: {} {} three faces or more, an odd number, the first {}; give each "
-                         "body its own faces, or remove the faces inside",
-                         faces, edges, isOneEdge ? "has" : "have", place);
+      text = fmt::format(
+          "{} of ambiguous components: {} {} three faces or more, an odd number, the first {}; give each "
+          "body its own faces, or remove the faces inside",
+          faces, edges, isOneEdge ? "has" : "have", place);
       break;
     case UnjudgedCause::WoundAgainst:
-      text = fmt::format("{} of components with faces wound against each other: {}, the first {}; {}", faces, edges,
-                         place,
-                         reason.isRepairable ? "{orient=auto} reverses them"
-                                             : "the surface has no consistent orientation, repair it");
+      text = fmt::format(
+          "{} of components with faces wound against each other: {}, the first {}; {}", faces, edges, place,
+          reason.isRepairable ? "{orient=auto} reverses them" : "the surface has no consistent orientation, repair it");
       break;
     case UnjudgedCause::Inverted:
-      text = fmt::format("{} of components oriented inwards, the first {}; {{orient=auto}} reverses them", faces, place);
+      text =
+          fmt::format("{} of components oriented inwards, the first {}; {{orient=auto}} reverses them", faces, place);
       break;
-    case UnjudgedCause::SelfCrossed:
-      text = fmt::format("{} crossed by their own body, the first {}: inside and outside are ambiguous there", faces,
-                         place);
+    case UnjudgedCause::DoubleSided:
+      text = fmt::format(
+          "{} have a copy that is wound the other way, the first {}: a double-sided surface bounds no "
+          "material; remove the copies",
+          faces, place);
       break;
   }
   return withSpelledOptions(computationRows(), text, spelling);
@@ -61,7 +64,8 @@ ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) 
   };
   addCount(unjudged.degenerateCount, "degenerate face",
            "left out: without a normal, or with a corner that is not finite");
-  addCount(unjudged.crossedCount, "face", "crossed by a face of another body: the union may be thicker than reported");
+  addCount(unjudged.crossedCount, "face", "crossed by other faces: judged in pieces, as the union of the bodies");
+  addCount(unjudged.insideCount, "face", "inside of the material, wholly or partly: no wall there");
   return rows;
 }
 
@@ -83,8 +87,8 @@ ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spell
     case UnjudgedCause::Inverted:
       text = counted(reason.faceCount, "face") + " oriented inwards";
       break;
-    case UnjudgedCause::SelfCrossed:
-      text = counted(reason.faceCount, "self-crossing face");
+    case UnjudgedCause::DoubleSided:
+      text = counted(reason.faceCount, "double-sided face");
       break;
   }
   text += ", first " + placeText(reason);

@@ -53,8 +53,7 @@ void weld(const TriangleMesh& mesh, const Normalization& unit, double distance, 
     edges.faces = std::move(faces);
     edges.survey = surveyEdges(withFaces(mesh, edges.faces));
   }
-  if (!edges.survey.isChainClosed())
-    sumAsChain(withFaces(mesh, edges.faces), unit, 2 * distance, edges.survey);
+  if (!edges.survey.isChainClosed()) sumAsChain(withFaces(mesh, edges.faces), unit, 2 * distance, edges.survey);
 }
 
 /// Welds at the distance of CAD programs, but only the faces of components that this closes.

@@ -238,7 +238,8 @@ std::vector<TJunction> sumAsChain(const TriangleMesh& mesh, const Normalization&
   };
   std::vector<Remains> remains(corners.size());
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
-    while (end < parts.size() && parts[end].lower == parts[begin].lower && parts[end].upper == parts[begin].upper) ++end;
+    while (end < parts.size() && parts[end].lower == parts[begin].lower && parts[end].upper == parts[begin].upper)
+      ++end;
     const std::span<const EdgePart> group = std::span(parts).subspan(begin, end - begin);
     const int sum = sumOf(group);
     if (group.front().edge != group.back().edge) joinGroup(corners, group, sum, junctions);

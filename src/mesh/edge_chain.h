@@ -17,8 +17,8 @@ struct TJunction {
 
 /// Sums the edges that are not regular again, as a geometric chain: each of them is divided at the ends of others that
 /// lie on it, up to `tolerance` (normalised). An edge whose parts have no sum becomes regular, and an edge whose parts
-/// have even sums becomes inconsistent. Faces whose edges have a common part are joined in the dual graph. Returns these
-/// pairs of faces.
+/// have even sums becomes inconsistent. Faces whose edges have a common part are joined in the dual graph. Returns
+/// these pairs of faces.
 std::vector<TJunction> sumAsChain(const TriangleMesh& mesh, const Normalization& unit, double tolerance,
                                   EdgeSurvey& survey);
 

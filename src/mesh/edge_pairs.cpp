@@ -40,8 +40,8 @@ std::vector<FaceAtEdge> facesAround(const TriangleMesh& mesh, std::span<const Ed
     if (angle < 0) angle += 2 * std::numbers::pi;
     if (!(angle >= 0)) angle = 0;  // Differences of huge coordinates overflow.
     // The outward normal of a face that runs along the axis points to greater angles.
-    faces.push_back({entry.corner, angle < 2 * std::numbers::pi - kSameAngleRadians ? angle : 0,
-                     face[entry.corner % 3] != from});
+    faces.push_back(
+        {entry.corner, angle < 2 * std::numbers::pi - kSameAngleRadians ? angle : 0, face[entry.corner % 3] != from});
   }
   return faces;
 }
@@ -50,7 +50,8 @@ std::vector<FaceAtEdge> facesAround(const TriangleMesh& mesh, std::span<const Ed
 
 std::vector<CornerPair> pairsAroundEdge(const TriangleMesh& mesh, std::span<const EdgeEntry> around) {
   std::vector<FaceAtEdge> faces = facesAround(mesh, around);
-  const auto openingCount = std::count_if(faces.begin(), faces.end(), [](const auto& each) { return each.hasMaterial; });
+  const auto openingCount =
+      std::count_if(faces.begin(), faces.end(), [](const auto& each) { return each.hasMaterial; });
   if (2 * static_cast<size_t>(openingCount) != faces.size()) return {};
   std::sort(faces.begin(), faces.end(),
             [](const auto& a, const auto& b) { return std::tuple(a.angle, a.corner) < std::tuple(b.angle, b.corner); });

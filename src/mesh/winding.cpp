@@ -50,7 +50,7 @@ class WindingSets {
  private:
   std::vector<uint32_t> parents_;
   std::vector<uint8_t> isAgainst_;  // Relative to the parent.
-  std::vector<uint8_t> isTwisted_;  // Of first faces: the set cannot be oriented.
+  std::vector<uint8_t> isTwisted_;  // Per first face: the set cannot be oriented.
 };
 
 /// Pairs of faces with a common edge of two faces.

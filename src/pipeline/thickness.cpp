@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "mesh/winding.h"
-#include "trace/crossed_faces.h"
 #include "trace/solids.h"
 
 namespace asdfvk {
@@ -22,13 +22,14 @@ constexpr double kPartsPerLimit = 4, kMinPartLength = 0x1p-10;
 
 class Measurement {
  public:
-  explicit Measurement(const Computation& computation)
+  Measurement(const Computation& computation, const JudgedSurface& surface)
       : computation_(computation),
+        surface_(surface),
         scene_(computation.scene),
         mesh_(computation.prepared.mesh),
         unit_(scene_.bvh.normalization),
         opposing_(makeOpposingWalls(computation.options.thickness)),
-        solids_(findSolids(scene_.mesh, computation.prepared.components)),
+        solids_(surface.solids()),
         fans_(mesh_) {
     // Coordinates in float32 do not resolve whether a wall is thinner than the limit by less than kContactDistance.
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
@@ -46,17 +47,19 @@ class Measurement {
                   {},
                   {}};
     control.checkpoint(0);
+    findDoubleSided();
     findSharp();
     const std::vector<GreatestSection> sections =
         findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
     keepGreatest(sections);
     const WallTree tree(scene_, opposing_, &solids_, control.withoutProgress());
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
-    countUnjudged(control.withoutProgress());
+    countUnjudged();
     if (limit_)
       thickness_.thinParts =
           findThinParts(tree, fans_, thickness_.sharp, thin, *limit_,
                         std::max(*limit_ / kPartsPerLimit, kMinPartLength), control.withoutProgress());
+    takeSheets();
     control.checkpoint(1);
     return std::move(thickness_);
   }
@@ -69,11 +72,27 @@ class Measurement {
     return components.components[components.componentOf[face]];
   }
 
-  /// A flipped mesh is turned inside out on purpose. Faces that are wound against each other remain so.
-  [[nodiscard]] bool isMisoriented(uint32_t face) const {
-    const bool isFlipped = computation_.options.orientation == Orientation::Flip;
-    return solids_.isMisoriented[computation_.prepared.components.componentOf[face]] != 0 &&
-           !(isFlipped && componentOf(face).isConsistentlyWound);
+  [[nodiscard]] bool isWoundAgainst(uint32_t face) const {
+    return componentOf(face).isClosed && !componentOf(face).isConsistentlyWound;
+  }
+  [[nodiscard]] bool isInverted(uint32_t face) const { return surface_.kindOf(face) == FaceKind::Inverted; }
+  [[nodiscard]] bool isSheet(uint32_t face) const { return surface_.kindOf(face) == FaceKind::NoThickness; }
+  [[nodiscard]] bool isDoubleSided(uint32_t face) const {
+    return isDoubleSided_[computation_.prepared.components.componentOf[face]] != 0;
+  }
+
+  /// Marks the components that have a volume, but no material: each of their faces has a reversed copy.
+  void findDoubleSided() {
+    const Components& components = computation_.prepared.components;
+    std::vector<double> areas(components.components.size(), 0);
+    isDoubleSided_.assign(areas.size(), 1);
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
+      areas[components.componentOf[face]] += computation_.prepared.geometry.areas[face];
+      if (!isSheet(face) && !computation_.prepared.geometry.isDegenerate(face))
+        isDoubleSided_[components.componentOf[face]] = 0;
+    }
+    for (size_t i = 0; i < areas.size(); ++i)
+      if (std::abs(components.components[i].signedVolume) <= unit_.contactLength() * areas[i]) isDoubleSided_[i] = 0;
   }
 
   void findSharp() {
@@ -115,18 +134,44 @@ class Measurement {
       for (FaceBalls& each : balls) {
         const double greatest = sections[solids_.solidOf[each.face]].diameter;
         const double least = take(each, greatest);
-        const bool isJudged = !std::isnan(least) && !isMisoriented(each.face);
+        const bool isJudged =
+            !std::isnan(least) && !isWoundAgainst(each.face) && !isInverted(each.face) && !isDoubleSided(each.face);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
         const double surelyBelow =
             each.least.wall == kNoFace && least > 0 ? sections[solids_.solidOf[each.face]].bound : least * unit_.scale;
-        if (isJudged && limit_ && surelyBelow < *limit_) thin.push_back(each);
+        if (!isJudged || !limit_ || surelyBelow >= *limit_) continue;
+        if (isSheet(each.face))
+          addSheet(each.face);
+        else
+          thin.push_back(each);
       }
     }
     return thin;
   }
 
+  /// The sheets of one component are a region.
+  void addSheet(uint32_t face) {
+    ThinPart part{.face = face, .corners = triangleOf(scene_, face).corners, .isThinAtMiddle = true};
+    part.least.ball.diameter = 0;
+    part.region = computation_.prepared.components.componentOf[face];
+    sheets_.push_back(part);
+  }
+
+  /// Adds the sheets after the other regions.
+  void takeSheets() {
+    uint32_t regionCount = 0;
+    for (const ThinPart& part : thickness_.thinParts) regionCount = std::max(regionCount, part.region + 1);
+    std::map<uint32_t, uint32_t> regions;
+    for (ThinPart& part : sheets_) {
+      part.region = regions.try_emplace(part.region, regionCount + static_cast<uint32_t>(regions.size())).first->second;
+      thickness_.thinParts.push_back(part);
+    }
+  }
+
   /// Stores the values of a face and returns its least thickness.
   double take(FaceBalls& balls, double greatest) {
+    if (isDoubleSided(balls.face)) return kNoValue;
+    if (isSheet(balls.face)) return thickness_.atBarycentre[balls.face] = thickness_.least[balls.face] = 0;
     const auto lengthOf = [&](InscribedBall& ball) {
       if (ball.wall == kNoFace) ball.ball.diameter = greatest;
       return ball.ball.diameter < kUnlimited ? unit_.toMeshLength(ball.ball.diameter) : kNoValue;
@@ -152,19 +197,15 @@ class Measurement {
     return count;
   }
 
-  void countUnjudged(const RunControl& control) {
+  void countUnjudged() {
     UnjudgedFaces& unjudged = thickness_.unjudged;
     const FaceGeometry& geometry = computation_.prepared.geometry;
     unjudged.degenerateCount = countInputFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
-    unjudged.invertedCount = countInputFaces([&](uint32_t face) { return isMisoriented(face); });
+    unjudged.invertedCount = countInputFaces([&](uint32_t face) { return isWoundAgainst(face) || isInverted(face); });
     unjudged.openCount = countInputFaces([&](uint32_t face) { return isOpen(face); });
+    unjudged.crossedCount = surface_.crossedCount();
+    unjudged.insideCount = surface_.insideCount();
     addReasons();
-    if (!limit_) return;
-    const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, kContactDistance, control);
-    unjudged.crossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedByOther) != 0; });
-    const auto isSelfCrossed = [&](uint32_t face) { return (crossed[face] & kCrossedBySame) != 0; };
-    unjudged.selfCrossedCount = countInputFaces(isSelfCrossed);
-    addReason(UnjudgedCause::SelfCrossed, isSelfCrossed);
   }
 
   [[nodiscard]] bool isOpen(uint32_t face) const {
@@ -174,10 +215,9 @@ class Measurement {
   void addReasons() {
     addReason(UnjudgedCause::Border, [&](uint32_t face) { return isOpen(face) && !componentOf(face).isBranching; });
     addReason(UnjudgedCause::Branching, [&](uint32_t face) { return isOpen(face) && componentOf(face).isBranching; });
-    addReason(UnjudgedCause::WoundAgainst,
-              [&](uint32_t face) { return isMisoriented(face) && !componentOf(face).isConsistentlyWound; });
-    addReason(UnjudgedCause::Inverted,
-              [&](uint32_t face) { return isMisoriented(face) && componentOf(face).isConsistentlyWound; });
+    addReason(UnjudgedCause::WoundAgainst, [&](uint32_t face) { return isWoundAgainst(face); });
+    addReason(UnjudgedCause::Inverted, [&](uint32_t face) { return isInverted(face); });
+    addReason(UnjudgedCause::DoubleSided, [&](uint32_t face) { return isDoubleSided(face); });
   }
 
   /// Adds the cause with the first face of the domain for which holds(face) is true, if there is one.
@@ -199,26 +239,30 @@ class Measurement {
       reason.face = mesh_.inputFaceOf(edges.firstCorner / 3);
       reason.place = edges.place;
     }
-    reason.isRepairable =
-        cause == UnjudgedCause::Inverted || (cause == UnjudgedCause::WoundAgainst && canBeTurned(mesh_, unit_));
+    reason.isRepairable = cause == UnjudgedCause::Inverted || (cause == UnjudgedCause::WoundAgainst &&
+                                                               canBeTurned(surface_.original().prepared.mesh, unit_));
     thickness_.unjudged.reasons.push_back(reason);
   }
 
   const Computation& computation_;
+  const JudgedSurface& surface_;
   const TraceScene& scene_;
   const TriangleMesh& mesh_;
   const Normalization& unit_;
   OpposingWalls opposing_;
-  Solids solids_;
+  const Solids& solids_;
   PointFans fans_;
-  std::optional<double> limit_;  ///< Normalised.
+  std::optional<double> limit_;         ///< Normalised.
+  std::vector<uint8_t> isDoubleSided_;  ///< #components
+  std::vector<ThinPart> sheets_;        ///< Faces without a thickness.
   FaceThickness thickness_;
 };
 
 }  // namespace
 
-FaceThickness measureThickness(const Computation& computation, const RunControl& control) {
-  return Measurement(computation).run(control);
+FaceThickness measureThickness(const Computation& computation, const JudgedSurface& surface,
+                               const RunControl& control) {
+  return Measurement(computation, surface).run(control);
 }
 
 std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values) {

@@ -140,7 +140,7 @@ TEST_CASE("the short report has at most six lines of 100 columns, and no device,
   thickness.median = thickness.max = 1.23456e-10;
   thickness.unjudged.reasons = {{.faceCount = 12345, .edgeCount = 12345, .face = 12345, .place = {1, 2, 3}}, {}};
   for (const UnjudgedCause cause : {UnjudgedCause::Border, UnjudgedCause::Branching, UnjudgedCause::WoundAgainst,
-                                    UnjudgedCause::Inverted, UnjudgedCause::SelfCrossed}) {
+                                    UnjudgedCause::Inverted, UnjudgedCause::DoubleSided}) {
     thickness.unjudged.reasons[0].cause = cause;
     thickness.unjudged.reasons[0].place = {-123.456, -23.4567, -123.456};
     thickness.unjudged.reasons[0].isRepairable = true;

@@ -74,7 +74,7 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
       {.cause = UnjudgedCause::WoundAgainst, .faceCount = 12, .edgeCount = 1, .face = 7, .isRepairable = true},
       {.cause = UnjudgedCause::WoundAgainst, .faceCount = 12, .edgeCount = 3, .face = 7},
       {.cause = UnjudgedCause::Inverted, .faceCount = 1, .isRepairable = true},
-      {.cause = UnjudgedCause::SelfCrossed, .faceCount = 2, .face = 5}};
+      {.cause = UnjudgedCause::DoubleSided, .faceCount = 2, .face = 5}};
   const auto checkSentences = [&] {
     const std::string text = textOf(result);
     checkHolds(text,
@@ -89,9 +89,9 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
                ": 3 edges, the first at (0, 0, 0), face 7; the surface has no consistent orientation, repair it\n");
     checkHolds(text,
                "\n            1 face of components oriented inwards, the first at (0, 0, 0), face 0; --orient auto ");
-    checkHolds(text, "\n            2 faces crossed by their own body, the first at (0, 0, 0), face 5");
+    checkHolds(text, "\n            2 faces have a copy that is wound the other way, the first at (0, 0, 0), face 5");
     checkHolds(text, "\n            2 degenerate faces left out");
-    checkHolds(text, "\n            3 faces crossed by a face of another body");
+    checkHolds(text, "\n            3 faces crossed by other faces: judged in pieces");
   };
   checkSentences();
   thickness.verdict = ThicknessVerdict::Failed;
@@ -177,7 +177,7 @@ TEST_CASE("the document has every value of the thickness") {
                         .area = 12.5,
                         .areaShare = 0.5}};
   thickness.sharpEdges = {{.angleDegrees = 30, .length = 60, .edgeCount = 2, .place = {0, 0, 5}, .face = 7}};
-  thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4};
+  thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4, .insideCount = 5};
   thickness.unjudged.reasons = {{.cause = UnjudgedCause::WoundAgainst,
                                  .faceCount = 5,
                                  .edgeCount = 6,
@@ -196,7 +196,7 @@ TEST_CASE("the document has every value of the thickness") {
   CHECK_EQ(json.at("sharpEdges"), Json::parse(R"([{"angleDegrees": 30, "length": 60, "edgeCount": 2,
       "place": [0, 0, 5], "face": 7}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
-      "crossedCount": 4, "selfCrossedCount": 0, "reasons": [{"cause": "woundAgainst", "faceCount": 5, "edgeCount": 6,
+      "crossedCount": 4, "insideCount": 5, "reasons": [{"cause": "woundAgainst", "faceCount": 5, "edgeCount": 6,
       "face": 7, "place": [1, 2, 3], "isRepairable": true}]})"));
   thickness = {};
   for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "thinArea"})

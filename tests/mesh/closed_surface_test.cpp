@@ -201,8 +201,8 @@ TEST_CASE("a Moebius strip is not turned") {
   for (uint32_t i = 0; i < kCount; ++i) {
     const double u = 2 * 3.14159265358979 * i / kCount;
     for (const double w : {-0.3, 0.3})
-      mesh.vertices.push_back({(2 + w * std::cos(u / 2)) * std::cos(u), (2 + w * std::cos(u / 2)) * std::sin(u),
-                               w * std::sin(u / 2)});
+      mesh.vertices.push_back(
+          {(2 + w * std::cos(u / 2)) * std::cos(u), (2 + w * std::cos(u / 2)) * std::sin(u), w * std::sin(u / 2)});
   }
   for (uint32_t i = 0; i < kCount; ++i) {
     const uint32_t a = 2 * i, b = a + 1, c = i + 1 < kCount ? a + 2 : 1, d = i + 1 < kCount ? a + 3 : 0;
