@@ -29,7 +29,9 @@ class JudgedSurface {
   /// The triangle of the mesh that a face of the surface is a part of.
   [[nodiscard]] uint32_t triangleOf(uint32_t face) const { return triangles_.empty() ? face : triangles_[face]; }
   [[nodiscard]] uint64_t crossedCount() const { return crossedCount_; }  ///< Input faces that are divided.
-  [[nodiscard]] uint64_t insideCount() const { return insideCount_; }  ///< Input faces with a part inside of the material.
+  [[nodiscard]] uint64_t insideCount() const {
+    return insideCount_;
+  }  ///< Input faces with a part inside of the material.
 
  private:
   void divide(const Material& material);

@@ -66,8 +66,8 @@ std::optional<Chord> chordOf(const PlaneTriangle& triangle, const Heights& heigh
     }
     const size_t next = (k + 1) % 3;
     if (heights[k] * heights[next] < 0 && count < 3)
-      points[count++] = triangle.corners[k] + heights[k] / (heights[k] - heights[next]) *
-                                                  (triangle.corners[next] - triangle.corners[k]);
+      points[count++] = triangle.corners[k] +
+                        heights[k] / (heights[k] - heights[next]) * (triangle.corners[next] - triangle.corners[k]);
   }
   if (count != 2) return {};
   return Chord{points[0], points[1], zeroCount == 2};
@@ -90,8 +90,8 @@ bool overlapInPlane(const PlaneTriangle& a, const PlaneTriangle& b) {
 
 /// Whether one of the triangles lies within kContactDistance of the other one, with the opposite normal.
 bool touches(const PlaneTriangle& a, const PlaneTriangle& b) {
-  return dot(a.normal, b.normal) < kOppositeCosine &&
-         (isInPlane(heightsOf(a, b)) || isInPlane(heightsOf(b, a))) && overlapInPlane(a, b);
+  return dot(a.normal, b.normal) < kOppositeCosine && (isInPlane(heightsOf(a, b)) || isInPlane(heightsOf(b, a))) &&
+         overlapInPlane(a, b);
 }
 
 struct Meeting {

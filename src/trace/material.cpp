@@ -108,8 +108,8 @@ Material::Material(const TraceScene& scene, const DualGraph& graph, const Compon
   if (solidCount == 0) return;
   meetings_ = findFaceMeetings(scene, graph, components.componentOf, isWanted, control);
   meetings_.components.insert(meetings_.components.end(), ofCopies.begin(), ofCopies.end());
-  const bool isFree = std::find_if(meetings_.bits.begin(), meetings_.bits.end(), [](uint8_t bits) { return bits != 0; }) ==
-                      meetings_.bits.end();
+  const bool isFree = std::find_if(meetings_.bits.begin(), meetings_.bits.end(),
+                                   [](uint8_t bits) { return bits != 0; }) == meetings_.bits.end();
   // One surface that meets no face: the sign of its volume decides.
   if (isFree && solidCount == 1 && volume != 0 && components.components.size() == 1) {
     if (volume < 0 && !isFlipped) commonKind_ = FaceKind::Inverted;

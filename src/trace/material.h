@@ -47,14 +47,16 @@ class Material {
   /// Divides a face along its cuts. The pieces do not overlap. Pieces that float32 does not resolve are left out.
   [[nodiscard]] std::vector<FacePiece> piecesOf(uint32_t face) const;
   /// Pairs of components that cross or touch each other, or have copies of faces in common.
-  [[nodiscard]] std::span<const std::pair<uint32_t, uint32_t>> meetingComponents() const { return meetings_.components; }
+  [[nodiscard]] std::span<const std::pair<uint32_t, uint32_t>> meetingComponents() const {
+    return meetings_.components;
+  }
 
  private:
   [[nodiscard]] FaceKind kindAt(const Vec3d& point, const Vec3d& normal) const;
   void findKinds(const DualGraph& graph, std::span<const uint8_t> isOfSolid, const RunControl& control);
 
   TraceScene scene_;
-  bool isOutside_ = false;        // The material is outside of the solids.
+  bool isOutside_ = false;         // The material is outside of the solids.
   std::vector<uint32_t> weights_;  // #F, see windingNumberAt().
   FaceMeetings meetings_;
   FaceKind commonKind_ = FaceKind::Boundary;

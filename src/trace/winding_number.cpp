@@ -101,8 +101,8 @@ int windingNumberAt(const TraceScene& scene, std::span<const uint32_t> weights, 
     // After a disagreement, one more ray has to agree.
     if (++votes[*crossings] >= kAgreeingCount + (votes.size() > 1 ? 1 : 0)) return *crossings;
   }
-  const auto most = std::max_element(votes.begin(), votes.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == votes.end() ? 0 : most->first;
 }
 

@@ -81,10 +81,10 @@ TEST_CASE("all faces of a component that meets no face have one kind") {
   checkKinds(ball, {Boundary});
   checkKinds(shapes::inverted(ball), {Inverted});
   checkKinds(shapes::joined(ball, ball, {3, 0, 0}), {Boundary, Boundary});
-  checkKinds(shapes::joined(ball, shapes::inverted(small)), {Boundary, Boundary});      // A cavity.
-  checkKinds(shapes::joined(ball, small), {Boundary, Inside});                          // Both outwards.
+  checkKinds(shapes::joined(ball, shapes::inverted(small)), {Boundary, Boundary});  // A cavity.
+  checkKinds(shapes::joined(ball, small), {Boundary, Inside});                      // Both outwards.
   checkKinds(shapes::joined(ball, shapes::inverted(ball), {3, 0, 0}), {Boundary, Inverted});
-  checkKinds(shapes::joined(ball, ball), {Boundary, Boundary});                         // Copies.
+  checkKinds(shapes::joined(ball, ball), {Boundary, Boundary});                          // Copies.
   checkKinds(shapes::joined(ball, shapes::inverted(ball)), {NoThickness, NoThickness});  // Double-sided.
 }
 
@@ -103,7 +103,8 @@ TEST_CASE("sheets without a volume have no thickness, alone and as a fin of a so
   CHECK(std::count(kinds.begin() + 12, kinds.end(), NoThickness) == 4);
   // A plate with a fin of less than the resolution, as one surface: its two long sides have no thickness.
   Mesh rib;
-  const std::vector<Point2> outline{{0, 0}, {20, 0}, {20, 5}, {10 + 1e-5, 5}, {10 + 1e-5, 15}, {10, 15}, {10, 5}, {0, 5}};
+  const std::vector<Point2> outline{{0, 0},          {20, 0},  {20, 5}, {10 + 1e-5, 5},
+                                    {10 + 1e-5, 15}, {10, 15}, {10, 5}, {0, 5}};
   for (const double z : {0.0, 30.0})
     for (const Point2& p : outline) rib.vertices.push_back({p.x, p.y, z});
   for (uint32_t i = 0; i < 8; ++i) {
