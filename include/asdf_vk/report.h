@@ -48,15 +48,17 @@ struct StageSeconds {
 };
 
 /// Defects of a mesh. Faces are counted as triangles, also in a mesh of polygons. An edge is counted only if its
-/// triangles have finite corners and three distinct vertices. Rays ignore all other triangles.
+/// triangles have finite corners and three distinct vertices. Rays ignore all other triangles. Edges are counted after
+/// vertices were welded.
 struct MeshDefects {
-  uint64_t zeroAreaFaceCount = 0;        ///< Faces of zero area.
-  uint64_t duplicateFaceCount = 0;       ///< Faces with the same corner positions and winding as an earlier face.
-  uint64_t nonFiniteVertexCount = 0;     ///< Vertices with a non-finite coordinate.
-  uint64_t nonFiniteFaceCount = 0;       ///< Faces with a non-finite corner.
-  uint64_t boundaryEdgeCount = 0;        ///< Edges that belong to exactly one face.
-  uint64_t nonManifoldEdgeCount = 0;     ///< Edges that belong to more than two faces.
-  uint64_t inconsistentEdgeCount = 0;    ///< Edges whose two faces traverse them in the same direction.
+  uint64_t zeroAreaFaceCount = 0;      ///< Faces of zero area.
+  uint64_t duplicateFaceCount = 0;     ///< Faces with the same corner positions and winding as an earlier face.
+  uint64_t nonFiniteVertexCount = 0;   ///< Vertices with a non-finite coordinate.
+  uint64_t nonFiniteFaceCount = 0;     ///< Faces with a non-finite corner.
+  uint64_t boundaryEdgeCount = 0;      ///< Edges of exactly one face that do not lie on edges of other faces.
+  uint64_t nonManifoldEdgeCount = 0;   ///< Edges that belong to more than two faces.
+  uint64_t inconsistentEdgeCount = 0;  ///< Edges whose faces are wound against each other.
+  uint64_t weldedVertexCount = 0;      ///< Vertices that were replaced by another vertex at the same point, or nearby.
   uint64_t unreferencedVertexCount = 0;  ///< Vertices that belong to no triangle.
   uint64_t shortPolygonCount = 0;        ///< Input faces with fewer than three corners. Such faces have no value.
 };
@@ -65,6 +67,7 @@ enum class WarningCode {
   MeshDefect,           ///< The mesh has a defect. Details: defect, count.
   InvertedComponents,   ///< Inverted components were found and left unchanged.
   ComponentsReversed,   ///< Inverted components were reversed.
+  FacesReversed,        ///< Faces that were wound against their neighbours were reversed. Details: count.
   MissingValues,        ///< Faces have no value. Details: cause, if likely: "inverted", "open", "inverted or open".
   FinishedOnCpu,        ///< The solver on the device reached the precision of float32. The CPU continued in double.
   BackendReplaced,      ///< The device failed. The computation continued with the next backend.
@@ -229,18 +232,38 @@ enum class ThicknessVerdict {
 /// The name of an enumerator with a small first letter, for example "notJudged".
 [[nodiscard]] ASDFVK_API const char* nameOf(ThicknessVerdict verdict);
 
+/// Why faces cannot be compared with a limit.
+enum class UnjudgedCause {
+  Border,        ///< The surface is open: edges with one face. A thin wall may be missing there.
+  Branching,     ///< Edges with three faces or another odd number: inside and outside are not defined.
+  WoundAgainst,  ///< Edges whose faces are wound against each other.
+  Inverted,      ///< Bodies wound inwards.
+  DoubleSided,   ///< Each face has a copy that is wound the other way: there is no material.
+};
+/// The name of an enumerator with a small first letter, for example "woundAgainst".
+[[nodiscard]] ASDFVK_API const char* nameOf(UnjudgedCause cause);
+
+/// A cause for which faces cannot be judged, and where.
+struct UnjudgedReason {
+  UnjudgedCause cause = UnjudgedCause::Border;  ///< The cause.
+  uint64_t faceCount = 0;                       ///< Input faces of the components with this cause.
+  uint64_t edgeCount = 0;                       ///< Edges with this cause; 0 for causes that are not at edges.
+  uint64_t face = 0;                            ///< The first input face with this cause.
+  Vec3d place;                                  ///< A point of this face, on the edge if the cause is at an edge.
+  bool isRepairable = false;                    ///< The orientation "auto" removes the cause.
+};
+
 /// Input faces for which the comparison with a limit is impossible or uncertain.
 struct UnjudgedFaces {
   uint64_t openCount = 0;        ///< Faces of open components, because closing such a component may add a thin wall.
   uint64_t invertedCount = 0;    ///< Faces of closed components that are oriented inwards or inconsistently.
   uint64_t degenerateCount = 0;  ///< Faces without a normal or with a non-finite corner, which are ignored.
-  /// Faces that intersect a face of another solid. Each solid is judged separately, because the union of solids is at
-  /// least as thick.
-  uint64_t crossedCount = 0;
-  uint64_t selfCrossedCount = 0;  ///< Faces that intersect a face of the same solid: inside and outside are ambiguous.
+  uint64_t crossedCount = 0;     ///< Faces that other faces cross. They are judged in pieces.
+  uint64_t insideCount = 0;      ///< Faces with a part inside of the material, which is no wall and is not judged.
+  std::vector<UnjudgedReason> reasons;  ///< The causes that prevent a verdict, each with its place.
 
   /// Whether the surface may be thinner at some point than the least thickness that was found.
-  [[nodiscard]] bool preventVerdict() const { return openCount > 0 || invertedCount > 0 || selfCrossedCount > 0; }
+  [[nodiscard]] bool preventVerdict() const { return !reasons.empty(); }
 };
 
 /// The wall thickness (docs/thickness.md). Lengths are in the unit of the mesh.

@@ -91,8 +91,8 @@ class ASDFVK_API Scene {
 
   /// Radius of the largest ball inside of the shape around each point: distance() if the point is behind its nearest
   /// face, else NaN. Points outside of the bounding box also have NaN. On the surface the radius is about 0 or NaN.
-  /// Surfaces inside of the shape, for example of overlapping parts, also limit the ball. Points and errors: as for
-  /// distance().
+  /// Closed parts that overlap or touch are one shape: their surfaces inside of the shape do not limit the ball. Points
+  /// and errors: as for distance().
   [[nodiscard]] std::vector<double> radii(std::span<const double> points, const RunControl& control = {});
 
   /// First hit of each ray. Rays hit faces from both sides.

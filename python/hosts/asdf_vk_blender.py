@@ -4,8 +4,8 @@ Install this file: Edit, Preferences, Add-ons, Install. Then the sidebar of the 
 In a script, call `bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.8)`.
 
 Results are stored on the mesh: attributes of the domain FACE (sdf, thickness, least_thickness, segment), the colour
-attribute "asdf-vk", and a material per part. Thin faces are selected. Lengths include the scale of the object and are
-in units of Blender. Modifiers are not applied.
+attribute "asdf-vk", and a material per part after the materials of the mesh. Thin faces are selected. Lengths include
+the scale of the object and are in units of Blender. Modifiers are not applied.
 """
 
 import sys
@@ -29,6 +29,8 @@ bl_info = {
 
 COLOURS = "asdf-vk"  # Name of the colour attribute.
 FIELDS = ("sdf", "seed", "thickness", "least_thickness", "segment")  # Names of the other attributes.
+MATERIALS = "asdf_vk_material"  # Name of the attribute with the material of each face before the parts.
+PART = "asdf-vk part "  # Begin of the names of the materials of the parts.
 REPORT = "asdf_vk_report"  # Name of the property of the mesh that has the text of the last result.
 MEASURES = (
     ("DIAMETER", "Shape Diameter", "Local diameter of the shape at each face: the mean length of many rays"),
@@ -55,14 +57,21 @@ def module():
     return asdf_vk
 
 
+def reversed_faces(corners, first):
+    """Reverses the corners of each face. The first corner of a face stays the first. first: with the number of corners."""
+    begin, end = (np.repeat(each, np.diff(first)) for each in (first[:-1], first[1:]))
+    index = np.arange(len(corners))
+    return corners[np.where(index == begin, index, begin + end - index)]
+
+
 def mesh_of(asdf_vk, obj):
-    """Returns the faces in world coordinates as a Mesh of asdf_vk, and whether the object mirrors them."""
+    """Returns the faces in world coordinates as a Mesh of asdf_vk. Faces that the object mirrors are reversed."""
     mesh = obj.data
     if not mesh.polygons:
         raise ValueError(f"{obj.name} has no faces")
     of_user = [attribute for attribute in mesh.attributes if attribute.domain not in ("FACE", "CORNER")]
     for item in (*obj.vertex_groups, *mesh.uv_layers, *of_user):
-        if item.name in (*FIELDS, COLOURS):
+        if item.name in (*FIELDS, COLOURS, MATERIALS):
             raise ValueError(f"{obj.name} has a vertex group, UV map or attribute with the name {item.name}: rename it")
     vertices = np.empty(3 * len(mesh.vertices), np.float32)
     corners, first = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.polygons), np.int32)
@@ -71,7 +80,10 @@ def mesh_of(asdf_vk, obj):
     mesh.polygons.foreach_get("loop_start", first)
     matrix = np.array(obj.matrix_world, np.float64)
     world = vertices.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    return asdf_vk.mesh_of_polygons(world, corners, np.append(first, len(corners))), np.linalg.det(matrix[:3, :3]) < 0
+    first = np.append(first, len(corners))
+    if np.linalg.det(matrix[:3, :3]) < 0:
+        corners = reversed_faces(corners, first)
+    return asdf_vk.mesh_of_polygons(world, corners, first)
 
 
 class Computation(threading.Thread):
@@ -149,10 +161,32 @@ def select_faces(mesh, selected) -> None:
     mesh.polygons.foreach_set("select", selected)
 
 
-def set_materials(mesh, segments) -> None:
-    mesh.materials.clear()
+def part_slots(mesh):
+    return [i for i, material in enumerate(mesh.materials) if material and material.name.startswith(PART)]
+
+
+def remove_parts(mesh) -> None:
+    """Removes the materials of the parts. The faces have the materials that they had before."""
+    slots = part_slots(mesh)
+    if MATERIALS in mesh.attributes:
+        current, before = (np.zeros(len(mesh.polygons), np.int32) for _ in range(2))
+        mesh.polygons.foreach_get("material_index", current)
+        mesh.attributes[MATERIALS].data.foreach_get("value", before)
+        mesh.polygons.foreach_set("material_index", np.where(np.isin(current, slots), before, current))
+        mesh.attributes.remove(mesh.attributes[MATERIALS])
+    for slot in reversed(slots):
+        mesh.materials.pop(index=slot)
+
+
+def add_parts(mesh, segments) -> None:
+    """Adds a material per part after the materials of the mesh, which are kept."""
+    remove_parts(mesh)
+    before = np.zeros(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("material_index", before)
+    set_attribute(mesh, MATERIALS, before)
+    first = len(mesh.materials)
     for part in range(int(segments.max()) + 1):
-        name = f"asdf-vk part {part}"
+        name = f"{PART}{part}"
         material = bpy.data.materials.get(name) or bpy.data.materials.new(name)
         material.diffuse_color = (*colour_of_part(part), 1)
         material.use_nodes = True
@@ -160,7 +194,7 @@ def set_materials(mesh, segments) -> None:
             if node.type == "BSDF_PRINCIPLED":
                 node.inputs["Base Color"].default_value = material.diffuse_color
         mesh.materials.append(material)
-    mesh.polygons.foreach_set("material_index", np.maximum(segments, 0).astype(np.int32))
+    mesh.polygons.foreach_set("material_index", first + np.maximum(segments, 0).astype(np.int32))
 
 
 def length(context, value: float, other: float = np.nan) -> str:
@@ -187,7 +221,7 @@ def show(context, mesh, info, measure: str, limit: float) -> str:
         set_attribute(mesh, name, values)
     if measure == "PARTS":
         segments = info.fields["segment"]
-        set_materials(mesh, segments)
+        add_parts(mesh, segments)
         colours = np.array([colour_of_part(part) for part in range(int(segments.max()) + 1)])
         set_colours(mesh, colours[np.maximum(segments, 0)])
         text = f"{info.segment_count} part{'s' if info.segment_count != 1 else ''}"
@@ -235,13 +269,13 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         """Prepares the computation. On failure, reports the reason and returns False."""
         try:
             asdf_vk = module()
-            mesh, is_mirrored = mesh_of(asdf_vk, context.object)
+            mesh = mesh_of(asdf_vk, context.object)
         except (ImportError, ValueError) as error:
             self.report({"ERROR"}, f"asdf-vk: {error}")
             return False
         if any(modifier.show_viewport for modifier in context.object.modifiers):
             self.report({"WARNING"}, "asdf-vk: the mesh is measured without its modifiers; apply them first")
-        options = {"orient": "flip"} if is_mirrored else {}
+        options = {}
         if self.measure == "THICKNESS":
             options["measure"] = "thickness"
             if self.limit > 0:
@@ -315,6 +349,24 @@ class OBJECT_OT_asdf_vk(Options, bpy.types.Operator):
         return result
 
 
+class OBJECT_OT_asdf_vk_remove_parts(bpy.types.Operator):
+    bl_idname, bl_label = "object.asdf_vk_remove_parts", "Remove Parts"
+    bl_description = "Removes the materials of the parts; the faces get their own materials back"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return OBJECT_OT_asdf_vk.poll(context) and bool(part_slots(context.object.data))
+
+    def execute(self, context):
+        mesh = context.object.data
+        remove_parts(mesh)
+        if "segment" in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes["segment"])
+        mesh.update()
+        return {"FINISHED"}
+
+
 class Settings(Options, bpy.types.PropertyGroup):
     """Options of the panel."""
 
@@ -333,6 +385,8 @@ class VIEW3D_PT_asdf_vk(bpy.types.Panel):
             button.measure, button.all_faces = measure, settings.all_faces
             for name in names:
                 setattr(button, name, getattr(settings, name))
+        if OBJECT_OT_asdf_vk_remove_parts.poll(context):
+            box.operator(OBJECT_OT_asdf_vk_remove_parts.bl_idname)
         column.prop(settings, "all_faces")
         if context.object and context.object.type == "MESH" and REPORT in context.object.data:
             for line in context.object.data[REPORT].replace("; ", ", ").split(", "):
@@ -351,7 +405,7 @@ class Preferences(bpy.types.AddonPreferences):
             self.layout.label(text=str(error), icon="ERROR")
 
 
-CLASSES = (OBJECT_OT_asdf_vk, Settings, VIEW3D_PT_asdf_vk, Preferences)
+CLASSES = (OBJECT_OT_asdf_vk, OBJECT_OT_asdf_vk_remove_parts, Settings, VIEW3D_PT_asdf_vk, Preferences)
 
 
 def register() -> None:

@@ -130,6 +130,33 @@ def test_extreme_units(dtype: Any) -> None:
         np.testing.assert_allclose(asdf_vk.shape_diameter(vertices * scale, faces) / scale, expected, rtol=1e-6)
 
 
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_split_vertices_are_welded(dtype: Any, reference: asdf_vk.Session) -> None:
+    vertices, faces = cube()
+    soup = vertices[faces.ravel()].astype(dtype)
+    apart = soup + dtype(2e-6) * np.random.default_rng(1).uniform(-1, 1, soup.shape).astype(dtype)
+    for corners, limit, verdict in ((soup, 0.9, "passed"), (soup, 1.1, "failed"), (apart, 0.9, "passed")):
+        with pytest.warns(asdf_vk.MeshWarning, match="28 vertices were welded"):
+            info = asdf_vk.compute(corners, np.arange(36).reshape(12, 3), thinner_than=limit, session=reference)
+        assert info.thickness is not None and info.thickness.verdict == verdict
+        assert info.defects.welded_vertex_count == 28 and info.component_count == 1
+        assert len(info.fields["thickness"]) == 12
+    with pytest.warns(asdf_vk.MeshWarning):
+        per_vertex = asdf_vk.compute(soup, np.arange(36).reshape(12, 3), seeds="all", per="vertex", session=reference)
+    assert len(per_vertex.vertex_fields["sdf"]) == 36 and np.isfinite(per_vertex.vertex_fields["sdf"]).all()
+
+
+@pytest.mark.parametrize("orient", ["keep", "flip"])
+def test_open_and_inconsistent_meshes_have_no_verdict(orient: Any, reference: asdf_vk.Session) -> None:
+    vertices, faces = cube()
+    mixed = faces.copy()
+    mixed[5] = mixed[5][::-1]
+    for given in (faces[:-1], faces[:-1, ::-1], mixed, mixed[:, ::-1]):
+        with pytest.warns(asdf_vk.MeshWarning):
+            report = asdf_vk.compute(vertices, given, thinner_than=0.5, orient=orient, session=reference).thickness
+        assert report is not None and report.verdict == "notJudged"
+
+
 @pytest.mark.parametrize("empty", [[], (), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, object)])
 def test_empty_faces_are_named(empty: Any, reference: asdf_vk.Session) -> None:
     with pytest.raises(asdf_vk.InputError, match="no faces") as caught:

@@ -13,11 +13,13 @@ namespace asdfvk {
 
 inline constexpr std::array kStageNames{"read", "geometry", "graph", "bvh", "encode", "upload", "sample", "trace",
     "thickness", "predict", "solve", "estimate", "smooth", "postprocess", "segment", "write"};
-inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "missingValues",
-    "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged", "rangeDominated", "thinShell",
-    "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts", "coarseParts"};
+inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "facesReversed",
+    "missingValues", "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged",
+    "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts",
+    "coarseParts"};
 inline constexpr std::array kThinKindNames{"wall", "detail", "edge"};
 inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
+inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
 template <typename Visit, typename... Members>
@@ -43,7 +45,8 @@ ASDFVK_KEYS(SolverReport, name, iterations, relativeResidual, converged, finishe
 ASDFVK_KEYS(ValueRange, min, percentile1, median, percentile99, max)
 ASDFVK_KEYS(PostprocessReport, min, max)
 ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShares)
-ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, selfCrossedCount)
+ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable)
+ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
 ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, least, angleDegrees, width, faceCount, area, areaShare)
 ASDFVK_KEYS(ThicknessReport, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace, minPlace,
@@ -56,7 +59,8 @@ ASDFVK_KEYS(CheckReport, passed, independent, tracedCount, agreeingCount, noValu
             worstDifference, worstFace, comparedCount, averageError, maximumError, interpolatedCount,
             interpolatedAverageError, interpolatedMaximumError)
 ASDFVK_KEYS(MeshDefects, zeroAreaFaceCount, duplicateFaceCount, nonFiniteVertexCount, nonFiniteFaceCount,
-            boundaryEdgeCount, nonManifoldEdgeCount, inconsistentEdgeCount, unreferencedVertexCount, shortPolygonCount)
+            boundaryEdgeCount, nonManifoldEdgeCount, inconsistentEdgeCount, weldedVertexCount, unreferencedVertexCount,
+            shortPolygonCount)
 ASDFVK_KEYS(Warning, code, message, details)
 ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, seedCount,
             rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount, backend,

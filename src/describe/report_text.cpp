@@ -262,7 +262,6 @@ std::string textWarning(const Warning& warning, OptionSpelling spelling) {
   if (warning.code == WarningCode::ThinShell) remedy += "; fewer parts: {detail=0.5}, more: {detail=2}";
   if (warning.code == WarningCode::UncertainParts) remedy += "; look at the parts, and choose {parts=N} or {detail=X}";
   if (warning.code == WarningCode::CoarseParts) remedy += "; subdivide or remesh the mesh";
-  if (warning.code == WarningCode::OnlySmallComponents) remedy += "; weld equal vertices if they are one surface";
   if (warning.code == WarningCode::FinishedOnCpu) remedy += "; {solver=cpu} may be faster here";
   if (warning.code == WarningCode::RangeDominated)
     remedy += spelling == OptionSpelling::Flag ? "; use the relative error (--max-error E%rel)"

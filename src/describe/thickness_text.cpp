@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "describe/computation_options.h"
 #include "describe/report_text.h"
+#include "describe/unjudged_text.h"
 
 namespace asdfvk {
 namespace {
@@ -53,24 +54,6 @@ std::string kindsText(const ThicknessReport& thickness, bool areCounted) {
       texts.back() += fmt::format(" (least {})", lengthText(least, thickness.thinnerThan));
   }
   return enumeration(texts);
-}
-
-/// One row per kind of faces that cannot be judged with certainty.
-ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) {
-  ReportRows rows;
-  const auto add = [&rows](uint64_t count, const char* noun, const std::string& rest) {
-    if (count > 0) rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", counted(count, noun), rest));
-  };
-  add(unjudged.openCount, "face", "of open components: closing them may add a thin wall; close the mesh");
-  add(unjudged.invertedCount, "face",
-      withSpelledOptions(
-          computationRows(),
-          "of closed components oriented inwards or inconsistently; {orient=auto} reverses inverted components",
-          spelling));
-  add(unjudged.degenerateCount, "degenerate face", "left out: without a normal, or with a corner that is not finite");
-  add(unjudged.selfCrossedCount, "face", "crossed by their own body: inside and outside are ambiguous there");
-  add(unjudged.crossedCount, "face", "crossed by a face of another body: the union may be thicker than reported");
-  return rows;
 }
 
 std::string regionText(const ThinRegion& region, const ThicknessReport& thickness) {
@@ -141,11 +124,7 @@ std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces) {
 ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling) {
   ReportRows rows{{"verdict", verdictSentence(thickness)}};
   const bool hasValues = !std::isnan(thickness.median);
-  const UnjudgedFaces& unjudged = thickness.unjudged;
-  if (!hasValues || unjudged.preventVerdict())
-    rows.emplace_back("unjudged", fmt::format("faces: {} of open components, {} inverted, {} crossed by their own body",
-                                              groupDigits(unjudged.openCount), groupDigits(unjudged.invertedCount),
-                                              groupDigits(unjudged.selfCrossedCount)));
+  for (auto& row : shortUnjudgedRows(thickness.unjudged, spelling)) rows.push_back(std::move(row));
   if (!hasValues) return rows;
   std::string text = fmt::format("median {}, greatest {}", lengthText(thickness.median), lengthText(thickness.max));
   if (!thickness.regions.empty())

@@ -29,6 +29,7 @@ static_assert(kStageNames.size() == kStageCount);
 const char* nameOf(Stage stage) { return kStageNames[static_cast<size_t>(stage)]; }
 const char* nameOf(ThinKind kind) { return kThinKindNames[static_cast<size_t>(kind)]; }
 const char* nameOf(ThicknessVerdict verdict) { return kThicknessVerdictNames[static_cast<size_t>(verdict)]; }
+const char* nameOf(UnjudgedCause cause) { return kUnjudgedCauseNames[static_cast<size_t>(cause)]; }
 const char* nameOf(WarningCode code) { return kWarningCodeNames[static_cast<size_t>(code)]; }
 
 std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
@@ -53,14 +54,17 @@ std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
       face + "duplicates an earlier face: the rays of a face ignore its copies",
       faces + "duplicate earlier ones: the rays of a face ignore its copies");
   add("nonManifoldEdgeCount", defects.nonManifoldEdgeCount,
-      "edge has more than two faces: values are interpolated across all of them",
-      "edges have more than two faces: values are interpolated across all of them");
+      "edge has more than two faces: two solids touch there, or inside and outside are not defined",
+      "edges have more than two faces: two solids touch there, or inside and outside are not defined");
   add("inconsistentEdgeCount", defects.inconsistentEdgeCount,
       "edge has two faces of opposite winding: on one side of it rays leave the solid",
       "edges have two faces of opposite winding: on one side of them rays leave the solid");
   add("boundaryEdgeCount", defects.boundaryEdgeCount,
       "edge has only one face: the surface is open there and rays can escape",
       "edges have only one face: the surface is open there and rays can escape");
+  add("weldedVertexCount", defects.weldedVertexCount,
+      "vertex was welded to another one at the same point: the surface would be open there",
+      "vertices were welded to others at the same points: the surface would be open there");
   add("unreferencedVertexCount", defects.unreferencedVertexCount, "vertex belongs to no triangle: it is ignored",
       "vertices belong to no triangle: they are ignored");
   return warnings;
@@ -69,6 +73,13 @@ std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
 Warning componentsReversed(uint64_t count) {
   return {WarningCode::ComponentsReversed,
           fmt::format("{} inverted component{} reversed", count, count == 1 ? " was" : "s were"),
+          {{"count", std::to_string(count)}}};
+}
+
+Warning facesReversed(uint64_t count) {
+  return {WarningCode::FacesReversed,
+          fmt::format("{} wound against {} neighbours {} reversed", counted(count, "face"),
+                      count == 1 ? "its" : "their", count == 1 ? "was" : "were"),
           {{"count", std::to_string(count)}}};
 }
 

@@ -15,6 +15,7 @@ namespace asdfvk {
 [[nodiscard]] std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons);
 
 [[nodiscard]] Warning componentsReversed(uint64_t count);
+[[nodiscard]] Warning facesReversed(uint64_t count);
 
 struct MissingValues {
   uint64_t count = 0, faceCount = 0;

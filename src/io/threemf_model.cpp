@@ -211,7 +211,7 @@ class ModelReader {
     TriangleMesh view;
     view.vertices = mesh.vertices;
     view.faces = mesh.faces;
-    if (mesh.faces.empty() || surveyEdges(view).isClosed) return;
+    if (mesh.faces.empty() || surveyEdges(view).isManifold) return;
     CornerWelder welder(mesh.vertices.size() / 3);
     for (Face& face : mesh.faces)
       for (uint32_t& corner : face) corner = welder.indexOf(mesh.vertices[corner]);

@@ -83,7 +83,7 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
 std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges) {
   const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
   const auto isCopy = [&](uint32_t vertex) { return lowestVertices[vertex] != vertex; };
-  if (!edges.isClosed || hasCopyByVertices(edges.graph) || countInParallel(lowestVertices.size(), isCopy) > 0)
+  if (!edges.isManifold || hasCopyByVertices(edges.graph) || countInParallel(lowestVertices.size(), isCopy) > 0)
     return lowestAmong(mesh, lowestVertices);
   std::vector<uint32_t> representatives(mesh.faces.size());
   forEachInParallel(representatives.size(), [&](uint32_t f) { representatives[f] = f; });

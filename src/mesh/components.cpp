@@ -41,12 +41,12 @@ void label(const DualGraph& graph, Components& result) {
 
 /// Faces that are not proper (EdgeKind) neither open a component nor close it.
 void judgeClosedness(const TriangleMesh& mesh, const EdgeSurvey& edges, Components& result) {
-  if (edges.isClosed && edges.inconsistentEdgeCount == 0) {
+  if (edges.isManifold && edges.isChainClosed()) {
     for (Component& component : result.components) component.isClosed = component.isConsistentlyWound = true;
     return;
   }
   const size_t count = result.components.size();
-  std::vector<uint8_t> hasProperFace(count, 0), isOpen(count, 0), isInconsistent(count, 0);
+  std::vector<uint8_t> hasProperFace(count, 0), isOpen(count, 0), isBranching(count, 0), isInconsistent(count, 0);
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
     if (!hasDistinctVertices(mesh.faces[f]) || !mesh.hasFiniteCorners(f)) return;
     const uint32_t component = result.componentOf[f];
@@ -54,11 +54,13 @@ void judgeClosedness(const TriangleMesh& mesh, const EdgeSurvey& edges, Componen
     for (size_t i = 0; i < 3; ++i) {
       const EdgeKind kind = edges.edgeKinds[size_t{3} * f + i];
       if (kind == EdgeKind::Inconsistent) raiseFlag(isInconsistent[component]);
-      if (kind == EdgeKind::Boundary || kind == EdgeKind::NonManifold) raiseFlag(isOpen[component]);
+      if (kind == EdgeKind::Branching) raiseFlag(isBranching[component]);
+      if (kind == EdgeKind::Boundary || kind == EdgeKind::Branching) raiseFlag(isOpen[component]);
     }
   });
   for (size_t i = 0; i < count; ++i) {
     result.components[i].isClosed = hasProperFace[i] && !isOpen[i];
+    result.components[i].isBranching = isBranching[i] != 0;
     result.components[i].isConsistentlyWound = !isInconsistent[i];
   }
 }

@@ -12,8 +12,9 @@ namespace asdfvk {
 struct Component {
   uint32_t firstFace = 0;  ///< The lowest face index.
   uint32_t faceCount = 0;
-  bool isClosed = false;             ///< Each edge has exactly two faces; triangles with a repeated vertex are ignored.
-  bool isConsistentlyWound = false;  ///< No edge has two faces that traverse it in the same direction.
+  bool isClosed = false;             ///< No edge of a proper face is Boundary or Branching (EdgeKind).
+  bool isBranching = false;          ///< An edge is Branching.
+  bool isConsistentlyWound = false;  ///< No edge is Inconsistent (EdgeKind).
   double signedVolume = 0;           ///< Volume in mesh units cubed; negative if faces point inwards, 0 if the sign is
                             ///< uncertain because of rounding. Valid for closed, consistently wound components only.
 };

@@ -6,6 +6,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
+#include "mesh/edge_pairs.h"
 #include "mesh/edges.h"
 
 namespace asdfvk {
@@ -19,7 +20,8 @@ using Arc = std::pair<uint32_t, uint32_t>;
 
 /// Results of one thread.
 struct Findings {
-  std::array<uint64_t, 4> edgeCounts{};  ///< By EdgeKind; regular edges are not counted.
+  std::array<EdgesOfKind, kEdgeKindCount> edges;  ///< Without places.
+  uint64_t nonManifoldEdgeCount = 0;
   std::vector<Arc> furtherArcs;
 };
 
@@ -39,15 +41,18 @@ class Survey {
     EdgeSurvey survey;
     std::vector<Arc> furtherArcs;
     findings_.forEach([&](const Findings& findings) {
-      const auto countOf = [&](EdgeKind kind) { return findings.edgeCounts[static_cast<size_t>(kind)]; };
-      survey.boundaryEdgeCount += countOf(EdgeKind::Boundary);
-      survey.nonManifoldEdgeCount += countOf(EdgeKind::NonManifold);
-      survey.inconsistentEdgeCount += countOf(EdgeKind::Inconsistent);
+      for (size_t kind = 0; kind < kEdgeKindCount; ++kind) {
+        survey.edges[kind].count += findings.edges[kind].count;
+        survey.edges[kind].firstCorner = std::min(survey.edges[kind].firstCorner, findings.edges[kind].firstCorner);
+      }
+      survey.nonManifoldEdgeCount += findings.nonManifoldEdgeCount;
       furtherArcs.insert(furtherArcs.end(), findings.furtherArcs.begin(), findings.furtherArcs.end());
     });
-    survey.isClosed =
-        hasFiniteVertices_ && hasDistinctVertices_ && survey.boundaryEdgeCount == 0 && survey.nonManifoldEdgeCount == 0;
-    survey.graph = survey.isClosed ? closedGraph() : anyGraph(std::move(furtherArcs));
+    for (EdgesOfKind& kind : survey.edges)
+      if (kind.count > 0) kind.place = middleOf(kind.firstCorner);
+    survey.isManifold = hasFiniteVertices_ && hasDistinctVertices_ && survey.countOf(EdgeKind::Boundary) == 0 &&
+                        survey.nonManifoldEdgeCount == 0;
+    survey.graph = survey.isManifold ? closedGraph() : anyGraph(std::move(furtherArcs));
     survey.edgeKinds = std::move(kinds_);
     return survey;
   }
@@ -76,13 +81,24 @@ class Survey {
       ++properCount;
       runningUpCount += runsFrom(lower, entry) ? 1 : 0;
     }
-    if (properCount == 0 || (properCount == 2 && runningUpCount == 1)) return;
-    const EdgeKind kind = properCount == 1   ? EdgeKind::Boundary
-                          : properCount == 2 ? EdgeKind::Inconsistent
-                                             : EdgeKind::NonManifold;
-    for (const EdgeEntry& entry : around)
-      if (isProper(entry.face())) kinds_[entry.corner] = kind;
-    ++findings_.local().edgeCounts[static_cast<size_t>(kind)];
+    Findings* const findings = properCount > 2 ? &findings_.local() : nullptr;
+    if (findings) ++findings->nonManifoldEdgeCount;
+    if (2 * runningUpCount == properCount) return;
+    const EdgeKind kind = properCount % 2 == 0 ? EdgeKind::Inconsistent
+                          : properCount == 1   ? EdgeKind::Boundary
+                                               : EdgeKind::Branching;
+    EdgesOfKind& edges = findings_.local().edges[static_cast<size_t>(kind)];
+    ++edges.count;
+    for (const EdgeEntry& entry : around) {
+      if (!isProper(entry.face())) continue;
+      kinds_[entry.corner] = kind;
+      edges.firstCorner = std::min(edges.firstCorner, entry.corner);
+    }
+  }
+
+  [[nodiscard]] Vec3d middleOf(uint32_t corner) const {
+    const Face& face = mesh_.faces[corner / 3];
+    return 0.5 * mesh_.vertices[face[corner % 3]] + 0.5 * mesh_.vertices[face[(corner + 1) % 3]];
   }
 
   void join(std::span<const EdgeEntry> around) {
@@ -90,7 +106,7 @@ class Survey {
       across_[around[0].corner] = around[1].face();
       across_[around[1].corner] = around[0].face();
     }
-    if (around.size() <= 2) return;
+    if (around.size() <= 2 || joinPairs(around)) return;
     std::vector<Arc>& furtherArcs = findings_.local().furtherArcs;
     const size_t reach = around.size() <= kMaxFacesJoinedAllToAll ? around.size() : 1;
     for (size_t i = 0; i < around.size(); ++i) {
@@ -100,6 +116,18 @@ class Survey {
         furtherArcs.emplace_back(around[j].face(), around[i].face());
       }
     }
+  }
+
+  /// Returns false, without effect, if the edge is not regular or has a face that is not proper.
+  bool joinPairs(std::span<const EdgeEntry> around) {
+    if (!std::all_of(around.begin(), around.end(), [&](const EdgeEntry& entry) { return isProper(entry.face()); }))
+      return false;
+    const std::vector<CornerPair> pairs = pairsAroundEdge(mesh_, around);
+    for (const auto& [first, second] : pairs) {
+      across_[first] = second / 3;
+      across_[second] = first / 3;
+    }
+    return !pairs.empty();
   }
 
   /// In a closed mesh each face has three arcs, so that `across_` already has the rows; the function sorts each row.

@@ -124,9 +124,9 @@ MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
   defects.zeroAreaFaceCount = degenerateCount - defects.nonFiniteFaceCount;
   defects.nonFiniteVertexCount =
       countInParallel(mesh.vertices.size(), [&](uint32_t vertex) { return !isFinite(mesh.vertices[vertex]); });
-  defects.boundaryEdgeCount = edges.boundaryEdgeCount;
+  defects.boundaryEdgeCount = edges.countOf(EdgeKind::Boundary);
   defects.nonManifoldEdgeCount = edges.nonManifoldEdgeCount;
-  defects.inconsistentEdgeCount = edges.inconsistentEdgeCount;
+  defects.inconsistentEdgeCount = edges.countOf(EdgeKind::Inconsistent);
   defects.unreferencedVertexCount = countUnreferencedVertices(mesh);
   defects.shortPolygonCount = countShortPolygons(mesh.polygons);
   return defects;

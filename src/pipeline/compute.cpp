@@ -102,9 +102,15 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
   return fields;
 }
 
-void measureThickness(Result& result, const Computation& computation, const RunControl& control) {
-  const auto scope = computation.clock.time(Stage::Thickness);
-  const FaceThickness thickness = measureThickness(computation, control);
+void measureThickness(Result& result, const Computation& ofMesh, const PreparedScene& preparedScene,
+                      const RunControl& control) {
+  const auto scope = ofMesh.clock.time(Stage::Thickness);
+  const JudgedSurface surface(preparedScene, ofMesh.options.orientation == Orientation::Flip,
+                              control.withoutProgress());
+  const TraceScene scene = surface.scene().view();
+  const Computation computation{ofMesh.options, surface.scene().prepared, ofMesh.domain, scene,          ofMesh.cone,
+                                ofMesh.backend, ofMesh.solvers,           ofMesh.clock,  ofMesh.warnings};
+  const FaceThickness thickness = measureThickness(computation, surface, control);
   const TriangleMesh& mesh = computation.prepared.mesh;
   result.fields.push_back(makeField("thickness", thicknessOfInputFaces(mesh, thickness.atBarycentre)));
   result.fields.push_back(makeField("least_thickness", thicknessOfInputFaces(mesh, thickness.least)));
@@ -120,7 +126,7 @@ void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, 
         "component", labelsOfInputFaces(prepared.mesh, prepared.components.componentOf, prepared.geometry.areas)));
   }
   if (options.per != PerElement::Vertices) return;
-  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
+  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.vertexOf, prepared.geometry.areas, fields);
   fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
 }
 
@@ -254,7 +260,8 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
     measureDiameter(result, computation, *sharedScene, input.tracers, keepsNodes, control);
   if (options.measuresThickness()) {
     sharedScene->requireHierarchy(bvhOptionsFor(backend), clock, control.withoutProgress());
-    measureThickness(result, computation, options.measuresDiameter() ? control.withoutProgress() : control);
+    measureThickness(result, computation, *sharedScene,
+                     options.measuresDiameter() ? control.withoutProgress() : control);
   }
   addDerivedFields(result.fields, prepared, options);
   backend.requireSilentValidation();

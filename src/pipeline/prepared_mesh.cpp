@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "describe/warnings.h"
+#include "mesh/closed_surface.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/input_faces.h"
 #include "mesh/orientation.h"
 #include "mesh/validation.h"
+#include "mesh/winding.h"
 
 namespace asdfvk {
 
@@ -84,12 +87,38 @@ void reverseFaces(PreparedMesh& prepared, const Reverse& reverse) {
   const std::vector<Face> before = prepared.storage.faces;
   reverse();
   prepared.mesh = prepared.storage;
+  std::vector<uint64_t> reversed, all;
   for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
     const uint32_t inputFace = prepared.mesh.inputFaceOf(f);
-    std::vector<uint64_t>& reversed = prepared.reversedFaces;
     if (before[f] != prepared.mesh.faces[f] && (reversed.empty() || reversed.back() != inputFace))
       reversed.push_back(inputFace);
   }
+  // A face that is reversed twice is not reversed.
+  std::set_symmetric_difference(prepared.reversedFaces.begin(), prepared.reversedFaces.end(), reversed.begin(),
+                                reversed.end(), std::back_inserter(all));
+  prepared.reversedFaces = std::move(all);
+}
+
+/// Surveys the edges. Reverses faces that are wound against their neighbours, if requested, and welds vertices.
+SurfaceEdges closeSurface(PreparedMesh& prepared, Orientation orientation) {
+  const Normalization unit = normalizationOf(prepared.geometry.bounds);
+  SurfaceEdges edges = surveySurface(prepared.mesh, unit);
+  if (orientation == Orientation::Auto && edges.survey.countOf(EdgeKind::Inconsistent) > 0) {
+    TriangleMesh welded = prepared.mesh;
+    if (!edges.faces.empty()) welded.faces = edges.faces;
+    const std::vector<uint8_t> isTurned = findTurnedFaces(welded, unit, edges);
+    if (const auto count = std::count(isTurned.begin(), isTurned.end(), 1); count > 0) {
+      reverseFaces(prepared, [&] { flipFaces(prepared.storage, prepared.geometry, isTurned); });
+      prepared.warnings.push_back(facesReversed(prepared.reversedFaces.size()));
+      edges = surveySurface(prepared.mesh, unit);
+    }
+  }
+  if (edges.faces.empty()) return edges;
+  prepared.storage.faces = std::move(edges.faces);
+  prepared.mesh.faces = prepared.storage.faces;
+  prepared.vertexOf = std::move(edges.vertexOf);
+  if (edges.weldDistance > 0) prepared.geometry = computeFaceGeometry(prepared.mesh);
+  return edges;
 }
 
 void orient(PreparedMesh& prepared, Orientation orientation) {
@@ -134,18 +163,23 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   control.checkpoint(0);
   prepared.geometry = computeFaceGeometry(mesh);
   control.checkpoint(0);
-  EdgeSurvey edges = [&] {
+  SurfaceEdges surface = [&] {
     const auto graphScope = clock.time(Stage::Graph);
-    return surveyEdges(mesh);
+    return closeSurface(prepared, orientation);
   }();
+  EdgeSurvey& edges = surface.survey;
   control.checkpoint(0);
   prepared.representatives = coincidentRepresentatives(mesh, edges);
   control.checkpoint(0);
   prepared.components = findComponents(mesh, edges);
   control.checkpoint(0);
   prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
+  prepared.defects.weldedVertexCount = surface.weldedVertexCount;
+  prepared.defects.unreferencedVertexCount -= surface.weldedVertexCount;
   prepared.graph = std::move(edges.graph);
-  prepared.warnings = warningsOf(prepared.defects, !mesh.polygons.isEmpty());
+  prepared.openEdges = edges.edges;
+  std::vector<Warning> warnings = warningsOf(prepared.defects, !mesh.polygons.isEmpty());
+  prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());
   if (const Mesh* const source = view.mesh()) {
     prepared.unit = source->unit;
     prepared.statedPartCount = source->statedPartCount;

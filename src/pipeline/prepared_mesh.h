@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,11 +18,14 @@ namespace asdfvk {
 
 /// Data of a mesh that is independent of rays, seeds and devices.
 struct PreparedMesh {
-  Mesh storage;       ///< Arrays of `mesh` that differ from the caller's: converted, triangulated or reversed.
+  Mesh storage;       ///< Arrays of `mesh` that differ from the caller's: converted, triangulated, welded or reversed.
   TriangleMesh mesh;  ///< Views of `storage` and of the arrays of the caller.
   FaceGeometry geometry;
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
+  /// #V: the vertex that replaces each vertex in `mesh` (closed_surface.h). Empty if no vertex was welded.
+  std::vector<uint32_t> vertexOf;
   DualGraph graph;
+  std::array<EdgesOfKind, kEdgeKindCount> openEdges;  ///< EdgeSurvey::edges
   Components components;
   std::vector<uint32_t> invertedComponents;  ///< Inverted components that were left unchanged. Ascending.
   std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.

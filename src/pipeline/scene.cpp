@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "describe/computation_options.h"
 #include "pipeline/backend.h"
 #include "pipeline/compute.h"
+#include "pipeline/judged_surface.h"
 #include "pipeline/surface_points.h"
 
 namespace asdfvk {
@@ -121,12 +123,24 @@ struct Scene::State {
     return *tracers_;
   }
 
-  /// Calls findNearestPoints(). Throws Error{NoValues} if no face has an area.
+  /// Throws Error{NoValues} if no face has an area.
+  void requireSurface() const {
+    if (scene->bvh.nodes.empty()) throw Error(ErrorCode::NoValues, "the mesh has no face with an area");
+  }
+
+  /// Calls findNearestPoints(). Throws the error of requireSurface().
   void takeNearest(std::span<const double> points, const RunControl& control,
                    FunctionRef<void(size_t, const SurfacePoint&)> take) const {
-    if (!points.empty() && scene->bvh.nodes.empty())
-      throw Error(ErrorCode::NoValues, "the mesh has no face with an area");
+    if (!points.empty()) requireSurface();
     findNearestPoints(*scene, vectorsOf(points), control, take);
+  }
+
+  /// The surface of the material, found at the first call.
+  const JudgedSurface& judgedSurface(const RunControl& control) {
+    const std::lock_guard lock(surfaceMutex_);
+    if (!surface_)
+      surface_ = std::make_unique<JudgedSurface>(*scene, orientation == Orientation::Flip, control.withoutProgress());
+    return *surface_;
   }
 
   SessionState& session;
@@ -136,6 +150,8 @@ struct Scene::State {
 
  private:
   std::unique_ptr<KeptTracers> tracers_;  // Destroyed before the scene.
+  std::mutex surfaceMutex_;
+  std::unique_ptr<JudgedSurface> surface_;
 };
 
 Scene::Scene(Session& session, const MeshView& mesh, Orientation orientation, const RunControl& control)
@@ -183,7 +199,7 @@ std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span
   requirePoints(points, normals);
   std::vector<Vec3d> unitNormals(normals.size() / 3);
   for (size_t i = 0; i < unitNormals.size(); ++i) unitNormals[i] = unitVector(vectorAt(normals, i));
-  return thicknessAtPoints(*state_->scene, vectorsOf(points), unitNormals, thickness, control);
+  return thicknessAtPoints(state_->judgedSurface(control), vectorsOf(points), unitNormals, thickness, control);
 }
 
 std::vector<uint32_t> Scene::nearestFaces(std::span<const double> points, const RunControl& control) {
@@ -207,9 +223,12 @@ std::vector<double> Scene::distance(std::span<const double> points, const RunCon
 std::vector<double> Scene::radii(std::span<const double> points, const RunControl& control) {
   requirePoints(points);
   std::vector<double> radii(points.size() / 3, kNoValue);
-  state_->takeNearest(points, control, [&](size_t i, const SurfacePoint& found) {
-    const PreparedScene& scene = *state_->scene;
+  if (points.empty()) return radii;
+  state_->requireSurface();
+  const PreparedScene& scene = state_->judgedSurface(control).scene();
+  findNearestPoints(scene, vectorsOf(points), control, [&](size_t i, const SurfacePoint& found) {
     const Vec3d p = vectorAt(points, i);
+    if (found.face == kNoFace) return;
     if (!containsBy(0, scene.prepared.geometry.bounds, {p, p})) return;
     if (found.distance == 0 || isBehindSurface(scene, p, found))
       radii[i] = distanceOf(found, scene.bvh.normalization, p);

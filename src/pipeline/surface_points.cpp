@@ -67,15 +67,16 @@ std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Ve
   return hits;
 }
 
-std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<const Vec3d> points,
+std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
                                       std::span<const Vec3d> normals, const ThicknessOptions& options,
                                       const RunControl& control) {
+  const PreparedScene& scene = surface.scene();
   const TraceScene view = scene.view();
   const Normalization& unit = scene.bvh.normalization;
   std::vector<uint32_t> nearest(points.size());
   findNearestPoints(scene, points, control.part(0, kNearestDone),
                     [&](size_t i, const SurfacePoint& found) { nearest[i] = found.face; });
-  const Solids solids = findSolids(view.mesh, scene.prepared.components);
+  const Solids& solids = surface.solids();
   std::vector<uint8_t> isWanted(solids.isClosed.size());
   for (const uint32_t face : nearest)
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];

@@ -8,6 +8,7 @@
 #include "asdf_vk/run_control.h"
 #include "core/function_ref.h"
 #include "core/vec3.h"
+#include "pipeline/judged_surface.h"
 #include "pipeline/prepared_scene.h"
 #include "trace/nearest_hit.h"
 #include "trace/nearest_point.h"
@@ -29,7 +30,7 @@ void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points
                                                 std::span<const Vec3d> directions, const RunControl& control);
 
 /// See Scene::thicknessAt(). normals: unit.
-[[nodiscard]] std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<const Vec3d> points,
+[[nodiscard]] std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
                                                     std::span<const Vec3d> normals, const ThicknessOptions& options,
                                                     const RunControl& control);
 

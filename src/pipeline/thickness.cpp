@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "trace/crossed_faces.h"
+#include "pipeline/judgement.h"
 #include "trace/nearest_point.h"
 #include "trace/next_wall.h"
 #include "trace/solids.h"
@@ -25,13 +25,14 @@ constexpr double kLargestLimit = 2;
 
 class Measurement {
  public:
-  explicit Measurement(const Computation& computation)
+  Measurement(const Computation& computation, const JudgedSurface& surface)
       : computation_(computation),
+        judgement_(computation, surface),
         scene_(computation.scene),
         mesh_(computation.prepared.mesh),
         unit_(scene_.bvh.normalization),
         opposing_(makeOpposingWalls(computation.options.thickness)),
-        solids_(findSolids(scene_.mesh, computation.prepared.components)),
+        solids_(surface.solids()),
         fans_(mesh_) {
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
       limit_ = std::max(*limit * unit_.scale, kLeastLimit);
@@ -52,7 +53,7 @@ class Measurement {
     keepGreatest(sections);
     const WallTree tree(scene_, opposing_, &solids_, control.withoutProgress());
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
-    countUnjudged(control.withoutProgress());
+    thickness_.unjudged = judgement_.unjudged();
     if (limit_) {
       ThinPieces pieces(tree, fans_, thin, kThinShare * *limit_);
       pieces.divide(std::max(*limit_ / kPiecesPerLimit, kMinPieceLength), control.withoutProgress());
@@ -70,8 +71,10 @@ class Measurement {
  private:
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
 
-  /// A body whose greatest section is below the limit is a wall as a whole.
+  /// A body whose greatest section is below the limit is a wall as a whole, and so is a body of sheets.
   void addThinBodies(std::vector<GreatestSection>& sections, const RunControl& control) {
+    for (ConnectedThinParts& region : thickness_.regions)
+      if (judgement_.isInSheet(region.place.face)) region.kind = ThinKind::Wall;
     // Sections that were not searched far enough.
     std::vector<uint8_t> isOpen(sections.size());
     for (size_t solid = 0; solid < sections.size(); ++solid)
@@ -139,7 +142,6 @@ class Measurement {
   /// Returns the balls of the faces that have a point below the limit.
   std::vector<FaceBalls> measureFaces(const WallTree& tree, std::span<const GreatestSection> sections,
                                       const RunControl& control) {
-    const bool isFlipped = computation_.options.orientation == Orientation::Flip;
     std::vector<uint32_t> faces;
     faces.reserve(computation_.domain.traceableFaces.size());
     for (const Wall& wall : tree.walls())
@@ -158,10 +160,10 @@ class Measurement {
       for (FaceBalls& each : balls) {
         const double greatest = sections[solids_.solidOf[each.face]].diameter;
         const double least = take(each, greatest);
-        const uint32_t component = computation_.prepared.components.componentOf[each.face];
-        const bool isJudged = !std::isnan(least) && (isFlipped || solids_.isMisoriented[component] == 0);
+        const bool isJudged = !std::isnan(least) && judgement_.isJudged(each.face);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
-        if (isJudged && limit_ && each.least.wall != kNoFace && each.least.ball.diameter < kThinShare * *limit_ &&
+        const bool isLimited = each.least.wall != kNoFace || judgement_.isSheet(each.face);
+        if (isJudged && limit_ && isLimited && each.least.ball.diameter < kThinShare * *limit_ &&
             !isThinBody(sections[solids_.solidOf[each.face]]))
           thin.push_back(each);
       }
@@ -171,6 +173,12 @@ class Measurement {
 
   /// Stores the values of a face and returns its least thickness.
   double take(FaceBalls& balls, double greatest) {
+    if (judgement_.isDoubleSided(balls.face)) return kNoValue;
+    if (judgement_.isSheet(balls.face)) {
+      const Vec3d place = scene_.originOf(balls.face);
+      balls.atBarycentre = balls.least = {{0, place, place}, kNoFace};
+      return thickness_.atBarycentre[balls.face] = thickness_.least[balls.face] = 0;
+    }
     const auto lengthOf = [&](InscribedBall& ball) {
       if (ball.wall == kNoFace) ball.ball.diameter = greatest;
       return ball.ball.diameter < kUnlimited ? unit_.toMeshLength(ball.ball.diameter) : kNoValue;
@@ -182,45 +190,13 @@ class Measurement {
     return thickness_.least[face];
   }
 
-  /// Counts the input faces of the domain that have a triangle for which holds(triangle) is true.
-  template <typename Holds>
-  [[nodiscard]] uint64_t countInputFaces(const Holds& holds) const {
-    uint64_t count = 0, last = mesh_.inputFaceCount();
-    for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
-      const uint64_t inputFace = mesh_.inputFaceOf(face);
-      if (inputFace == last || !computation_.domain.contains(inputFace) || !holds(face)) continue;
-      last = inputFace;
-      ++count;
-    }
-    return count;
-  }
-
-  void countUnjudged(const RunControl& control) {
-    UnjudgedFaces& unjudged = thickness_.unjudged;
-    const FaceGeometry& geometry = computation_.prepared.geometry;
-    unjudged.degenerateCount = countInputFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
-    if (computation_.options.orientation != Orientation::Flip) {
-      const auto isMisoriented = [&](uint32_t face) {
-        return solids_.isMisoriented[computation_.prepared.components.componentOf[face]] != 0;
-      };
-      unjudged.invertedCount = countInputFaces(isMisoriented);
-      const Components& components = computation_.prepared.components;
-      unjudged.openCount = countInputFaces([&](uint32_t face) {
-        return !geometry.isDegenerate(face) && !components.components[components.componentOf[face]].isClosed;
-      });
-    }
-    if (!limit_) return;
-    const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, kContactDistance, control);
-    unjudged.crossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedByOther) != 0; });
-    unjudged.selfCrossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedBySame) != 0; });
-  }
-
   const Computation& computation_;
+  Judgement judgement_;
   const TraceScene& scene_;
   const TriangleMesh& mesh_;
   const Normalization& unit_;
   OpposingWalls opposing_;
-  Solids solids_;
+  const Solids& solids_;
   PointFans fans_;
   std::optional<double> limit_;  ///< Normalised.
   FaceThickness thickness_;
@@ -228,8 +204,9 @@ class Measurement {
 
 }  // namespace
 
-FaceThickness measureThickness(const Computation& computation, const RunControl& control) {
-  return Measurement(computation).run(control);
+FaceThickness measureThickness(const Computation& computation, const JudgedSurface& surface,
+                               const RunControl& control) {
+  return Measurement(computation, surface).run(control);
 }
 
 std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values) {

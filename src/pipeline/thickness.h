@@ -7,6 +7,7 @@
 
 #include "asdf_vk/session.h"
 #include "pipeline/computation.h"
+#include "pipeline/judged_surface.h"
 #include "trace/greatest_section.h"
 #include "trace/thin_regions.h"
 
@@ -24,8 +25,10 @@ struct FaceThickness {
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
-/// section of its solid. A face without a wall that opposes it, in an open component, has no value.
-[[nodiscard]] FaceThickness measureThickness(const Computation& computation, const RunControl& control);
+/// section of its solid. A face without a wall that opposes it, in an open component, has no value. A face of the kind
+/// NoThickness has the thickness 0. computation: its mesh and scene are those of the surface.
+[[nodiscard]] FaceThickness measureThickness(const Computation& computation, const JudgedSurface& surface,
+                                             const RunControl& control);
 
 /// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);

@@ -14,13 +14,19 @@ namespace {
 
 struct VertexFaces {
   const TriangleMesh& mesh;
+  std::span<const uint32_t> vertexOf;
   std::span<const double> areas;
-  Buckets<uint32_t> facesAt;
+  Buckets<uint32_t> faces;
 
-  VertexFaces(const TriangleMesh& triangles, std::span<const double> faceAreas)
+  [[nodiscard]] std::span<const uint32_t> facesAt(uint32_t vertex) const {
+    return faces[vertexOf.empty() ? vertex : vertexOf[vertex]];
+  }
+
+  VertexFaces(const TriangleMesh& triangles, std::span<const uint32_t> vertices, std::span<const double> faceAreas)
       : mesh(triangles),
+        vertexOf(vertices),
         areas(faceAreas),
-        facesAt(sortIntoBuckets<uint32_t>(mesh.vertices.size(), mesh.faceCount(), [&](uint32_t face, auto put) {
+        faces(sortIntoBuckets<uint32_t>(mesh.vertices.size(), mesh.faceCount(), [&](uint32_t face, auto put) {
           for (const uint32_t vertex : mesh.faces[face]) put(vertex, face);
         })) {}
 };
@@ -29,7 +35,7 @@ std::vector<double> meansOf(const VertexFaces& at, const std::vector<double>& en
   std::vector<double> means(at.mesh.vertices.size() * componentCount, kNoValue);
   const auto meanAt = [&](uint32_t vertex, size_t component) {
     double weight = 0, mean = kNoValue, last = kNoValue;
-    for (const uint32_t face : at.facesAt[vertex]) {
+    for (const uint32_t face : at.facesAt(vertex)) {
       const double value = entries[at.mesh.inputFaceOf(face) * size_t{componentCount} + component];
       if (std::isnan(value)) continue;
       last = value;
@@ -50,7 +56,7 @@ std::vector<uint32_t> labelsOf(const VertexFaces& at, const std::vector<uint32_t
   std::vector<uint32_t> labels(at.mesh.vertices.size(), kNoSegment);
   forEachInParallel(labels.size(), [&](uint32_t vertex) {
     std::vector<std::pair<uint32_t, double>> areaOf;
-    for (const uint32_t face : at.facesAt[vertex])
+    for (const uint32_t face : at.facesAt(vertex))
       if (const uint32_t label = entries[at.mesh.inputFaceOf(face)]; label != kNoSegment)
         areaOf.emplace_back(label, at.areas[face]);
     labels[vertex] = labelOfLargestArea(areaOf);
@@ -61,16 +67,16 @@ std::vector<uint32_t> labelsOf(const VertexFaces& at, const std::vector<uint32_t
 std::vector<uint8_t> flagsOf(const VertexFaces& at, const std::vector<uint8_t>& entries) {
   std::vector<uint8_t> flags(at.mesh.vertices.size(), 0);
   forEachInParallel(flags.size(), [&](uint32_t vertex) {
-    for (const uint32_t face : at.facesAt[vertex]) flags[vertex] |= entries[at.mesh.inputFaceOf(face)];
+    for (const uint32_t face : at.facesAt(vertex)) flags[vertex] |= entries[at.mesh.inputFaceOf(face)];
   });
   return flags;
 }
 
 }  // namespace
 
-std::vector<Field> vertexFieldsOf(const TriangleMesh& mesh, std::span<const double> areas,
-                                  std::span<const Field> faceFields) {
-  const VertexFaces at(mesh, areas);
+std::vector<Field> vertexFieldsOf(const TriangleMesh& mesh, std::span<const uint32_t> vertexOf,
+                                  std::span<const double> areas, std::span<const Field> faceFields) {
+  const VertexFaces at(mesh, vertexOf, areas);
   std::vector<Field> fields;
   for (const Field& field : faceFields) {
     ASDFVK_CHECK_OP(field.itemCount(), ==, mesh.inputFaceCount());

@@ -1,5 +1,6 @@
 #include "trace/solids.h"
 
+#include "core/disjoint_sets.h"
 #include "mesh/cavities.h"
 
 namespace asdfvk {
@@ -20,6 +21,18 @@ Solids findSolids(const TriangleMesh& mesh, const Components& components) {
     solids.solidOf[face] = solids.isClosed[body] != 0 ? body : component;
   }
   return solids;
+}
+
+void joinSolids(const Components& components, std::span<const std::pair<uint32_t, uint32_t>> meeting, Solids& solids) {
+  if (meeting.empty()) return;
+  DisjointSets sets(components.components.size());
+  const auto solidOf = [&](uint32_t component) { return solids.solidOf[components.components[component].firstFace]; };
+  for (const auto& [first, second] : meeting)
+    if (solids.isClosed[solidOf(first)] != 0 && solids.isClosed[solidOf(second)] != 0)
+      sets.join(solidOf(first), solidOf(second));
+  for (uint32_t& solid : solids.solidOf) solid = sets.lowestOf(solid);
+  for (uint32_t solid = 0; solid < solids.isClosed.size(); ++solid)
+    if (sets.lowestOf(solid) != solid) solids.isClosed[solid] = 0;
 }
 
 }  // namespace asdfvk

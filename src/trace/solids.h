@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/components.h"
@@ -28,6 +30,10 @@ struct Solids {
     return body == otherBody || body == kNoBody || otherBody == kNoBody;
   }
 };
+
+/// Solids that meet become one solid, with the lowest of their indices. meeting: pairs of components that meet. A
+/// pair with a solid that is not closed has no effect.
+void joinSolids(const Components& components, std::span<const std::pair<uint32_t, uint32_t>> meeting, Solids& solids);
 
 /// A cavity belongs to the innermost body around it (findCavities()) if this body is closed and wound outwards.
 [[nodiscard]] Solids findSolids(const TriangleMesh& mesh, const Components& components);

@@ -99,8 +99,8 @@ std::optional<Contradiction> DiscCheck::contradictionAt(const SurfacePointDisc& 
   return found;
 }
 
-/// The opposing wall at the middle is a bound for all points of the face. This bound is least towards the point that the
-/// ball touches.
+/// The opposing wall at the middle is a bound for all points of the face. This bound is least towards the point that
+/// the ball touches.
 std::optional<Contradiction> DiscCheck::taperAt(const SurfacePointDisc& disc) const {
   if (disc.ball.wall == kNoFace) return {};
   const TraceScene& scene = pieces_.tree().scene();

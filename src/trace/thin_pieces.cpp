@@ -53,6 +53,7 @@ ThinPiece ThinPieces::rootPiece(const FaceBalls& balls) {
 /// If one wall limits the balls, the diameter is a convex function of the point: the diameters at the corners are a
 /// bound.
 double ThinPieces::boundOf(const ThinPiece& piece) const {
+  if (piece.least.ball.diameter == 0) return 0;
   double bound = limit_;
   const auto limitBy = [&](uint32_t face) {
     const PlaneTriangle wall = triangleOf(tree_.scene(), face);
@@ -146,6 +147,7 @@ InscribedBall ThinPieces::ballAtMiddle(uint32_t index) const {
 }
 
 InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point) const {
+  if (isSheet(face)) return {{0, point, point}, kNoFace};
   BallQuery query{{{point, point, point}, normal(face)}, point, {}, {}, tree_.bodyOf(face)};
   query.atPoint.ball.diameter = query.least.ball.diameter = limit_;
   tree_.shrink({&query, 1});

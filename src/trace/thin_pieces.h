@@ -59,6 +59,10 @@ class ThinPieces {
   [[nodiscard]] size_t size() const { return pieces_.size(); }
   [[nodiscard]] uint32_t rootOf(uint32_t face) const { return roots_[face]; }  ///< kNoPiece for a thicker face.
   [[nodiscard]] bool isThin(uint32_t piece) const { return pieces_[piece].least.ball.diameter < limit_; }
+  /// A face of thickness 0: two sheets in contact.
+  [[nodiscard]] bool isSheet(uint32_t face) const {
+    return roots_[face] != kNoPiece && pieces_[roots_[face]].least.ball.diameter == 0;
+  }
   [[nodiscard]] double limit() const { return limit_; }
   [[nodiscard]] const WallTree& tree() const { return tree_; }
   [[nodiscard]] const PointFans& fans() const { return fans_; }

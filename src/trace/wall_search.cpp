@@ -23,7 +23,7 @@ constexpr size_t kMaxPointsForLimit = 20'000, kMaxVisitsForLimit = 1'000'000;
 constexpr size_t kContradictionsPerCell = 8;
 /// Walls are as thick as each other within this relative difference.
 constexpr double kEqualWalls = 2e-3;
-constexpr double kSlack = 1 + 1e-9;
+constexpr double kAboveThickness = 1 + 1e-9;
 /// A point is moved beyond the reach of a contradiction by this share.
 constexpr double kStepBeyond = 1.0 / 64;
 /// Shares of the limit: the greatest length of parts whose middle stands for their points, and the size of the cells of
@@ -157,9 +157,11 @@ std::array<WallSearch::Part, 2> WallSearch::halvesOf(const Part& part) const {
     queries[i].atPoint.ball.diameter = queries[i].least.ball.diameter = pieces_.limit();
   }
   pieces_.tree().shrink(queries);
+  const bool isSheet = pieces_.isSheet(part.face);
   for (size_t i = 0; i < 2; ++i)
-    halves[i] = {halves[i].corners, queries[i].atPoint, queries[i].least.ball.diameter, sizeOf(halves[i].corners),
-                 part.face};
+    halves[i] = isSheet ? Part{halves[i].corners, part.atMiddle, 0, sizeOf(halves[i].corners), part.face}
+                        : Part{halves[i].corners, queries[i].atPoint, queries[i].least.ball.diameter,
+                               sizeOf(halves[i].corners), part.face};
   return halves;
 }
 
@@ -167,7 +169,7 @@ std::array<WallSearch::Part, 2> WallSearch::halvesOf(const Part& part) const {
 /// contradiction. The disc of a greater limit contains the disc of a smaller one: a thicker point contradicts until the
 /// limit is above its thickness, a thinner point always.
 std::optional<Contradiction> WallSearch::contradictionFrom(SurfacePointDisc& disc, double floor) {
-  disc.limit = std::min(std::max(disc.diameter() / kThinShare * kSlack, floor), limit_);
+  disc.limit = std::min(std::max(disc.diameter() / kThinShare * kAboveThickness, floor), limit_);
   std::optional<Contradiction> contradiction;
   for (int i = 0; i < kLimitsPerPoint && disc.limit <= limit_; ++i) {
     contradiction = check_.contradictionAt(disc);

@@ -138,13 +138,22 @@ TEST_CASE("the short report has at most six lines of 100 columns, and no device,
   thickness.minFace = 1'234'567;
   thickness.minPlace = thickness.minOpposite = Vec3d{-123.456, -23.4567, -123.456};
   thickness.median = thickness.max = 1.23456e-10;
-  thickness.unjudged = {.openCount = 12345, .invertedCount = 12345};
+  thickness.unjudged.reasons = {{.faceCount = 12345, .edgeCount = 12345, .face = 12345, .place = {1, 2, 3}}, {}};
+  for (const UnjudgedCause cause : {UnjudgedCause::Border, UnjudgedCause::Branching, UnjudgedCause::WoundAgainst,
+                                    UnjudgedCause::Inverted, UnjudgedCause::DoubleSided}) {
+    thickness.unjudged.reasons[0].cause = cause;
+    thickness.unjudged.reasons[0].place = {-123.456, -23.4567, -123.456};
+    thickness.unjudged.reasons[0].isRepairable = true;
+    CHECK(lines()[1].find(", first at (-123.456, -23.4567, -123.456), face 12345") != std::string::npos);
+  }
+  thickness.unjudged.reasons[0].cause = UnjudgedCause::Border;
+  thickness.unjudged.reasons[0].place = {1, 2, 3};
   thickness.regions.assign(1234, {});
   thickness.thinAreaShare = 0.123;
   found = lines();
   REQUIRE(found.size() == 6);
   CHECK_EQ(found[0], "horse.ply: NOT JUDGED: none of the judged faces is thinner than 0.812345");
-  CHECK_EQ(found[1], "  unjudged  faces: 12,345 of open components, 12,345 inverted, 0 crossed by their own body");
+  CHECK_EQ(found[1], "  unjudged  12,345 open edges, first at (1, 2, 3), face 12345; close the mesh; 1 more");
   CHECK_EQ(found[2],
            "  thickness median 1.235e-10, greatest 1.235e-10; 1,234 thin regions, 12.3 % of the area (--verbose)");
   CHECK_EQ(found[3], "  mesh      96,966 faces, bounding box 1.235e-05 x 2 x 3");

@@ -133,7 +133,9 @@ TEST_CASE("a mesh that is thinner than allowed ends with 6, one that cannot be j
   CHECK_EQ(runThickness({sphere, cube, "--fail-if-thinner", "1.5"}).exitCode, 6);
   const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   const ChildOutcome none = runThickness({open, "--fail-if-thinner", "1", "-o", folder / "open.csv"});
-  checkFailure(none, 5, "NOT JUDGED: no wall thinner than 1 was found; unjudged faces: 1 of open components");
+  checkFailure(none, 5,
+               "NOT JUDGED: no wall thinner than 1 was found; unjudged 3 open edges, first at (0.5, 0, 0), face 0; "
+               "close the mesh");
   CHECK_FALSE(folder.read("open.csv").empty());
 }
 

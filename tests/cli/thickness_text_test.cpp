@@ -97,13 +97,31 @@ TEST_CASE("a verdict other than FAIL has the details and edges that do not count
 TEST_CASE("what is not judged is named, also where the verdict is another one") {
   Result result = soundResult(0.8);
   ThicknessReport& thickness = *result.report.thickness;
-  thickness.unjudged = {.openCount = 1200, .invertedCount = 1, .degenerateCount = 2, .crossedCount = 3};
+  thickness.unjudged = {.degenerateCount = 2, .crossedCount = 3};
+  thickness.unjudged.reasons = {
+      {.cause = UnjudgedCause::Border, .faceCount = 1200, .edgeCount = 8, .face = 4, .place = {1, 2, 3}},
+      {.cause = UnjudgedCause::Branching, .faceCount = 22, .edgeCount = 4, .face = 6, .place = {1, 2, 3}},
+      {.cause = UnjudgedCause::WoundAgainst, .faceCount = 12, .edgeCount = 1, .face = 7, .isRepairable = true},
+      {.cause = UnjudgedCause::WoundAgainst, .faceCount = 12, .edgeCount = 3, .face = 7},
+      {.cause = UnjudgedCause::Inverted, .faceCount = 1, .isRepairable = true},
+      {.cause = UnjudgedCause::DoubleSided, .faceCount = 2, .face = 5}};
   const auto checkSentences = [&] {
     const std::string text = textOf(result);
-    checkHolds(text, "\n  unjudged  1,200 faces of open components: closing them may add a thin wall");
-    checkHolds(text, "\n            1 face of closed components oriented inwards or inconsistently; --orient auto ");
+    checkHolds(text,
+               "\n  unjudged  1,200 faces of open components: 8 edges have one face, the first at (1, 2, 3), face 4; "
+               "close the mesh, a wall may be missing\n");
+    checkHolds(text, "\n            22 faces of ambiguous components: 4 edges have three faces or more");
+    checkHolds(
+        text,
+        "\n            12 faces of components with faces wound against each other: 1 edge, the first at (0, 0, 0), "
+        "face 7; --orient auto reverses them\n");
+    checkHolds(text,
+               ": 3 edges, the first at (0, 0, 0), face 7; the surface has no consistent orientation, repair it\n");
+    checkHolds(text,
+               "\n            1 face of components oriented inwards, the first at (0, 0, 0), face 0; --orient auto ");
+    checkHolds(text, "\n            2 faces have a copy that is wound the other way, the first at (0, 0, 0), face 5");
     checkHolds(text, "\n            2 degenerate faces left out");
-    checkHolds(text, "\n            3 faces crossed by a face of another body");
+    checkHolds(text, "\n            3 faces crossed by other faces: judged in pieces");
   };
   checkSentences();
   thickness.verdict = ThicknessVerdict::Failed;
@@ -190,7 +208,7 @@ TEST_CASE("the short report has the diameter and its error if they were computed
   report.segmentCount.reset();
   CHECK_EQ(titles(), "thickness mesh diameter error output ");
   report.check.reset();
-  report.thickness->unjudged.openCount = 7;
+  report.thickness->unjudged.reasons.resize(2);
   CHECK_EQ(titles(), "unjudged thickness mesh diameter output ");
   report.segmentCount = 3;
   CHECK_EQ(titles(), "unjudged thickness mesh segments output ");
@@ -205,7 +223,13 @@ TEST_CASE("the document has every value of the thickness") {
   thickness.regions[0].width = 2;
   thickness.countsDetails = true;
   thickness.sentence = "a sentence";
-  thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4};
+  thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4, .insideCount = 5};
+  thickness.unjudged.reasons = {{.cause = UnjudgedCause::WoundAgainst,
+                                 .faceCount = 5,
+                                 .edgeCount = 6,
+                                 .face = 7,
+                                 .place = {1, 2, 3},
+                                 .isRepairable = true}};
   const Json json = jsonOf(result);
   CHECK_EQ(json.at("verdict"), "failed");
   CHECK_EQ(json.at("min"), 1);
@@ -220,7 +244,8 @@ TEST_CASE("the document has every value of the thickness") {
       "opposite": [1, 2, 4], "least": 0.5, "angleDegrees": 5, "width": 2, "faceCount": 2, "area": 12.5,
       "areaShare": 0.02}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
-      "crossedCount": 4, "selfCrossedCount": 0})"));
+      "crossedCount": 4, "insideCount": 5, "reasons": [{"cause": "woundAgainst", "faceCount": 5, "edgeCount": 6,
+      "face": 7, "place": [1, 2, 3], "isRepairable": true}]})"));
   thickness = {};
   for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "thinArea"})
     CHECK_MESSAGE(jsonOf(result).at(key).is_null(), key);

@@ -53,7 +53,7 @@ def computed(obj, name, *options):
              for vertex in obj.data.vertices]  # fmt: skip
     faces = [list(polygon.vertices) for polygon in obj.data.polygons]
     if obj.matrix_world.determinant() < 0:
-        options = (*options, "--orient", "flip")
+        faces = [[face[0], *face[:0:-1]] for face in faces]
     write_ply(str(folder / "blender.ply"), np.array(world), faces)
     path = folder / f"blender.{name}.npy"
     command = [program, folder / "blender.ply", *options, "--fields", name, "-o", path]
@@ -101,6 +101,10 @@ for name, matrix in (
     checks.same_bits(f"polygons, {name}", attribute(obj, "thickness"), path)
     checks.that(f"{name}: walls have values", np.isfinite(np.load(path)).sum() >= len(faces) - 1)
 
+obj = add("mirrored and open", vertices, faces[:-1], Matrix.Diagonal((-1, 1, 1, 1)))
+bpy.ops.object.asdf_vk(measure="THICKNESS", limit=0.01)
+checks.that("a mirrored open mesh has no verdict", obj.data["asdf_vk_report"].startswith("NOT JUDGED"))
+
 # A wall of the limit, but for rounding to float32.
 box = [(x + 5.3, y + 5.3, z + 5.3) for x in (0, 10) for y in (0, 10) for z in (0, 0.8)]
 sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -120,15 +124,24 @@ checks.raises("an attribute of the vertices", RuntimeError, lambda: bpy.ops.obje
 
 figure = asdf_vk.read_mesh(folder / "figure.ply")
 obj = add("figure", figure.vertices, figure.faces)
+own = [bpy.data.materials.new(name) for name in ("own 0", "own 1")]
+for material in own:
+    obj.data.materials.append(material)
+obj.data.polygons.foreach_set("material_index", [i % 2 for i in range(len(figure.faces))])
 bpy.ops.object.asdf_vk(measure="PARTS")
 segments = attribute(obj, "segment")
 checks.same_bits("segment", segments.astype(np.uint32), computed(obj, "segment", "--segment"))
-checks.that("a material per part", [m.name for m in obj.data.materials] == [f"asdf-vk part {i}" for i in range(segments.max() + 1)])
-checks.that("material of each face", [p.material_index for p in obj.data.polygons] == segments.tolist())
-colours = {tuple(round(c, 4) for c in m.diffuse_color) for m in obj.data.materials}
+names = ["own 0", "own 1", *(f"asdf-vk part {i}" for i in range(segments.max() + 1))]
+checks.that("a material per part", [m.name for m in obj.data.materials] == names)
+checks.that("material of each face", [p.material_index for p in obj.data.polygons] == (2 + segments).tolist())
+colours = {tuple(round(c, 4) for c in m.diffuse_color) for m in list(obj.data.materials)[2:]}
 checks.that("the colours of the parts differ", len(colours) == segments.max() + 1 > 3)
 bpy.ops.object.asdf_vk(measure="PARTS", parts=3)
-checks.that("three parts", len(obj.data.materials) == 3 and len(set(attribute(obj, "segment"))) == 3)
+checks.that("three parts", len(obj.data.materials) == 5 and len(set(attribute(obj, "segment"))) == 3)
+bpy.ops.object.asdf_vk_remove_parts()
+checks.that("the own materials are back", [m.name for m in obj.data.materials] == names[:2])
+checks.that("on their faces", [p.material_index for p in obj.data.polygons] == [i % 2 for i in range(len(figure.faces))])
+checks.that("no parts remain", "segment" not in obj.data.attributes and "asdf_vk_material" not in obj.data.attributes)
 
 # Wrong objects: one line each, and nothing changes.
 empty = add("empty", [(0, 0, 0)], [])

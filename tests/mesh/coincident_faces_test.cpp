@@ -23,7 +23,7 @@ TEST_CASE("a third side of a pillow is a copy of one of the two, which are not c
   mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   mesh.faces.insert(mesh.faces.begin(), {v, v + 1, v + 2});
   mesh.faces.push_back({v, v + 2, v + 1});
-  CHECK(surveyEdges(mesh).isClosed);
+  CHECK(surveyEdges(mesh).isManifold);
   CHECK(representativesOf(mesh).back() == mesh.faces.size() - 1);
   mesh.faces.push_back({v + 2, v, v + 1});
   const std::vector<uint32_t> representatives = representativesOf(mesh);
@@ -33,7 +33,7 @@ TEST_CASE("a third side of a pillow is a copy of one of the two, which are not c
 
 TEST_CASE("of two closed shells with vertices of their own at the same places one is the other's copy") {
   const Mesh mesh = shapes::joined(shapes::cube(), shapes::cube());
-  CHECK(surveyEdges(mesh).isClosed);
+  CHECK(surveyEdges(mesh).isManifold);
   const std::vector<uint32_t> representatives = representativesOf(mesh);
   for (uint32_t f = 0; f < mesh.faceCount(); ++f) CHECK(representatives[f] == f % 12);
 }

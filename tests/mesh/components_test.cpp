@@ -47,8 +47,8 @@ Closedness closednessByMap(const Mesh& mesh, const Components& components) {
   }
   for (const auto& [edge, uses] : edges)
     for (const uint32_t f : uses.faces) {
-      if (uses.faces.size() != 2) result.isClosed[components.componentOf[f]] = false;
-      if (uses.faces.size() == 2 && uses.upCount != 1) result.isConsistentlyWound[components.componentOf[f]] = false;
+      if (2 * uses.upCount == uses.faces.size()) continue;
+      (uses.faces.size() % 2 == 0 ? result.isConsistentlyWound : result.isClosed)[components.componentOf[f]] = false;
     }
   return result;
 }
@@ -181,12 +181,41 @@ TEST_CASE("a face with a repeated vertex neither opens a component nor is closed
   CHECK_FALSE(result.components[1].isClosed);
 }
 
-TEST_CASE("books of any thickness and doubled shells are not closed") {
+TEST_CASE("books of any thickness are not closed") {
   for (uint32_t pageCount : {3u, 33u, 100u}) CHECK_FALSE(componentsOf(shapes::book(pageCount)).components[0].isClosed);
+}
+
+TEST_CASE("the copies of a shell are closed components of their own") {
   Mesh doubled = shapes::cube();
   const std::vector<Face> once = doubled.faces;
-  doubled.faces.insert(doubled.faces.end(), once.begin(), once.end());
-  CHECK_FALSE(componentsOf(doubled).components[0].isClosed);
+  for (const bool isInverted : {false, true}) {
+    doubled.faces = once;
+    for (const Face& face : once) doubled.faces.push_back(isInverted ? Face{face[0], face[2], face[1]} : face);
+    const Components result = componentsOf(doubled);
+    REQUIRE(result.components.size() == 2);
+    for (size_t i = 0; i < 2; ++i) {
+      CHECK(result.components[i].isClosed);
+      CHECK(result.components[i].isConsistentlyWound);
+      CHECK(result.components[i].signedVolume == doctest::Approx(i == 1 && isInverted ? -8 : 8));
+    }
+  }
+}
+
+TEST_CASE("solids that touch at an edge or a side of common vertices are components of their own") {
+  const Mesh edge = shapes::boxesWithSharedEdge();
+  REQUIRE(componentsOf(edge).components.size() == 2);
+  Mesh side = shapes::joined(shapes::cube(), shapes::cube(), {2, 0, 0});
+  for (Face& face : side.faces)
+    for (uint32_t& vertex : face)
+      for (uint32_t other = 0; other < 8; ++other)
+        if (side.vertices[other] == side.vertices[vertex]) vertex = other;
+  const Components touching = componentsOf(side);
+  REQUIRE(touching.components.size() == 2);
+  for (const Component& component : touching.components) {
+    CHECK(component.isClosed);
+    CHECK(component.faceCount == 12);
+    CHECK(component.signedVolume == doctest::Approx(8));
+  }
 }
 
 TEST_CASE("one face wound against the others makes a component inconsistent") {

@@ -74,7 +74,7 @@ TEST_CASE("an edge of three faces is non-manifold, its pages are open") {
   CHECK(defects.boundaryEdgeCount == 6);
   CHECK(defects.inconsistentEdgeCount == 0);
   CHECK(sentencesOf(defects, false).front() ==
-        "1 edge has more than two faces: values are interpolated across all of them");
+        "1 edge has more than two faces: two solids touch there, or inside and outside are not defined");
 }
 
 TEST_CASE("a face wound against its neighbours has three inconsistent edges") {

@@ -32,7 +32,7 @@ Mesh twoTriangles() {
 Field vertexField(const Mesh& mesh, Field::Values values, uint32_t componentCount = 1) {
   const std::vector<Field> fields{
       {.name = "a", .label = "A", .unit = "length", .componentCount = componentCount, .values = std::move(values)}};
-  std::vector<Field> result = vertexFieldsOf(mesh, computeFaceGeometry(mesh).areas, fields);
+  std::vector<Field> result = vertexFieldsOf(mesh, {}, computeFaceGeometry(mesh).areas, fields);
   REQUIRE(result.size() == 1);
   CHECK(result[0].name == "a");
   CHECK(result[0].label == "A");

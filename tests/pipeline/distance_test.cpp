@@ -134,6 +134,24 @@ TEST_CASE("the radius is the distance inside, by the winding number, and NaN out
   CHECK(std::isnan(kept.radii(std::array{0.1, 0.0, 0.0}).front()));
 }
 
+TEST_CASE("parts that overlap or touch are one shape") {
+  const Mesh ball = shapes::icosphere(3, 5), box = shapes::box({2, 2, 2});
+  const Mesh overlapping = shapes::joined(ball, ball, {6, 0, 0}), touching = shapes::joined(box, box, {2, 0, 0});
+  Scene balls(referenceSession(), overlapping), boxes(referenceSession(), touching);
+  const std::vector<double> inBalls =
+      balls.radii(std::array{0.0, 0.0, 0.0, 6.0, 0.0, 0.0, 3.0, 0.0, 0.0, 3.0, 4.2, 0.0});
+  CHECK(inBalls[0] == doctest::Approx(5).epsilon(0.01));
+  CHECK(inBalls[1] == doctest::Approx(5).epsilon(0.01));
+  CHECK(inBalls[2] == doctest::Approx(4).epsilon(0.01));  // To the circle in which the spheres cross.
+  CHECK(std::isnan(inBalls[3]));
+  const std::vector<double> inBoxes = boxes.radii(std::array{0.9, 0.0, 0.0, 1.0, 0.5, 0.0, 3.1, 0.0, 0.0});
+  CHECK(inBoxes[0] == doctest::Approx(1));
+  CHECK(inBoxes[1] == doctest::Approx(0.5));
+  CHECK(std::isnan(inBoxes[2]));
+  const std::vector<double> thickness = boxes.thicknessAt(std::array{1.0, 1.0, 0.2}, std::array{0.0, 1.0, 0.0});
+  CHECK(thickness[0] == doctest::Approx(2));
+}
+
 TEST_CASE("a point in front of a saddle vertex has no radius") {
   // A fan around the vertex 6, closed by the vertex 7. Of the faces at the vertex 6 the one whose plane is farthest
   // from these points has them behind it.

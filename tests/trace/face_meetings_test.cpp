@@ -1,31 +1,40 @@
-#include "trace/crossed_faces.h"
+#include "trace/face_meetings.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
+#include "mesh/components.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
-#include "trace/wall_tree.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;
 
 namespace {
 
-std::vector<uint8_t> crossedFaces(const TracedMesh& traced) {
-  std::vector<uint32_t> solidOf(traced.mesh.faceCount());  // Each face is a solid of its own.
-  std::iota(solidOf.begin(), solidOf.end(), 0u);
-  return findCrossedFaces(traced.scene(), solidOf, kContactDistance, {});
+FaceMeetings meetingsOf(const Mesh& mesh) {
+  const TracedMesh traced(mesh);
+  const EdgeSurvey edges = surveyEdges(mesh);
+  const std::vector<uint8_t> isWanted(mesh.faces.size(), 1);
+  return findFaceMeetings(traced.scene(), edges.graph, findComponents(mesh, edges).componentOf, isWanted, {});
 }
 
-std::ptrdiff_t crossedCount(const Mesh& mesh) {
-  const std::vector<uint8_t> crossed = crossedFaces(TracedMesh(mesh));
-  return std::count(crossed.begin(), crossed.end(), 1);
+std::vector<uint8_t> facesWith(uint8_t bit, const Mesh& mesh) {
+  std::vector<uint8_t> result = meetingsOf(mesh).bits;
+  for (uint8_t& bits : result) bits = (bits & bit) != 0 ? 1 : 0;
+  return result;
 }
+
+std::ptrdiff_t countWith(uint8_t bit, const Mesh& mesh) {
+  const std::vector<uint8_t> found = facesWith(bit, mesh);
+  return std::count(found.begin(), found.end(), 1);
+}
+
+std::ptrdiff_t crossedCount(const Mesh& mesh) { return countWith(kCrossed, mesh); }
 
 /// Whether the segment passes through the triangle, by the signs of volumes.
 bool passesThrough(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -58,7 +67,7 @@ TEST_CASE("crossed faces are those of brute force") {
     for (size_t i = 0; i < expected.size(); ++i)
       for (size_t j = 0; j < i; ++j)
         if (crossByBruteForce(mesh, mesh.faces[i], mesh.faces[j])) expected[i] = expected[j] = 1;
-    CHECK(crossedFaces(TracedMesh(mesh)) == expected);
+    CHECK(facesWith(kCrossed, mesh) == expected);
     CHECK(std::count(expected.begin(), expected.end(), 1) > 20);
     CHECK(std::count(expected.begin(), expected.end(), 0) > 20);
   }
@@ -68,7 +77,7 @@ TEST_CASE("a pin through a plate: both sides of the plate and all sides of the p
   const Mesh plate = shapes::box({4, 4, 1}), pin = shapes::box({1, 1, 5});
   const Mesh mesh = shapes::joined(plate, pin, {0.05, 0.1, 0.03});
   const TracedMesh traced(mesh);
-  const std::vector<uint8_t> crossed = crossedFaces(traced);
+  const std::vector<uint8_t> crossed = facesWith(kCrossed, mesh);
   for (uint32_t face = 0; face < crossed.size(); ++face) {
     CAPTURE(face);
     const bool isHorizontal = std::abs(traced.geometry.normals[face].z) > 0.5, isOfPlate = face < plate.faces.size();
@@ -78,16 +87,40 @@ TEST_CASE("a pin through a plate: both sides of the plate and all sides of the p
   CHECK(crossedCount(apart) == 0);
 }
 
-TEST_CASE("parts that touch, and parts that sink into each other by less than a contact, do not cross") {
+TEST_CASE("parts that touch over an area touch, also if they sink into each other by less than a contact") {
   const Mesh table = shapes::box({6, 6, 1}), cube = shapes::box({1, 1, 1}), wide = shapes::box({6, 6, 1}, 3);
   for (const double gap : {0.0, 0x1p-21, -0x1p-21}) {  // The contact is 2^-20 of half the size of 6.
     CAPTURE(gap);
-    CHECK(crossedCount(shapes::joined(table, cube, {0.3, 0.2, 1 + gap})) == 0);  // On it.
-    CHECK(crossedCount(shapes::joined(table, cube, {3.5 + gap, 0.2, 0})) == 0);  // Beside it.
-    CHECK(crossedCount(shapes::joined(table, wide, {0, 0, 1 + gap})) == 0);      // Coplanar triangles that overlap.
-    CHECK(crossedCount(shapes::joined(table, cube, {3.5 + gap, 3.5, 1})) == 0);  // At a corner.
+    const Mesh onIt = shapes::joined(table, cube, {0.3, 0.2, 1 + gap});
+    const FaceMeetings meetings = meetingsOf(onIt);
+    CHECK(countWith(kTouched, onIt) >= 3);
+    CHECK(meetings.components == std::vector<std::pair<uint32_t, uint32_t>>{{0, 1}});
+    // The outline of the cube cuts the top of the table: two of its sides for each of both triangles, and the diagonal.
+    CHECK(meetings.cuts.size() >= 4);
+    for (const FaceCut& cut : meetings.cuts) {
+      CHECK(cut.face < table.faces.size());
+      CHECK(cut.from.z == doctest::Approx(cut.to.z).epsilon(1e-5));
+    }
+    CHECK(countWith(kTouched, shapes::joined(table, wide, {0, 0, 1 + gap})) >= 2 + 18);  // Coplanar triangles.
   }
   CHECK(crossedCount(shapes::joined(table, cube, {0.3, 0.2, 1 - 1e-4})) > 0);
+  const Mesh apart = shapes::joined(table, cube, {0.3, 0.2, 1 + 1e-4});
+  CHECK(countWith(kCrossed | kTouched, apart) == 0);
+}
+
+TEST_CASE("crossings through edges and vertices are found") {
+  // A wall through the diagonals of two sides of a box, and its edges through the edges of the box.
+  const Mesh box = shapes::box({2, 2, 2});
+  Mesh wall{{{-2, -2, -3}, {2, 2, -3}, {2, 2, 3}, {-2, -2, 3}}, {{0, 1, 2}, {0, 2, 3}}, {}};
+  const Mesh mesh = shapes::joined(box, wall);
+  CHECK(meetingsOf(mesh).bits.at(12) == kCrossed);
+  CHECK(meetingsOf(mesh).bits.at(13) == kCrossed);
+  CHECK(crossedCount(mesh) >= 2 + 4);
+  const Mesh bow{{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 1}, {4, 4, 1}, {4, 0, 1}, {0, 4, 1}},
+                 {{0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6}},
+                 {}};
+  CHECK(crossedCount(bow) == 4);
+  CHECK(meetingsOf(bow).cuts.size() >= 4);
 }
 
 TEST_CASE("faces that share a point may cross, faces that share an edge do not, by vertices or by positions") {
@@ -109,28 +142,22 @@ TEST_CASE("faces that share a point may cross, faces that share an edge do not, 
     CHECK(crossedCount(mesh) == 0);
 }
 
-TEST_CASE("crossings within a solid and between solids are told apart") {
-  const Mesh plate = shapes::box({4, 4, 1}), pin = shapes::box({1, 1, 5});
-  const TracedMesh traced(shapes::joined(plate, pin, {0.05, 0.1, 0.03}));
-  std::vector<uint32_t> solidOf(traced.mesh.faceCount());
-  const auto bitsOf = [&] {
-    uint8_t bits = 0;
-    for (const uint8_t each : findCrossedFaces(traced.scene(), solidOf, kContactDistance, {})) bits |= each;
-    return bits;
-  };
-  CHECK(bitsOf() == kCrossedBySame);
-  std::fill(solidOf.begin() + static_cast<std::ptrdiff_t>(plate.faces.size()), solidOf.end(), 1u);
-  CHECK(bitsOf() == kCrossedByOther);
+TEST_CASE("faces that are folded onto each other touch") {
+  const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, {}};
+  CHECK(countWith(kTouched, sheet) == 4);
+  CHECK(countWith(kTouched, shapes::grid(3)) == 0);
 }
 
 TEST_CASE("a stop request ends the search") {
   const TracedMesh traced(shapes::soup(50, 1));
   std::stop_source stop;
   stop.request_stop();
+  const std::vector<uint32_t> componentOf(traced.mesh.faceCount());
+  const std::vector<uint8_t> isWanted(traced.mesh.faceCount(), 1);
+  const DualGraph graph = buildDualGraph(traced.mesh);
   test::requireFailure(
       [&] {
-        (void)findCrossedFaces(traced.scene(), std::vector<uint32_t>(traced.mesh.faceCount()), kContactDistance,
-                               {stop.get_token(), {}});
+        (void)findFaceMeetings(traced.scene(), graph, componentOf, isWanted, {stop.get_token(), {}});
       },
       ErrorCode::Cancelled);
 }

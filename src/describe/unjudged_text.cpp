@@ -1,0 +1,103 @@
+#include "describe/unjudged_text.h"
+
+#include <fmt/core.h>
+
+#include <string>
+
+#include "core/text.h"
+#include "describe/computation_options.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kShortTextSize = 88;  // A line of the short report has at most 100 columns.
+
+std::string placeText(const UnjudgedReason& reason) {
+  return fmt::format("at ({:.6g}, {:.6g}, {:.6g}), face {}", reason.place.x, reason.place.y, reason.place.z,
+                     reason.face);
+}
+
+/// "24 faces of open components: 8 edges have one face, the first at (1, 2, 3), face 4; close the mesh".
+std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
+  const std::string faces = counted(reason.faceCount, "face"), edges = counted(reason.edgeCount, "edge");
+  const std::string place = placeText(reason);
+  const bool isOneEdge = reason.edgeCount == 1;
+  std::string text;
+  switch (reason.cause) {
+    case UnjudgedCause::Border:
+      text = fmt::format("{} of open components: {} {} one face, the first {}; close the mesh, a wall may be missing",
+                         faces, edges, isOneEdge ? "has" : "have", place);
+      break;
+    case UnjudgedCause::Branching:
+      text = fmt::format(
+          "{} of ambiguous components: {} {} three faces or more, an odd number, the first {}; give each "
+          "body its own faces, or remove the faces inside",
+          faces, edges, isOneEdge ? "has" : "have", place);
+      break;
+    case UnjudgedCause::WoundAgainst:
+      text = fmt::format(
+          "{} of components with faces wound against each other: {}, the first {}; {}", faces, edges, place,
+          reason.isRepairable ? "{orient=auto} reverses them" : "the surface has no consistent orientation, repair it");
+      break;
+    case UnjudgedCause::Inverted:
+      text =
+          fmt::format("{} of components oriented inwards, the first {}; {{orient=auto}} reverses them", faces, place);
+      break;
+    case UnjudgedCause::DoubleSided:
+      text = fmt::format(
+          "{} have a copy that is wound the other way, the first {}: a double-sided surface bounds no "
+          "material; remove the copies",
+          faces, place);
+      break;
+  }
+  return withSpelledOptions(computationRows(), text, spelling);
+}
+
+}  // namespace
+
+ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) {
+  ReportRows rows;
+  const auto add = [&rows](const std::string& text) { rows.emplace_back(rows.empty() ? "unjudged" : "", text); };
+  for (const UnjudgedReason& reason : unjudged.reasons) add(reasonText(reason, spelling));
+  const auto addCount = [&](uint64_t count, const char* noun, const char* rest) {
+    if (count > 0) add(fmt::format("{} {}", counted(count, noun), rest));
+  };
+  addCount(unjudged.degenerateCount, "degenerate face",
+           "left out: without a normal, or with a corner that is not finite");
+  addCount(unjudged.crossedCount, "face", "crossed by other faces: judged in pieces, as the union of the bodies");
+  addCount(unjudged.insideCount, "face", "inside of the material, wholly or partly: no wall there");
+  return rows;
+}
+
+ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) {
+  if (unjudged.reasons.empty()) return {};
+  const UnjudgedReason& reason = unjudged.reasons[0];
+  std::string text, remedy = reason.isRepairable ? "; {orient=auto}" : "";
+  switch (reason.cause) {
+    case UnjudgedCause::Border:
+      text = counted(reason.edgeCount, "open edge");
+      remedy = "; close the mesh";
+      break;
+    case UnjudgedCause::Branching:
+      text = counted(reason.edgeCount, "edge") + " of three faces or more";
+      break;
+    case UnjudgedCause::WoundAgainst:
+      text = counted(reason.edgeCount, "inconsistent edge");
+      break;
+    case UnjudgedCause::Inverted:
+      text = counted(reason.faceCount, "face") + " oriented inwards";
+      break;
+    case UnjudgedCause::DoubleSided:
+      text = counted(reason.faceCount, "double-sided face");
+      break;
+  }
+  text += ", first " + placeText(reason);
+  remedy = withSpelledOptions(computationRows(), remedy, spelling);
+  if (text.size() + remedy.size() <= kShortTextSize) text += remedy;
+  if (const std::string more = fmt::format("; {} more", unjudged.reasons.size() - 1);
+      unjudged.reasons.size() > 1 && text.size() + more.size() <= kShortTextSize)
+    text += more;
+  return {{"unjudged", text}};
+}
+
+}  // namespace asdfvk

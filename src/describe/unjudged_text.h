@@ -1,0 +1,17 @@
+#pragma once
+
+#include "asdf_vk/report.h"
+#include "describe/option.h"
+#include "describe/report_text.h"
+
+namespace asdfvk {
+
+/// A row per cause for which faces cannot be judged, with number, place and remedy, and a row per kind of faces that
+/// are left out or judged differently.
+[[nodiscard]] ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling);
+
+/// One row for the short report: the first cause with its place, and the remedy and the number of further causes if
+/// there is room. Empty without a cause.
+[[nodiscard]] ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling);
+
+}  // namespace asdfvk

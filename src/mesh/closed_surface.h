@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// Corners on the border of the surface that are at most this far apart are one point. Normalised: coordinates in
+/// float32 do not resolve less.
+inline constexpr double kWeldDistance = kContactDistance;
+/// The same for exports of CAD programs, which round the corners of each patch on its own: 1e-5 of the longest side of
+/// the bounding box, where it closes a component.
+inline constexpr double kCadWeldDistance = 2e-5;
+
+/// The edges of a surface whose corners are compared by position.
+struct SurfaceEdges {
+  EdgeSurvey survey;
+  /// #F: the faces with welded vertices; empty if no vertex was welded.
+  std::vector<Face> faces;
+  /// #V: the vertex that replaces each vertex in `faces`; empty if no vertex was welded.
+  std::vector<uint32_t> vertexOf;
+  uint64_t weldedVertexCount = 0;  ///< Vertices that were replaced.
+  double weldDistance = 0;         ///< The greatest distance between a vertex and its replacement, normalised.
+};
+
+/// Surveys the edges of a mesh. Vertices of edges that are not regular (EdgeKind) are welded, and T-junctions closed
+/// (edge_chain.h). In this way split vertices, nearly equal vertices and edges that lie on several others do not open a
+/// surface. A mesh without such edges is only surveyed. Throws the errors of surveyEdges().
+[[nodiscard]] SurfaceEdges surveySurface(const TriangleMesh& mesh, const Normalization& unit);
+
+}  // namespace asdfvk

@@ -1,0 +1,154 @@
+#include "pipeline/judged_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "core/parallel.h"
+#include "mesh/coincident_faces.h"
+
+namespace asdfvk {
+namespace {
+
+/// The arrays of the divided surface.
+class SurfaceBuilder {
+ public:
+  SurfaceBuilder(const PreparedMesh& prepared, const Normalization& unit) : prepared_(prepared), unit_(unit) {
+    const std::span<const Vec3d> vertices = prepared.mesh.vertices;
+    storage_.vertices.assign(vertices.begin(), vertices.end());
+  }
+
+  void add(uint32_t triangle) { add(triangle, prepared_.mesh.faces[triangle]); }
+
+  void add(uint32_t triangle, const FacePiece& piece) {
+    std::vector<uint32_t> corners;
+    for (const Vec3d& corner : piece.corners) corners.push_back(vertexAt(triangle, corner));
+    for (size_t k = 1; k + 1 < corners.size(); ++k) {
+      const Face face{corners[0], corners[k], corners[k + 1]};
+      if (hasDistinctVertices(face)) add(triangle, face);
+    }
+  }
+
+  [[nodiscard]] const std::vector<uint32_t>& triangles() const { return triangles_; }
+
+  /// The mesh with its geometry, without hierarchy.
+  PreparedMesh finish() {
+    PreparedMesh result;
+    const TriangleMesh& original = prepared_.mesh;
+    Polygons& polygons = storage_.polygons;
+    for (const uint32_t triangle : triangles_) polygons.inputFaceOf.push_back(original.inputFaceOf(triangle));
+    if (original.polygons.isEmpty()) {
+      for (size_t face = 0; face <= original.faces.size(); ++face) polygons.firstCorner.push_back(3 * face);
+      for (const Face& face : original.faces) polygons.corners.insert(polygons.corners.end(), face.begin(), face.end());
+    } else {
+      polygons.firstCorner.assign(original.polygons.firstCorner.begin(), original.polygons.firstCorner.end());
+      polygons.corners.assign(original.polygons.corners.begin(), original.polygons.corners.end());
+    }
+    result.storage = std::move(storage_);
+    result.mesh = result.storage;
+    result.geometry = computeFaceGeometry(result.mesh);
+    result.geometry.bounds = prepared_.geometry.bounds;
+    result.components.components = prepared_.components.components;
+    for (uint32_t face = 0; face < triangles_.size(); ++face) {
+      result.components.componentOf.push_back(prepared_.components.componentOf[triangles_[face]]);
+      // The normal of a narrow piece would be inexact.
+      if (!result.geometry.isDegenerate(face))
+        result.geometry.normals[face] = prepared_.geometry.normals[triangles_[face]];
+    }
+    result.representatives = coincidentRepresentatives(result.mesh, {});
+    result.unit = prepared_.unit;
+    result.openEdges = prepared_.openEdges;
+    result.traceableFaces =
+        indicesInParallel(result.mesh.faceCount(), [&](uint32_t face) { return !result.geometry.isDegenerate(face); });
+    return result;
+  }
+
+ private:
+  void add(uint32_t triangle, const Face& face) {
+    storage_.faces.push_back(face);
+    triangles_.push_back(triangle);
+  }
+
+  /// A corner of the triangle, or a new vertex.
+  uint32_t vertexAt(uint32_t triangle, const Vec3d& point) {
+    const Face& face = prepared_.mesh.faces[triangle];
+    for (const uint32_t vertex : face)
+      if (unit_.toNormalized(prepared_.mesh.vertices[vertex]) == point) return vertex;
+    const auto [found, isNew] =
+        vertices_.try_emplace({point.x, point.y, point.z}, static_cast<uint32_t>(storage_.vertices.size()));
+    if (isNew) storage_.vertices.push_back(point / unit_.scale + unit_.centre);
+    return found->second;
+  }
+
+  const PreparedMesh& prepared_;
+  const Normalization& unit_;
+  Mesh storage_;
+  std::vector<uint32_t> triangles_;
+  std::map<std::array<double, 3>, uint32_t> vertices_;
+};
+
+}  // namespace
+
+JudgedSurface::JudgedSurface(const PreparedScene& scene, bool isFlipped, const RunControl& control)
+    : original_(scene), solids_(findSolids(scene.prepared.mesh, scene.prepared.components)) {
+  const Material material(scene.view(), scene.prepared.graph, scene.prepared.components, isFlipped, control);
+  joinSolids(scene.prepared.components, material.meetingComponents(), solids_);
+  if (material.hasCuts() || material.hasKind(FaceKind::Inside))
+    divide(material);
+  else
+    adopt(material);
+}
+
+void JudgedSurface::adopt(const Material& material) {
+  const uint32_t faceCount = original_.prepared.mesh.faceCount();
+  if (faceCount > 0) commonKind_ = material.kindOf(0);
+  for (uint32_t face = 0; face < faceCount && kinds_.empty(); ++face)
+    if (material.kindOf(face) != commonKind_) kinds_.resize(faceCount);
+  for (uint32_t face = 0; face < kinds_.size(); ++face) kinds_[face] = material.kindOf(face);
+}
+
+void JudgedSurface::divide(const Material& material) {
+  const PreparedMesh& prepared = original_.prepared;
+  const uint32_t faceCount = prepared.mesh.faceCount();
+  std::vector<std::vector<FacePiece>> pieces(faceCount);
+  forEachInParallel(faceCount, [&](uint32_t face) {
+    if (material.isCut(face) && !prepared.geometry.isDegenerate(face)) pieces[face] = material.piecesOf(face);
+  });
+  SurfaceBuilder builder(prepared, original_.bvh.normalization);
+  uint64_t lastCrossed = UINT64_MAX, lastInside = UINT64_MAX;
+  const auto count = [&](uint32_t face, uint64_t& last, uint64_t& total) {
+    const uint64_t inputFace = prepared.mesh.inputFaceOf(face);
+    if (inputFace != last) ++total;
+    last = inputFace;
+  };
+  for (uint32_t face = 0; face < faceCount; ++face) {
+    const auto isOf = [&](FaceKind kind) { return [kind](const FacePiece& piece) { return piece.kind == kind; }; };
+    const std::vector<FacePiece>& ofFace = pieces[face];
+    const FaceKind kind = ofFace.empty() ? material.kindOf(face) : ofFace[0].kind;
+    if (std::all_of(ofFace.begin(), ofFace.end(), isOf(kind))) {  // The face is whole.
+      if (kind == FaceKind::Inside) {
+        count(face, lastInside, insideCount_);
+        continue;
+      }
+      builder.add(face);
+      kinds_.push_back(kind);
+      continue;
+    }
+    count(face, lastCrossed, crossedCount_);
+    if (std::any_of(ofFace.begin(), ofFace.end(), isOf(FaceKind::Inside))) count(face, lastInside, insideCount_);
+    for (const FacePiece& piece : ofFace) {
+      if (piece.kind == FaceKind::Inside) continue;
+      builder.add(face, piece);
+      kinds_.resize(builder.triangles().size(), piece.kind);
+    }
+  }
+  triangles_ = builder.triangles();
+  std::vector<uint32_t> solidOf;
+  for (const uint32_t triangle : triangles_) solidOf.push_back(solids_.solidOf[triangle]);
+  solids_.solidOf = std::move(solidOf);
+  own_ = std::make_unique<PreparedScene>(builder.finish());
+  own_->bvh = buildBvh(own_->prepared.mesh, own_->prepared.geometry, own_->prepared.representatives);
+}
+
+}  // namespace asdfvk

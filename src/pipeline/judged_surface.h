@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "pipeline/prepared_scene.h"
+#include "trace/material.h"
+#include "trace/solids.h"
+
+namespace asdfvk {
+
+/// The surface of the material (material.h): the faces on which a thickness is defined. If no face meets another one,
+/// it is the surface of the mesh. Otherwise faces inside of the material are left out, and faces that others cross are
+/// divided into triangles. These triangles belong to the same input face.
+class JudgedSurface {
+ public:
+  /// scene: with a hierarchy. Must outlive this object. Throws Error{Cancelled}.
+  JudgedSurface(const PreparedScene& scene, bool isFlipped, const RunControl& control);
+  JudgedSurface(const JudgedSurface&) = delete;
+  JudgedSurface& operator=(const JudgedSurface&) = delete;
+
+  /// Mesh, geometry, components (without first faces and counts) and hierarchy of the surface. The graph may be empty.
+  [[nodiscard]] const PreparedScene& scene() const { return own_ ? *own_ : original_; }
+  [[nodiscard]] const PreparedScene& original() const { return original_; }
+  [[nodiscard]] const Solids& solids() const { return solids_; }
+  /// The kind of a face of the surface: never Inside.
+  [[nodiscard]] FaceKind kindOf(uint32_t face) const { return kinds_.empty() ? commonKind_ : kinds_[face]; }
+  /// The triangle of the mesh that a face of the surface is a part of.
+  [[nodiscard]] uint32_t triangleOf(uint32_t face) const { return triangles_.empty() ? face : triangles_[face]; }
+  [[nodiscard]] uint64_t crossedCount() const { return crossedCount_; }  ///< Input faces that are divided.
+  [[nodiscard]] uint64_t insideCount() const {
+    return insideCount_;
+  }  ///< Input faces with a part inside of the material.
+
+ private:
+  void divide(const Material& material);
+  void adopt(const Material& material);
+
+  const PreparedScene& original_;
+  std::unique_ptr<PreparedScene> own_;
+  Solids solids_;
+  FaceKind commonKind_ = FaceKind::Boundary;
+  std::vector<FaceKind> kinds_;
+  std::vector<uint32_t> triangles_;
+  uint64_t crossedCount_ = 0, insideCount_ = 0;
+};
+
+}  // namespace asdfvk
