@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180, kDepth = 6;
 
-ThicknessReport check(const Mesh& mesh, double limit) {
+ThicknessReport judge(const Mesh& mesh, double limit) {
   Options options;
   options.measure = Measure::Thickness;
   options.thickness.thinnerThan = limit;
@@ -125,7 +125,7 @@ TEST_CASE("shapes on both sides of each threshold, in two triangulations, turned
       for (const double limit : {0.8, 25.4 * 0.8}) {
         CAPTURE(i);
         CAPTURE(limit);
-        const ThicknessReport report = check(scaled(meshes[i], limit), limit);
+        const ThicknessReport report = judge(scaled(meshes[i], limit), limit);
         CHECK(report.verdict == (each.isWall ? ThicknessVerdict::Failed : ThicknessVerdict::Passed));
         CHECK((countOf(report, ThinKind::Wall) > 0) == each.isWall);
         CHECK_FALSE(report.regions.empty());
@@ -148,7 +148,7 @@ TEST_CASE("n pockets are n walls with their own thickness and place") {
       const double unit = mesh.vertices.size() == coarse.vertices.size() && mesh.vertices != coarse.vertices ? 25.4 : 1;
       CAPTURE(unit);
       CAPTURE(mesh.faces.size());
-      const ThicknessReport report = check(mesh, unit * kLimit);
+      const ThicknessReport report = judge(mesh, unit * kLimit);
       CHECK(report.verdict == ThicknessVerdict::Failed);
       REQUIRE(report.regions.size() == count);
       CHECK(report.min == report.regions[0].min);
@@ -162,7 +162,7 @@ TEST_CASE("n pockets are n walls with their own thickness and place") {
           CHECK(std::max(std::abs(place.x / unit - pocket.x), std::abs(place.y / unit - pocket.y)) <= 2.01);
       }
     }
-    const ThicknessReport turned = check(shapes::turned(coarse, 0.5, 1.1), kLimit);
+    const ThicknessReport turned = judge(shapes::turned(coarse, 0.5, 1.1), kLimit);
     CHECK(turned.regions.size() == count);
     CHECK(turned.min == doctest::Approx(plate.pockets[0].floor).epsilon(1e-6));
   }
@@ -170,10 +170,10 @@ TEST_CASE("n pockets are n walls with their own thickness and place") {
 
 TEST_CASE("a rib lower than 2/3 of the limit is a detail, and a wall at a smaller limit") {
   const Mesh mesh = shapes::extruded(ribbed(0.6), kDepth);
-  const ThicknessReport low = check(mesh, 1);
+  const ThicknessReport low = judge(mesh, 1);
   CHECK(low.verdict == ThicknessVerdict::Passed);
   CHECK(countOf(low, ThinKind::Detail) == 1);
-  const ThicknessReport high = check(mesh, 0.6);
+  const ThicknessReport high = judge(mesh, 0.6);
   CHECK(high.verdict == ThicknessVerdict::Failed);
   CHECK(high.min == doctest::Approx(0.5).epsilon(1e-6));
 }
@@ -187,7 +187,7 @@ TEST_CASE("a limit that finds a wall or a detail finds one at each greater limit
     for (int i = 0; i < 20; ++i) {
       const double limit = 0.3 * std::pow(1.1, i);
       CAPTURE(limit);
-      const ThicknessReport report = check(mesh, limit);
+      const ThicknessReport report = judge(mesh, limit);
       const bool finds = countOf(report, ThinKind::Wall) + countOf(report, ThinKind::Detail) > 0;
       CHECK((finds || !isFound));
       isFound = isFound || finds;

@@ -335,13 +335,17 @@ TEST_CASE("the report has the size of the bounding box") {
 }
 
 TEST_CASE("session and scene give one verdict, and a region of faces that of the faces inside") {
-  // The edge has 30 degrees, and the floor of the pocket is 0.7 thick.
+  // The edge has 25 degrees, and the floor of the pocket is 0.7 thick.
+  constexpr double kEdgeDegrees = 25;
   constexpr std::array<double, 4> kXs{0, 45, 55, 60}, kYs{0, 6, 14, 20};
   BlockSolid solid;
   solid.addLattice(
       {3, 3, 2},
       [&](uint32_t i, uint32_t j, uint32_t k) {
-        return Vec3d{kXs[i], kYs[j], k == 0 || i == 0 ? 0 : k == 1 ? 0.7 : kXs[i] * std::tan(std::numbers::pi / 6)};
+        return Vec3d{kXs[i], kYs[j],
+                     k == 0 || i == 0 ? 0
+                     : k == 1         ? 0.7
+                                      : kXs[i] * std::tan(kEdgeDegrees * std::numbers::pi / 180)};
       },
       [](uint32_t i, uint32_t j, uint32_t k) { return i != 1 || j != 1 || k == 0; });
   const Mesh mesh = solid.surface({.longestEdge = 5});
@@ -354,7 +358,7 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
   REQUIRE(whole.regions.size() == 2);
   CHECK(whole.regions[0].kind == ThinKind::Wall);
   CHECK(whole.regions[1].kind == ThinKind::Edge);
-  CHECK(whole.regions[1].angleDegrees == doctest::Approx(30));
+  CHECK(whole.regions[1].angleDegrees == doctest::Approx(kEdgeDegrees));
   const auto checkRegion = [&](auto isInside) {
     std::vector<uint8_t> region(mesh.faces.size());
     for (size_t face = 0; face < region.size(); ++face) region[face] = isInside(geometry.barycentres[face]) ? 1 : 0;
