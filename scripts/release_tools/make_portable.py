@@ -13,6 +13,7 @@ from carry import carry, check, describe
 from elf import GLIBC_LIBRARIES, NotPortable, dotted, highest
 from licences import add_licences
 
+_SOURCE = pathlib.Path(__file__).resolve().parents[2]
 _PROGRAMS = ("asdf-vk", "asdf-vk-generate")
 # Packages whose headers are compiled into the programs.
 _HEADER_PACKAGES = ("libcli11-dev", "libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "nlohmann-json3-dev")
@@ -30,7 +31,7 @@ def _fill(folder: pathlib.Path, programs: pathlib.Path, limit: str) -> None:
         shutil.copy(programs / binary.name, binary)
     carried = carry(binaries, folder / "lib", GLIBC_LIBRARIES)
     add_licences(folder / "licences", carried, _HEADER_PACKAGES)
-    shutil.copy("LICENSE", folder)
+    shutil.copy(_SOURCE / "LICENSE", folder)
     libraries = check(binaries, folder / "lib", GLIBC_LIBRARIES)
     for line in describe(libraries):
         _say(line)
