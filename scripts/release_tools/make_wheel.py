@@ -33,9 +33,6 @@ def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
     # Removed, because setuptools would add files that an earlier build left in this folder.
     for left in pathlib.Path("build").glob("lib.*"):
         shutil.rmtree(left)
-    # Removed, because this file has options of an earlier CMAKE_ARGS.
-    for cache in pathlib.Path("build").glob("temp.*/CMakeCache.txt"):
-        cache.unlink()
     options = ["--no-build-isolation", "--no-deps", "--no-index", f"--wheel-dir={folder}"]
     _run(log, sys.executable, "-m", "pip", "wheel", ".", *options)
     return next(folder.glob("*.whl"))
