@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -31,12 +32,14 @@ class BuildWithCMake(build_ext):
         build = Path(self.build_temp).resolve()
         build.mkdir(parents=True, exist_ok=True)
         configure = [
-            "cmake", "-S", str(SOURCE), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-            "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", "-DASDF_VK_PYTHON=ON",
-            "-DASDF_VK_PROGRAM=OFF", "-DASDF_VK_TESTS=OFF",
-            "-DASDF_VK_BENCH=OFF", "-DASDF_VK_INSTALL=OFF", "-DASDF_VK_WERROR=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+            # --fresh, because an earlier build in this folder may have had other options of CMAKE_ARGS.
+            "cmake", "--fresh", "-S", str(SOURCE), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON",
+            "-DASDF_VK_PYTHON=ON", "-DASDF_VK_PROGRAM=OFF", "-DASDF_VK_TESTS=OFF", "-DASDF_VK_BENCH=OFF",
+            "-DASDF_VK_INSTALL=OFF", "-DASDF_VK_WERROR=OFF", f"-DPython_EXECUTABLE={sys.executable}",
             f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DASDF_VK_PYTHON_OUTPUT_DIR={target.parent}",
-            *os.environ.get("CMAKE_ARGS", "").split(),
+            # Make compiles a layer only after the layers that it links, so most of the time on one core.
+            *(["-G", "Ninja"] if shutil.which("ninja") else []), *os.environ.get("CMAKE_ARGS", "").split(),
         ]  # fmt: skip
         subprocess.run(configure, check=True)
         jobs = str(self.parallel or os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1)

@@ -1,5 +1,5 @@
-# Debian 12 packages by CPack: asdf-vk, libasdf-vk-dev, libasdf-vk-c1 (with the ABI of the interface in C), and
-# python3-asdf-vk if the Python module is built. A package is an install component. scripts/test-packages runs these
+# Debian packages by CPack: asdf-vk, libasdf-vk-dev, libasdf-vk-c1 (with the ABI of the interface in C), and
+# python3-asdf-vk if the Python module is built. A package is an install component. scripts/release runs these
 # commands:
 #   cmake --preset packages && cmake --build --preset packages && cpack --preset packages
 include(GNUInstallDirs)
@@ -12,7 +12,10 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_PACKAGE_NAME asdf-vk)
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+# The version names the system, for example 0.2.0+debian12: packages depend on libraries of one release of the system.
+cmake_host_system_information(RESULT system QUERY DISTRIB_ID)
+cmake_host_system_information(RESULT systemVersion QUERY DISTRIB_VERSION_ID)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION}+${system}${systemVersion})
 set(CPACK_PACKAGE_CONTACT "The asdf-vk authors <maintainers@asdf-vk.example>")
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/deb)
@@ -52,7 +55,7 @@ set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libasdf-vk-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 get_target_property(abi asdf-vk-c SOVERSION)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libasdf-vk-c${abi} (= ${PROJECT_VERSION}), ${depends}")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libasdf-vk-c${abi} (= ${CPACK_PACKAGE_VERSION}), ${depends}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libopenmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "local thickness of triangle meshes - development files
@@ -117,7 +120,7 @@ endif()
 if(NOT date)
   string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 endif()
-writeGzip("asdf-vk (${PROJECT_VERSION}) unstable; urgency=medium
+writeGzip("asdf-vk (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 
   * Version ${PROJECT_VERSION}; its changes are in NEWS.gz.
 

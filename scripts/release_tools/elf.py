@@ -10,12 +10,14 @@ from typing import NamedTuple
 
 Version = tuple[int, ...]
 
+# Libraries of glibc. The portable folder may need only these.
+GLIBC_LIBRARIES = frozenset({
+    "libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2",
+    "ld-linux-aarch64.so.1",
+})  # fmt: skip
 # Libraries that every manylinux system (PEP 600) has. The module may need them, and the wheel does not contain them.
 # With a second copy of libstdc++ and libgcc_s, an exception could not pass from one module to another.
-SYSTEM_LIBRARIES = frozenset({
-    "libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2",
-    "ld-linux-aarch64.so.1", "libstdc++.so.6", "libgcc_s.so.1", "libatomic.so.1", "libz.so.1",
-})  # fmt: skip
+MANYLINUX_LIBRARIES = GLIBC_LIBRARIES | {"libstdc++.so.6", "libgcc_s.so.1", "libatomic.so.1", "libz.so.1"}
 
 # For each manylinux tag (its glibc version): the highest versions of symbols, from the policies of auditwheel for
 # x86_64. The C++ libraries of Debian 12 and 13 need at least glibc 2.34.

@@ -11,9 +11,12 @@ import sys
 import sysconfig
 import tempfile
 
-from carry import carry, check
-from elf import NotPortable, dotted, highest, least_glibc
+from carry import carry, check, describe
+from elf import MANYLINUX_LIBRARIES, NotPortable, dotted, highest, least_glibc
 from licences import add_licences
+
+# Packages whose headers are compiled into the module.
+_HEADER_PACKAGES = ("libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "nlohmann-json3-dev", "python3-pybind11")
 
 
 def _say(text: str) -> None:
@@ -30,9 +33,6 @@ def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
     # Removed, because setuptools would add files that an earlier build left in this folder.
     for left in pathlib.Path("build").glob("lib.*"):
         shutil.rmtree(left)
-    # Removed, because this file has options of an earlier CMAKE_ARGS.
-    for cache in pathlib.Path("build").glob("temp.*/CMakeCache.txt"):
-        cache.unlink()
     options = ["--no-build-isolation", "--no-deps", "--no-index", f"--wheel-dir={folder}"]
     _run(log, sys.executable, "-m", "pip", "wheel", ".", *options)
     return next(folder.glob("*.whl"))
@@ -42,12 +42,13 @@ def _complete(unpacked: pathlib.Path) -> None:
     """Adds libraries and licences to an unpacked wheel, and sets its tag."""
     module = next(unpacked.glob("asdf_vk/_core*.so"))
     information = next(unpacked.glob("*.dist-info"))
-    carried = carry(module)
-    add_licences(information / "licenses", carried)
-    libraries = check(module)
+    folder = module.parent / "libs"
+    carried = carry([module], folder, MANYLINUX_LIBRARIES)
+    add_licences(information / "licenses", carried, _HEADER_PACKAGES)
+    libraries = check([module], folder, MANYLINUX_LIBRARIES)
     versions = highest(libraries.values())
-    for file, library in libraries.items():
-        _say(f"  {file.name}, {file.stat().st_size:,} bytes, needs {' '.join(library.needed)}")
+    for line in describe(libraries):
+        _say(line)
     _say(f"  highest versions: {', '.join(f'{n} {dotted(v)}' for n, v in sorted(versions.items()))}")
     glibc = least_glibc(versions)
     platform = sysconfig.get_platform().replace("-", "_")
