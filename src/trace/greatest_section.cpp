@@ -104,7 +104,8 @@ class Search {
     }
     for (uint32_t count = 0; !cubes_.empty() && cubes_.top().bound > (1 + kSectionTolerance) * radius_; ++count) {
       if (count % 256 == 0) stopOnly.checkpoint(0);
-      if (count == maxCubeCount || 2 * radius_ >= search.enough || 2 * cubes_.top().bound < search.enough)
+      const bool isDecided = 2 * radius_ >= search.enough || 2 * cubes_.top().bound < search.enough;
+      if (count == maxCubeCount || (isDecided && std::isfinite(search.enough)))
         return {centre_, 2 * radius_, 2 * cubes_.top().bound};
       const Cube cube = cubes_.top();
       cubes_.pop();
