@@ -24,6 +24,10 @@ constexpr double kLeastLength = 2 * kContactDistance;
 // Faces with a smaller cosine of their normals may lie on each other.
 constexpr double kOppositeCosine = -1 + 1e-6;
 
+// By half of the distance of contact on both sides, and by the rounding of coordinates.
+constexpr float kHalfContact = static_cast<float>(0.625 * kContactDistance);
+constexpr Vec3f kReach{kHalfContact, kHalfContact, kHalfContact};
+
 struct BoxedFace {
   uint32_t face = 0;
   Box3f box;
@@ -160,11 +164,10 @@ FaceMeetings findFaceMeetings(const TraceScene& scene, const DualGraph& graph, s
   };
   const auto boxed = [&](uint32_t face) {
     BoxedFace result{.face = face};
-    const Vec3d reach{kContactDistance, kContactDistance, kContactDistance};
-    for (const Vec3d& corner : triangleOf(scene, face).corners) {
-      result.box.add(Vec3f(corner - reach));
-      result.box.add(Vec3f(corner + reach));
-    }
+    for (const Vec3d& corner : scene.bvh.normalization.normalizedCorners(scene.mesh, face))
+      result.box.add(Vec3f(corner));
+    result.box.min = result.box.min - kReach;
+    result.box.max = result.box.max + kReach;
     return result;
   };
   const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
