@@ -173,9 +173,9 @@ void printParts(Session& session, double longestEdge, const RunControl& control)
       const double unit = part.leastThickness > 0 ? part.leastThickness : 1;
       const double difference = std::abs(least - part.leastThickness) / unit;
       const auto verdict = [&](const Result& found, bool isThin) {
-        const ThicknessVerdict verdict = found.report.thickness->verdict.value();
-        const bool isRight = verdict == (isThin ? ThicknessVerdict::Failed : ThicknessVerdict::Passed);
-        return fmt::format("{}{}", nameOf(verdict), isRight ? "" : ", wrong");
+        const ThicknessVerdict measured = found.report.thickness->verdict.value();
+        const bool isRight = measured == (isThin ? ThicknessVerdict::Failed : ThicknessVerdict::Passed);
+        return fmt::format("{}{}", nameOf(measured), isRight ? "" : ", wrong");
       };
       const std::string verdicts =
           verdict(result, hasWall) + " | " + verdict(counted, part.leastThickness < kPartLimit);

@@ -115,9 +115,12 @@ py::list summaryOf(const ShownReport& shown) {
 py::tuple stateOfShown(const ShownReport& shown) {
   const auto& [texts, thickness, surface] = shown;
   const Json json = Json::array({texts.summary, texts.errorSentence, texts.warnings, texts.defects});
+  std::vector<Vec3d> places;
+  if (thickness.minPlace) places.push_back(*thickness.minPlace);
   return py::make_tuple(json.dump(-1, ' ', true, Json::error_handler_t::replace), thickness.thinnerThan,
                         static_cast<int>(thickness.verdict.value_or(ThicknessVerdict::Passed)), thickness.min,
-                        bytesOf(thickness.regions), bytesOf(surface.triangles), bytesOf(surface.regions));
+                        bytesOf(thickness.regions), bytesOf(surface.triangles), bytesOf(surface.regions),
+                        thickness.countsDetails, thickness.countsEdges, thickness.minFace, bytesOf(places));
 }
 
 ShownReport shownReportOf(const py::tuple& state) {
@@ -128,6 +131,12 @@ ShownReport shownReportOf(const py::tuple& state) {
   shown.thickness.verdict = static_cast<ThicknessVerdict>(state[2].cast<int>());
   shown.thickness.min = state[3].cast<double>();
   readBytes(state[4], shown.thickness.regions);
+  shown.thickness.countsDetails = state[7].cast<bool>();
+  shown.thickness.countsEdges = state[8].cast<bool>();
+  shown.thickness.minFace = state[9].cast<std::optional<uint64_t>>();
+  std::vector<Vec3d> places;
+  readBytes(state[10], places);
+  if (!places.empty()) shown.thickness.minPlace = places.front();
   readBytes(state[5], shown.thinSurface.triangles);
   readBytes(state[6], shown.thinSurface.regions);
   return shown;

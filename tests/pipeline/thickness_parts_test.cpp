@@ -196,7 +196,7 @@ TEST_CASE("no alarm for 100 sound boxes, and one for each of 100 with a thin pla
     CHECK(passed.regions.empty());
     const ThicknessReport failed = measure(randomlyTriangulated(thin, seed), limitedTo(kLimit));
     CHECK(failed.verdict == ThicknessVerdict::Failed);
-    CHECK(failed.min == doctest::Approx(thin.leastThickness).epsilon(1e-6));
+    CHECK(failed.min == doctest::Approx(thin.leastThickness).epsilon(1e-3));  // The least wall is found to 0.1 %.
     CHECK_FALSE(failed.regions.empty());
   }
 }
