@@ -92,13 +92,22 @@ class Measurement {
     }
     std::map<uint32_t, ConnectedThinParts> bodies;
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
-      if (thickness_.isJudged[face] != 0 && isThinBody(sections[solids_.solidOf[face]]))
-        bodies[solids_.solidOf[face]].parts.push_back({face, triangleOf(scene_, face).corners, true});
+      if (const uint32_t solid = solids_.solidOf[face]; thickness_.isJudged[face] != 0 && isThinBody(sections[solid]))
+        bodies[solid].parts.push_back({face, triangleOf(scene_, face).corners, true});
     for (auto& [solid, region] : bodies) {
       region.kind = ThinKind::Wall;
       region.place = region.leastPlace = placeOf(sections[solid]);
-      thickness_.regions.push_back(std::move(region));
     }
+    std::erase_if(thickness_.regions, [&](const ConnectedThinParts& region) {
+      const auto body = bodies.find(solids_.solidOf[region.place.face]);
+      if (body == bodies.end()) return false;
+      const auto diameterOf = [](const WallPlace& place) { return place.ball.ball.diameter; };
+      if (region.kind == ThinKind::Wall &&
+          diameterOf(region.place) <= (1 + kSectionTolerance) * diameterOf(body->second.place))
+        body->second.place = region.place;
+      return true;
+    });
+    for (auto& [solid, region] : bodies) thickness_.regions.push_back(std::move(region));
   }
 
   [[nodiscard]] bool isThinBody(const GreatestSection& section) const {
@@ -163,9 +172,7 @@ class Measurement {
         const bool isJudged = !std::isnan(least) && judgement_.isJudged(each.face);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
         const bool isLimited = each.least.wall != kNoFace || judgement_.isSheet(each.face);
-        if (isJudged && limit_ && isLimited && each.least.ball.diameter < kThinShare * *limit_ &&
-            !isThinBody(sections[solids_.solidOf[each.face]]))
-          thin.push_back(each);
+        if (isJudged && limit_ && isLimited && each.least.ball.diameter < kThinShare * *limit_) thin.push_back(each);
       }
     }
     return thin;
@@ -180,7 +187,8 @@ class Measurement {
       return thickness_.atBarycentre[balls.face] = thickness_.least[balls.face] = 0;
     }
     const auto lengthOf = [&](InscribedBall& ball) {
-      if (ball.wall == kNoFace) ball.ball.diameter = greatest;
+      if (ball.wall == kNoFace || ball.ball.diameter > greatest * (1 + kSectionTolerance))
+        ball.ball.diameter = greatest;
       return ball.ball.diameter < kUnlimited ? unit_.toMeshLength(ball.ball.diameter) : kNoValue;
     };
     const uint32_t face = balls.face;

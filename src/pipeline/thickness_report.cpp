@@ -14,6 +14,9 @@
 namespace asdfvk {
 namespace {
 
+/// In contact lengths.
+constexpr double kPlaceResolution = 64;
+
 class Description {
  public:
   Description(const Computation& computation, const FaceThickness& thickness)
@@ -43,6 +46,13 @@ class Description {
 
  private:
   [[nodiscard]] Vec3d toMesh(const Vec3d& p) const { return p / unit_.scale + unit_.centre; }
+  /// A place, with 0 for coordinates that are 0 up to the size of the smallest balls.
+  [[nodiscard]] Vec3d placeInMesh(const Vec3d& p) const {
+    Vec3d place = toMesh(p);
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (std::abs(place[axis]) < kPlaceResolution * unit_.contactLength()) place[axis] = 0;
+    return place;
+  }
   /// A thickness in the unit of the mesh; 0 if float32 does not resolve it.
   [[nodiscard]] double thicknessOf(const WallPlace& place) const {
     const double diameter = place.ball.ball.diameter;
@@ -102,8 +112,8 @@ class Description {
     region.kind = found.kind;
     region.min = thicknessOf(found.place);
     region.minFace = prepared_.mesh.inputFaceOf(found.place.face);
-    region.place = toMesh(found.place.ball.ball.onFace);
-    region.opposite = toMesh(found.place.ball.ball.onWall);
+    region.place = placeInMesh(found.place.ball.ball.onFace);
+    region.opposite = placeInMesh(found.place.ball.ball.onWall);
     region.least = std::min(region.min, thicknessOf(found.leastPlace));
     region.angleDegrees = angleAt(found.leastPlace);
     std::set<uint64_t> inputFaces;
@@ -144,7 +154,8 @@ class Description {
     // A wall that tapers may be thinner than the limit at which it becomes a wall.
     const double limit = *report_.thinnerThan, least = thicknessOf(next);
     takeLeast(least < kThinShare * limit ? std::max(unit_.toMeshLength(next.limit), limit) : least,
-              prepared_.mesh.inputFaceOf(next.face), toMesh(next.ball.ball.onFace), toMesh(next.ball.ball.onWall));
+              prepared_.mesh.inputFaceOf(next.face), placeInMesh(next.ball.ball.onFace),
+              placeInMesh(next.ball.ball.onWall));
   }
 
   void takeLeast(double least, uint64_t face, const Vec3d& place, const Vec3d& opposite) {

@@ -88,10 +88,10 @@ class Search {
   explicit Search(const SolidSurface& surface) : surface_(surface) {}
 
   /// stopOnly: for cancellation.
-  GreatestSection run(const Box3d& box, std::span<const uint32_t> faces, const SectionSearch& search,
+  GreatestSection run(const Box3d& box, std::span<const uint32_t> faces, const SectionSearch& search, uint32_t maxCubes,
                       const RunControl& stopOnly) {
     const uint32_t maxCubeCount =
-        search.cubeCount + search.cubesPerFace * static_cast<uint32_t>(std::min<size_t>(faces.size(), 1u << 24));
+        maxCubes + search.cubesPerFace * static_cast<uint32_t>(std::min<size_t>(faces.size(), 1u << 24));
     for (size_t i = 0; i < std::min(kRayCount, faces.size()); ++i)
       offerMiddle(faces[i * faces.size() / std::min(kRayCount, faces.size())]);
     const Vec3d size = box.size();
@@ -194,12 +194,14 @@ std::vector<GreatestSection> findGreatestSections(const TraceScene& scene, std::
     for (const uint32_t vertex : scene.mesh.faces[face])
       boxes[solid].add(scene.bvh.normalization.toNormalized(scene.mesh.vertices[vertex]));
   }
+  const auto wanted = static_cast<uint32_t>(std::count(isWanted.begin(), isWanted.end(), 1));
+  const uint32_t maxCubes = std::max(search.cubeCount / std::max(wanted, 1u), kLeastCubeCount);
   std::vector<GreatestSection> sections(isWanted.size());
   for (uint32_t solid = 0; solid < sections.size(); ++solid) {
     control.checkpoint(static_cast<double>(solid) / static_cast<double>(sections.size()));
     if (isWanted[solid] == 0) continue;
     const SolidSurface surface(scene, copies, solidOf, solid);
-    sections[solid] = Search(surface).run(boxes[solid], faces[solid], search, control.withoutProgress());
+    sections[solid] = Search(surface).run(boxes[solid], faces[solid], search, maxCubes, control.withoutProgress());
   }
   return sections;
 }

@@ -23,13 +23,15 @@ inline constexpr double kSectionTolerance = 1e-3;
 
 /// Where a search for a greatest section ends before the tolerance.
 struct SectionSearch {
-  uint32_t cubeCount = 200'000;  ///< Largest number of cubes that are divided.
-  uint32_t cubesPerFace = 0;     ///< Added for each face of the solid.
+  /// Largest number of cubes that are divided. Several solids share them, but each has kLeastCubeCount.
+  uint32_t cubeCount = 200'000;
+  uint32_t cubesPerFace = 0;  ///< Added for each face of the solid.
   /// The search ends as soon as a ball with this diameter is found, or as no ball can have it.
   double enough = std::numeric_limits<double>::infinity();
 };
 /// The work is in proportion to the faces.
-inline constexpr SectionSearch kQuickSection{.cubeCount = 32, .cubesPerFace = 1};
+inline constexpr SectionSearch kQuickSection{.cubeCount = 2000, .cubesPerFace = 1};
+inline constexpr uint32_t kLeastCubeCount = 32;
 
 /// The greatest section of each wanted solid; infinite for other solids. Branch and bound over cubes in the box of the
 /// solid, which begins with the middles of some inward rays. Three bounds limit the radii of the balls with centres in

@@ -75,8 +75,7 @@ struct Polygon {
 
 }  // namespace
 
-DiscCheck::DiscCheck(ThinPieces& pieces, double limit)
-    : pieces_(pieces), limit_(limit), visits_(pieces.tree().scene().mesh.faceCount()) {}
+DiscCheck::DiscCheck(ThinPieces& pieces) : pieces_(pieces), visits_(pieces.tree().scene().mesh.faceCount()) {}
 
 std::optional<Contradiction> DiscCheck::contradictionAt(const SurfacePointDisc& disc) {
   if (disc.diameter() >= kThinShare * disc.limit) return Contradiction{disc.point, disc.face, disc.diameter(), false};
@@ -144,7 +143,7 @@ std::optional<Contradiction> DiscCheck::contradictionIn(uint32_t index, const Su
 }
 
 std::optional<Contradiction> DiscCheck::hiddenContradictionIn(uint32_t index, const SurfacePointDisc& disc) {
-  if (pieces_[index].longestSide().second > kLinearLength * limit_) return contradictionInClipped(index, disc);
+  if (pieces_[index].longestSide().second > kLinearLength * disc.limit) return contradictionInClipped(index, disc);
   const ThinPiece& piece = pieces_[index];
   return asdfvk::contradictionIn({{piece.corners, pieces_.normal(piece.face)}, piece.atCorners}, piece.face, disc);
 }

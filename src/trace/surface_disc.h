@@ -33,8 +33,8 @@ struct Contradiction {
 /// by their pieces. Short pieces are taken as linear between their corners, and long pieces are clipped to the disc.
 class DiscCheck {
  public:
-  /// pieces: divided pieces. limit: the greatest limit of a disc.
-  DiscCheck(ThinPieces& pieces, double limit);
+  /// pieces: divided pieces.
+  explicit DiscCheck(ThinPieces& pieces);
 
   /// A contradiction, or unset if the middle of the disc is a wall.
   [[nodiscard]] std::optional<Contradiction> contradictionAt(const SurfacePointDisc& disc);
@@ -50,7 +50,6 @@ class DiscCheck {
   void forEachFaceAround(const SurfacePointDisc& disc, FunctionRef<bool(uint32_t, const Vec3d&, double)> visit);
 
   ThinPieces& pieces_;
-  double limit_;
   std::vector<uint32_t> visits_;  // #F, number of the last walk that visited the face.
   std::vector<uint32_t> queue_, uncertain_;
   uint32_t walkCount_ = 0;

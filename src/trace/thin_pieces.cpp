@@ -140,7 +140,7 @@ void ThinPieces::measureCorners(std::span<const uint32_t> pieces) {
 
 InscribedBall ThinPieces::ballAtMiddle(uint32_t index) const {
   const ThinPiece& piece = pieces_[index];
-  if (piece.middleWall == kNoFace) return {{piece.atMiddle, {}, {}}, kNoFace};
+  if (piece.middleWall == kNoFace) return {{piece.atMiddle, piece.middle(), piece.middle()}, kNoFace};
   return {leastTouchingBall(piece.middle(), normal(piece.face), triangleOf(tree_.scene(), piece.middleWall),
                             kContactDistance, std::numeric_limits<double>::infinity()),
           piece.middleWall};

@@ -30,6 +30,9 @@ constexpr double kStepBeyond = 1.0 / 64;
 /// which one point is tested.
 constexpr double kPointSpacing = 0.36, kCellSize = 1.0 / 4;
 
+/// Shorter parts are not halved, so that a limit far below the size of the shape does not take for ever (normalised).
+constexpr double kMinPartSize = 0x1p-11;
+
 /// The number of a cell of a grid, shifted by some cells along each axis.
 uint64_t cellOf(const Vec3d& point, double size, const std::array<int, 3>& shift = {}) {
   uint64_t key = 0;
@@ -56,7 +59,8 @@ double reachOf(const Contradiction& contradiction) { return contradiction.isThin
 
 }  // namespace
 
-WallSearch::WallSearch(ThinPieces& pieces, double limit) : pieces_(pieces), limit_(limit), check_(pieces, limit) {}
+WallSearch::WallSearch(ThinPieces& pieces, double limit)
+    : pieces_(pieces), limit_(limit), scale_(limit), check_(pieces) {}
 
 std::optional<WallPlace> WallSearch::leastWall(std::span<const uint32_t> pieces) {
   std::optional<WallPlace> best;
@@ -87,15 +91,17 @@ bool WallSearch::isTooLong() const {
 
 std::optional<WallPlace> WallSearch::findDetail(std::span<const uint32_t> pieces) {
   std::optional<WallPlace> detail;
-  forEachPoint(
-      pieces, kLeastDetailShare * limit_, [&](double) { return detail || pointCount_ > kMaxPointsForDetail; },
-      [&](const SurfacePointDisc& disc) { detail = placeOf(disc); });
+  for (scale_ = limit_; !detail && scale_ > kLeastDetailShare * limit_; scale_ /= 2)
+    forEachPoint(
+        pieces, scale_ / 2, [&](double) { return detail || pointCount_ > kMaxPointsForDetail; },
+        [&](const SurfacePointDisc& disc) { detail = placeOf(disc); });
+  scale_ = limit_;
   return detail;
 }
 
 WallPlace WallSearch::placeOf(const SurfacePointDisc& disc) { return {disc.face, disc.point, disc.ball, disc.limit}; }
 
-/// Visits points that are walls at a limit from `floor` to limit_, at the least such limit, by ascending thickness.
+/// Visits points that are walls at a limit from `floor` to scale_, at the least such limit, by ascending thickness.
 /// isDone(least thickness of the rest) ends the search.
 void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(double)> isDone,
                               FunctionRef<void(const SurfacePointDisc&)> visit) {
@@ -109,25 +115,28 @@ void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, Fu
   std::priority_queue<Part, std::vector<Part>, decltype(isLater)> queue(isLater);
   for (const uint32_t i : pieces) {
     const ThinPiece& piece = pieces_[i];
-    queue.push({piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter, sizeOf(piece.corners), piece.face});
+    if (piece.least.ball.diameter < kThinShare * scale_)
+      queue.push(
+          {piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter, sizeOf(piece.corners), piece.face});
   }
+  const double spacing = std::max(kPointSpacing * scale_, kMinPartSize);
   while (!queue.empty()) {
     const Part part = queue.top();
     queue.pop();
     if (isDone(part.least)) break;
     if (isExcluded(part, floor)) continue;
     testPoints(part, floor, visit);
-    if (part.size <= kPointSpacing * limit_ || isDone(part.least) || isExcluded(part, floor)) continue;
+    if (part.size <= spacing || isDone(part.least) || isExcluded(part, floor)) continue;
     for (const Part& half : halvesOf(part))
-      if (half.least < pieces_.limit()) queue.push(half);
+      if (half.least < kThinShare * scale_) queue.push(half);
   }
 }
 
 void WallSearch::testPoints(const Part& part, double floor, FunctionRef<void(const SurfacePointDisc&)> visit) {
   SurfacePointDisc disc{part.face, middleOf(part.corners), part.atMiddle, 0};
   const Vec3d& normal = pieces_.normal(part.face);
-  if (part.size <= kPointSpacing * limit_ &&
-      !cells_.insert(cellOf(disc.point, kCellSize * limit_) ^ directionOf(normal) << 61).second)
+  if (part.size <= std::max(kPointSpacing * scale_, kMinPartSize) &&
+      !cells_.insert(cellOf(disc.point, kCellSize * scale_) ^ directionOf(normal) << 61).second)
     return;
   for (int i = 0; i < kPointsPerPart; ++i) {
     ++pointCount_;
@@ -165,15 +174,15 @@ std::array<WallSearch::Part, 2> WallSearch::halvesOf(const Part& part) const {
   return halves;
 }
 
-/// Sets disc.limit to the least limit from `floor` to limit_ at which the point is a wall. If there is none, returns a
+/// Sets disc.limit to the least limit from `floor` to scale_ at which the point is a wall. If there is none, returns a
 /// contradiction. The disc of a greater limit contains the disc of a smaller one: a thicker point contradicts until the
 /// limit is above its thickness, a thinner point always.
 std::optional<Contradiction> WallSearch::contradictionFrom(SurfacePointDisc& disc, double floor) {
-  disc.limit = std::min(std::max(disc.diameter() / kThinShare * kAboveThickness, floor), limit_);
+  disc.limit = std::min(std::max(disc.diameter() / kThinShare * kAboveThickness, floor), scale_);
   std::optional<Contradiction> contradiction;
-  for (int i = 0; i < kLimitsPerPoint && disc.limit <= limit_; ++i) {
+  for (int i = 0; i < kLimitsPerPoint && disc.limit <= scale_; ++i) {
     contradiction = check_.contradictionAt(disc);
-    if (!contradiction || contradiction->isThinner || contradiction->diameter >= pieces_.limit()) break;
+    if (!contradiction || contradiction->isThinner || contradiction->diameter >= kThinShare * scale_) break;
     disc.limit = contradiction->diameter / kThinShare * (1 + kEqualWalls);
   }
   return contradiction;
@@ -183,7 +192,7 @@ std::optional<Contradiction> WallSearch::contradictionFrom(SurfacePointDisc& dis
 /// above its thickness.
 bool WallSearch::excludes(const Contradiction& contradiction, const Part& part, double floor) const {
   const bool holds = contradiction.isThinner ? contradiction.diameter < kTaperShare * part.least
-                                             : contradiction.diameter >= pieces_.limit();
+                                             : contradiction.diameter >= kThinShare * scale_;
   if (!holds || !(dot(pieces_.normal(contradiction.face), pieces_.normal(part.face)) > kSameSideCosine)) return false;
   const double reach = reachOf(contradiction) * std::max(part.least, floor);
   return std::all_of(part.corners.begin(), part.corners.end(),
@@ -191,7 +200,7 @@ bool WallSearch::excludes(const Contradiction& contradiction, const Part& part, 
 }
 
 bool WallSearch::isExcluded(const Part& part, double floor) const {
-  const double cell = kTaperReach * limit_;
+  const double cell = kTaperReach * scale_;
   if (part.size > 2 * cell) return false;
   for (int i = 0; i < 27; ++i) {
     const auto found =
@@ -204,7 +213,7 @@ bool WallSearch::isExcluded(const Part& part, double floor) const {
 }
 
 void WallSearch::keep(const Contradiction& contradiction) {
-  std::vector<Contradiction>& ofCell = contradictions_[cellOf(contradiction.point, kTaperReach * limit_)];
+  std::vector<Contradiction>& ofCell = contradictions_[cellOf(contradiction.point, kTaperReach * scale_)];
   if (ofCell.size() < kContradictionsPerCell) ofCell.push_back(contradiction);
 }
 

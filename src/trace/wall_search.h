@@ -65,6 +65,7 @@ class WallSearch {
 
   ThinPieces& pieces_;
   double limit_;
+  double scale_;  // Greatest limit of the points that are looked for.
   DiscCheck check_;
   std::unordered_set<uint64_t> cells_;  // Cells that contain a tested point.
   std::unordered_map<uint64_t, std::vector<Contradiction>> contradictions_;
