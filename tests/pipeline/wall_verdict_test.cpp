@@ -390,7 +390,7 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
 
 TEST_CASE("boxes that touch or overlap have the least thickness of their union" * doctest::test_suite("slow")) {
   constexpr uint32_t kCount = 3;
-  int differingCount = 0;  // Of 240 verdicts.
+  int differingCount = 0;  // There are 240 verdicts.
   for (uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
     Random random(seed);
