@@ -269,7 +269,7 @@ struct UnjudgedFaces {
 /// The wall thickness (docs/thickness.md). Lengths are in the unit of the mesh.
 struct ThicknessReport {
   std::optional<ThicknessVerdict> verdict;  ///< Unset without a limit.
-  /// The verdict, or without a limit the least wall, in one sentence; the first line of the text report.
+  /// The first line of the text report: the verdict in one sentence. Without a limit, the least wall.
   std::string sentence;
   std::optional<double> thinnerThan;  ///< The limit.
   bool countsDetails = false;         ///< Details fail the check, too.

@@ -31,6 +31,11 @@ struct ReportTexts {
 /// showsTimes: if false, the texts depend on mesh and options only.
 [[nodiscard]] ReportTexts reportTexts(const Report& report, bool showsTimes, OptionSpelling spelling);
 
+/// A point: "(1, 2, 3)".
+[[nodiscard]] std::string pointText(const Vec3d& point);
+/// A point of an input face: "at (1, 2, 3), face 4".
+[[nodiscard]] std::string placeText(const Vec3d& point, uint64_t face);
+
 /// Verdict, unjudged faces, size, thin regions and more. Precondition: report.thickness is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report, OptionSpelling spelling);
 

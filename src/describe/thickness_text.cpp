@@ -17,12 +17,6 @@ constexpr size_t kListedCount = 5;
 /// Relative difference of thicknesses that are reported as different.
 constexpr double kEqualThickness = 0.01;
 
-std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x, point.y, point.z); }
-
-std::string placeText(const Vec3d& point, uint64_t face) {
-  return fmt::format("at {}, face {}", pointText(point), face);
-}
-
 /// The least thickness: "0.3 at (1, 2, 3), face 12", or "0.3". Precondition: there is one.
 std::string leastText(const ThicknessReport& thickness, bool hasPlace) {
   const std::string value = lengthText(thickness.min, thickness.thinnerThan);
@@ -97,6 +91,12 @@ void addRegions(const ThicknessReport& thickness, OptionSpelling spelling, Repor
 }
 
 }  // namespace
+
+std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x, point.y, point.z); }
+
+std::string placeText(const Vec3d& point, uint64_t face) {
+  return fmt::format("at {}, face {}", pointText(point), face);
+}
 
 const char* verdictWord(ThicknessVerdict verdict) {
   constexpr std::array kWords{"PASS", "FAIL", "NOT JUDGED"};

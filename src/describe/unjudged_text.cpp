@@ -12,15 +12,10 @@ namespace {
 
 constexpr size_t kShortTextSize = 88;  // A line of the short report has at most 100 columns.
 
-std::string placeText(const UnjudgedReason& reason) {
-  return fmt::format("at ({:.6g}, {:.6g}, {:.6g}), face {}", reason.place.x, reason.place.y, reason.place.z,
-                     reason.face);
-}
-
 /// "24 faces of open components: 8 edges have one face, the first at (1, 2, 3), face 4; close the mesh".
 std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
   const std::string faces = counted(reason.faceCount, "face"), edges = counted(reason.edgeCount, "edge");
-  const std::string place = placeText(reason);
+  const std::string place = placeText(reason.place, reason.face);
   const bool isOneEdge = reason.edgeCount == 1;
   std::string text;
   switch (reason.cause) {
@@ -91,7 +86,7 @@ ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spell
       text = counted(reason.faceCount, "double-sided face");
       break;
   }
-  text += ", first " + placeText(reason);
+  text += ", first " + placeText(reason.place, reason.face);
   remedy = withSpelledOptions(computationRows(), remedy, spelling);
   if (text.size() + remedy.size() <= kShortTextSize) text += remedy;
   if (const std::string more = fmt::format("; {} more", unjudged.reasons.size() - 1);

@@ -1,5 +1,6 @@
 #include "mesh/winding.h"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 

@@ -75,21 +75,7 @@ class Measurement {
   void addThinBodies(std::vector<GreatestSection>& sections, const RunControl& control) {
     for (ConnectedThinParts& region : thickness_.regions)
       if (judgement_.isInSheet(region.place.face)) region.kind = ThinKind::Wall;
-    // Sections that were not searched far enough.
-    std::vector<uint8_t> isOpen(sections.size());
-    for (size_t solid = 0; solid < sections.size(); ++solid)
-      isOpen[solid] = solids_.isClosed[solid] != 0 && sections[solid].diameter < kThinShare * *limit_ &&
-                              !isThinBody(sections[solid])
-                          ? 1
-                          : 0;
-    for (const ConnectedThinParts& region : thickness_.regions)
-      if (region.kind == ThinKind::Wall) isOpen[solids_.solidOf[region.place.face]] = 0;
-    if (std::find(isOpen.begin(), isOpen.end(), 1) != isOpen.end()) {
-      const std::vector<GreatestSection> searched =
-          findGreatestSections(scene_, solids_.solidOf, isOpen, {.enough = kThinShare * *limit_}, control);
-      for (size_t solid = 0; solid < sections.size(); ++solid)
-        if (isOpen[solid] != 0) sections[solid] = searched[solid];
-    }
+    decideSections(sections, control);
     std::map<uint32_t, ConnectedThinParts> bodies;
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
       if (const uint32_t solid = solids_.solidOf[face]; thickness_.isJudged[face] != 0 && isThinBody(sections[solid]))
@@ -110,6 +96,24 @@ class Measurement {
     for (auto& [solid, region] : bodies) thickness_.regions.push_back(std::move(region));
   }
 
+  /// Searches the greatest sections of bodies without a wall as far as the limit needs.
+  void decideSections(std::vector<GreatestSection>& sections, const RunControl& control) {
+    std::vector<uint8_t> isUndecided(sections.size());
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      isUndecided[solid] = solids_.isClosed[solid] != 0 && sections[solid].diameter < kThinShare * *limit_ &&
+                                   !isThinBody(sections[solid])
+                               ? 1
+                               : 0;
+    for (const ConnectedThinParts& region : thickness_.regions)
+      if (region.kind == ThinKind::Wall) isUndecided[solids_.solidOf[region.place.face]] = 0;
+    if (std::find(isUndecided.begin(), isUndecided.end(), 1) != isUndecided.end()) {
+      const std::vector<GreatestSection> searched =
+          findGreatestSections(scene_, solids_.solidOf, isUndecided, {.enough = kThinShare * *limit_}, control);
+      for (size_t solid = 0; solid < sections.size(); ++solid)
+        if (isUndecided[solid] != 0) sections[solid] = searched[solid];
+    }
+  }
+
   [[nodiscard]] bool isThinBody(const GreatestSection& section) const {
     return limit_ && section.bound < kThinShare * *limit_;
   }
@@ -118,9 +122,7 @@ class Measurement {
   /// ball.
   [[nodiscard]] WallPlace placeOf(const GreatestSection& section) const {
     const SurfacePoint foot = nearestSurfacePoint(scene_, section.centre, 0, [](uint32_t face) { return face; });
-    WallPlace place{.face = foot.face, .point = foot.point};
-    place.ball.ball = {section.diameter, foot.point, 2.0 * section.centre - foot.point};
-    return place;
+    return {foot.face, {{section.diameter, foot.point, 2.0 * section.centre - foot.point}, kNoFace}, 0};
   }
 
   void keepNextWall(const WallTree& tree, std::span<const GreatestSection> sections, const RunControl& control) {

@@ -1,7 +1,6 @@
 #include "trace/next_wall.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "trace/wall_rule.h"

@@ -7,13 +7,13 @@
 
 namespace asdfvk {
 
-/// The wall at the least limit from `first` to `last` at which the surface has a wall. least: #F,
-/// the least thickness of each face (normalised); NaN for a face that is not judged. Throws Error{Cancelled}.
+/// The wall at the least limit from `first` to `last` at which the surface has a wall. least: #F, the least thickness
+/// of each face (normalised); NaN for a face that is not judged. Throws Error{Cancelled}.
 [[nodiscard]] LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least,
                                       double first, double last, const RunControl& control);
 
 /// Pieces are divided until their sides are at most as long as the larger of limit / kPiecesPerLimit and
-/// kMinPieceLength (normalised), or as their place requires.
+/// kMinPieceLength (normalised).
 inline constexpr double kPiecesPerLimit = 4, kMinPieceLength = 0x1p-10;
 
 }  // namespace asdfvk

@@ -21,16 +21,21 @@ struct LinearTriangle {
   std::array<double, 3> values;
 };
 
-/// The point of a triangle nearest to p at which sign * function is at most sign * level.
-std::optional<Vec3d> nearestBelow(const LinearTriangle& linear, double sign, double level, const Vec3d& p) {
+enum class LevelSide { Below, Above };
+
+/// Among the points of a triangle at which the function is at most the level (LevelSide::Below), or at least the level
+/// (LevelSide::Above): the point nearest to p.
+std::optional<Vec3d> nearestOnSide(const LinearTriangle& linear, LevelSide side, double level, const Vec3d& p) {
   std::array<Vec3d, 4> part;
   size_t count = 0;
-  const auto isBelow = [&](size_t k) { return sign * linear.values[k] <= sign * level; };
+  const auto isPart = [&](size_t k) {
+    return side == LevelSide::Below ? linear.values[k] <= level : linear.values[k] >= level;
+  };
   for (size_t k = 0; k < 3; ++k) {
     const size_t next = (k + 1) % 3;
     const Vec3d& corner = linear.triangle.corners[k];
-    if (isBelow(k)) part[count++] = corner;
-    if (isBelow(k) != isBelow(next))
+    if (isPart(k)) part[count++] = corner;
+    if (isPart(k) != isPart(next))
       part[count++] = corner + (level - linear.values[k]) / (linear.values[next] - linear.values[k]) *
                                    (linear.triangle.corners[next] - corner);
   }
@@ -46,10 +51,10 @@ std::optional<Vec3d> nearestBelow(const LinearTriangle& linear, double sign, dou
 std::optional<Contradiction> contradictionIn(const LinearTriangle& linear, uint32_t face,
                                              const SurfacePointDisc& disc) {
   const double thin = kThinShare * disc.limit, thinner = kTaperShare * disc.diameter();
-  if (const auto point = nearestBelow(linear, 1, thinner / kSlack, disc.point);
+  if (const auto point = nearestOnSide(linear, LevelSide::Below, thinner / kSlack, disc.point);
       point && length(*point - disc.point) <= kTaperReach * disc.limit)
     return Contradiction{*point, face, thinner / kSlack, true};
-  if (const auto point = nearestBelow(linear, -1, thin, disc.point);
+  if (const auto point = nearestOnSide(linear, LevelSide::Above, thin, disc.point);
       point && length(*point - disc.point) <= kThinReach * disc.limit)
     return Contradiction{*point, face, thin, false};
   return {};
@@ -131,7 +136,7 @@ std::optional<Contradiction> DiscCheck::contradictionIn(uint32_t index, const Su
   if (mayBeThinner && length(thinnest - disc.point) <= kTaperReach * disc.limit)
     return Contradiction{thinnest, piece.face, least, true};
   if (!mayBeThick && !mayBeThinner) return {};
-  if (const Vec3d middle = piece.middle();
+  if (const Vec3d middle = middleOf(piece.corners);
       mayBeThick && piece.atMiddle >= thin && length(middle - disc.point) <= thinReach)
     return Contradiction{middle, piece.face, piece.atMiddle, false};
   if (piece.firstHalf == kNoPiece) {
@@ -143,7 +148,8 @@ std::optional<Contradiction> DiscCheck::contradictionIn(uint32_t index, const Su
 }
 
 std::optional<Contradiction> DiscCheck::hiddenContradictionIn(uint32_t index, const SurfacePointDisc& disc) {
-  if (pieces_[index].longestSide().second > kLinearLength * disc.limit) return contradictionInClipped(index, disc);
+  if (longestSideOf(pieces_[index].corners).second > kLinearLength * disc.limit)
+    return contradictionInClipped(index, disc);
   const ThinPiece& piece = pieces_[index];
   return asdfvk::contradictionIn({{piece.corners, pieces_.normal(piece.face)}, piece.atCorners}, piece.face, disc);
 }
@@ -152,7 +158,7 @@ std::optional<Contradiction> DiscCheck::hiddenContradictionIn(uint32_t index, co
 std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, const SurfacePointDisc& disc) const {
   const ThinPiece& piece = pieces_[index];
   const Vec3d& normal = pieces_.normal(piece.face);
-  const size_t longest = piece.longestSide().first;
+  const size_t longest = longestSideOf(piece.corners).first;
   const Vec3d side = piece.corners[(longest + 1) % 3] - piece.corners[longest];
   const Vec3d along = side / length(side), across = cross(normal, along);
   Polygon polygon{{piece.corners[0], piece.corners[1], piece.corners[2]}, 3};
@@ -165,8 +171,7 @@ std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, c
     const Vec3d& corner = polygon.corners[k];
     std::array<Vec3d, 3> triangle{corner, corner, corner};
     if (k >= 2) triangle = {polygon.corners[0], polygon.corners[k - 1], corner};
-    queries[k] = {{triangle, normal}, corner, {}, {}, pieces_.tree().bodyOf(piece.face)};
-    queries[k].atPoint.ball.diameter = queries[k].least.ball.diameter = kCornerRange * pieces_.limit();
+    queries[k] = pieces_.queryAt(piece.face, triangle, corner, kCornerRange * pieces_.limit());
   }
   pieces_.tree().shrink({queries.data(), polygon.count});
   for (size_t k = 2; k < polygon.count; ++k) {
@@ -180,7 +185,7 @@ std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, c
   return {};
 }
 
-/// The surface ends at a rim, where it turns to the other side of the wall.
+/// Looks for a rim: an edge at which the surface turns to the other side of the wall.
 std::optional<Contradiction> DiscCheck::rimNear(uint32_t face, const SurfacePointDisc& disc) const {
   const TraceScene& scene = pieces_.tree().scene();
   const PointFans& fans = pieces_.fans();

@@ -10,8 +10,8 @@
 
 namespace asdfvk {
 
-/// A point with its ball, and a limit at which it may be a wall. Its disc is the surface around it. All
-/// lengths are normalised.
+/// A point with its ball, and a limit at which it may be a wall. Its disc is the surface around it. All lengths are
+/// normalised.
 struct SurfacePointDisc {
   uint32_t face = kNoFace;
   Vec3d point;
@@ -29,11 +29,11 @@ struct Contradiction {
   bool isThinner = false;  ///< Below kTaperShare of the middle, or the end of the surface; else not thin.
 };
 
-/// Decides whether points are walls. On faces that have a point below the limit of the pieces, the thickness is known
-/// by their pieces. Short pieces are taken as linear between their corners, and long pieces are clipped to the disc.
+/// Decides whether points are walls. The pieces are divided. On faces that have a point below the limit of the pieces,
+/// the thickness is known by their pieces. Short pieces are taken as linear between their corners, and long pieces are
+/// clipped to the disc.
 class DiscCheck {
  public:
-  /// pieces: divided pieces.
   explicit DiscCheck(ThinPieces& pieces);
 
   /// A contradiction, or unset if the middle of the disc is a wall.

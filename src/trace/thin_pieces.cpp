@@ -16,11 +16,17 @@ constexpr uint32_t kLineLength = uint32_t{1} << 31;
 
 }  // namespace
 
-std::pair<size_t, double> ThinPiece::longestSide() const {
+std::pair<size_t, double> longestSideOf(const std::array<Vec3d, 3>& corners) {
   std::pair<size_t, double> longest{0, -1};
   for (size_t k = 0; k < 3; ++k)
     if (const double side = length(corners[(k + 1) % 3] - corners[k]); side > longest.second) longest = {k, side};
   return longest;
+}
+
+std::array<std::array<Vec3d, 3>, 2> halvesOf(const std::array<Vec3d, 3>& corners, size_t side) {
+  const Vec3d &from = corners[side], &to = corners[(side + 1) % 3], &opposite = corners[(side + 2) % 3];
+  const Vec3d middle = 0.5 * (from + to);
+  return {{{from, middle, opposite}, {middle, to, opposite}}};
 }
 
 ThinPieces::ThinPieces(const WallTree& tree, const PointFans& fans, std::span<const FaceBalls> faces, double limit)
@@ -72,7 +78,7 @@ bool ThinPieces::mayHalve() const { return pieces_.size() - rootCount_ < kMaxHal
 
 void ThinPieces::divide(double maxLength, const RunControl& control) {
   const auto mustHalve = [&](uint32_t i) {
-    return isThin(i) && pieces_[i].greatest >= limit_ && pieces_[i].longestSide().second > maxLength;
+    return isThin(i) && pieces_[i].greatest >= limit_ && longestSideOf(pieces_[i].corners).second > maxLength;
   };
   for (size_t begin = 0; begin < pieces_.size() && mayHalve();) {
     control.checkpoint(0.5);
@@ -86,18 +92,16 @@ void ThinPieces::divide(double maxLength, const RunControl& control) {
 
 uint32_t ThinPieces::addHalves(uint32_t index) {
   const ThinPiece piece = pieces_[index];
-  const size_t k = piece.longestSide().first, next = (k + 1) % 3, opposite = (k + 2) % 3;
-  const std::array<Vec3d, 3>& corners = piece.corners;
-  const Vec3d middle = 0.5 * (corners[k] + corners[next]);
+  const size_t k = longestSideOf(piece.corners).first, next = (k + 1) % 3, opposite = (k + 2) % 3;
+  const std::array<std::array<Vec3d, 3>, 2> halves = halvesOf(piece.corners, k);
   const LinePart &side = piece.sides[k], cut{lineCount_++, 0, kLineLength};
   const uint32_t halfway = side.from / 2 + side.to / 2;
   const auto first = static_cast<uint32_t>(pieces_.size());
   const auto add = [&](const std::array<Vec3d, 3>& half, const std::array<LinePart, 3>& sides) {
     pieces_.push_back({.face = piece.face, .corners = half, .least = {}, .sides = sides});
   };
-  add({corners[k], middle, corners[opposite]}, {LinePart{side.line, side.from, halfway}, cut, piece.sides[opposite]});
-  add({middle, corners[next], corners[opposite]},
-      {LinePart{side.line, halfway, side.to}, piece.sides[next], LinePart{cut.line, cut.to, cut.from}});
+  add(halves[0], {LinePart{side.line, side.from, halfway}, cut, piece.sides[opposite]});
+  add(halves[1], {LinePart{side.line, halfway, side.to}, piece.sides[next], LinePart{cut.line, cut.to, cut.from}});
   pieces_[index].firstHalf = first;
   return first;
 }
@@ -107,10 +111,8 @@ void ThinPieces::measure(std::span<ThinPiece> pieces) const {
     const size_t first = block * kBlockSize;
     const std::span<ThinPiece> own = pieces.subspan(first, std::min(kBlockSize, pieces.size() - first));
     std::vector<BallQuery> queries(own.size());
-    for (size_t i = 0; i < own.size(); ++i) {
-      queries[i] = {{own[i].corners, normal(own[i].face)}, own[i].middle(), {}, {}, tree_.bodyOf(own[i].face)};
-      queries[i].atPoint.ball.diameter = queries[i].least.ball.diameter = limit_;
-    }
+    for (size_t i = 0; i < own.size(); ++i)
+      queries[i] = queryAt(own[i].face, own[i].corners, middleOf(own[i].corners), limit_);
     tree_.shrink(queries);
     for (size_t i = 0; i < own.size(); ++i) {
       own[i].least = queries[i].least;
@@ -129,8 +131,7 @@ void ThinPieces::measureCorners(std::span<const uint32_t> pieces) {
     if (piece.atCorners[0] > 0) continue;
     for (size_t k = 0; k < 3; ++k) {
       const Vec3d& corner = piece.corners[k];
-      queries.push_back({{{corner, corner, corner}, normal(piece.face)}, corner, {}, {}, tree_.bodyOf(piece.face)});
-      queries.back().atPoint.ball.diameter = queries.back().least.ball.diameter = kCornerRange * limit_;
+      queries.push_back(queryAt(piece.face, {corner, corner, corner}, corner, kCornerRange * limit_));
       results.push_back(&piece.atCorners[k]);
     }
   }
@@ -140,16 +141,21 @@ void ThinPieces::measureCorners(std::span<const uint32_t> pieces) {
 
 InscribedBall ThinPieces::ballAtMiddle(uint32_t index) const {
   const ThinPiece& piece = pieces_[index];
-  if (piece.middleWall == kNoFace) return {{piece.atMiddle, piece.middle(), piece.middle()}, kNoFace};
-  return {leastTouchingBall(piece.middle(), normal(piece.face), triangleOf(tree_.scene(), piece.middleWall),
-                            kContactDistance, std::numeric_limits<double>::infinity()),
+  const Vec3d middle = middleOf(piece.corners);
+  if (piece.middleWall == kNoFace) return {{piece.atMiddle, middle, middle}, kNoFace};
+  return {leastTouchingBall(middle, normal(piece.face), triangleOf(tree_.scene(), piece.middleWall), kContactDistance,
+                            std::numeric_limits<double>::infinity()),
           piece.middleWall};
 }
 
+BallQuery ThinPieces::queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point,
+                              double greatest) const {
+  const InscribedBall ball{{isSheet(face) ? 0 : greatest, point, point}, kNoFace};
+  return {{part, normal(face)}, point, ball, ball, tree_.bodyOf(face)};
+}
+
 InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point) const {
-  if (isSheet(face)) return {{0, point, point}, kNoFace};
-  BallQuery query{{{point, point, point}, normal(face)}, point, {}, {}, tree_.bodyOf(face)};
-  query.atPoint.ball.diameter = query.least.ball.diameter = limit_;
+  BallQuery query = queryAt(face, {point, point, point}, point, limit_);
   tree_.shrink({&query, 1});
   return query.atPoint;
 }

@@ -14,7 +14,20 @@
 namespace asdfvk {
 
 inline constexpr uint32_t kNoPiece = 0xffffffff;
+/// Diameters at the corners of pieces are at most this factor of the limit, so that they show how the thickness varies
+/// near the limit.
 inline constexpr double kCornerRange = 2;
+
+[[nodiscard]] inline Vec3d middleOf(const std::array<Vec3d, 3>& corners) {
+  return (corners[0] + corners[1] + corners[2]) / 3.0;
+}
+
+/// Index and length of the longest side of a triangle.
+[[nodiscard]] std::pair<size_t, double> longestSideOf(const std::array<Vec3d, 3>& corners);
+
+/// The halves of a triangle that is cut from the middle of a side to the opposite corner. The first half contains the
+/// first corner of the side.
+[[nodiscard]] std::array<std::array<Vec3d, 3>, 2> halvesOf(const std::array<Vec3d, 3>& corners, size_t side);
 
 /// A part of a line. The line is an edge of the mesh, or a line along which a piece was halved.
 struct LinePart {
@@ -34,10 +47,6 @@ struct ThinPiece {
   std::array<double, 3> atCorners{};
   uint32_t firstHalf = kNoPiece;    ///< The other half follows. kNoPiece for a piece that was not halved.
   std::array<LinePart, 3> sides{};  ///< Side k runs from corner k to the next corner.
-
-  [[nodiscard]] Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
-  /// Index and length of the longest side.
-  [[nodiscard]] std::pair<size_t, double> longestSide() const;
 };
 
 /// The faces that have a point below a limit, as trees of pieces. A piece is halved at its longest side.
@@ -67,6 +76,9 @@ class ThinPieces {
   [[nodiscard]] const WallTree& tree() const { return tree_; }
   [[nodiscard]] const PointFans& fans() const { return fans_; }
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return tree_.scene().geometry.normals[face]; }
+  /// The query for a part of a face and a point of the part. The diameters are at most `greatest`; 0 on a sheet.
+  [[nodiscard]] BallQuery queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point,
+                                  double greatest) const;
   /// The ball at a point of a face, with a diameter of at most the limit.
   [[nodiscard]] InscribedBall ballAt(uint32_t face, const Vec3d& point) const;
 

@@ -89,7 +89,7 @@ class Regions {
       return std::pair(pieces_[a].least.ball.diameter, a) < std::pair(pieces_[b].least.ball.diameter, b);
     });
     const InscribedBall& least = pieces_[thinnest].least;
-    region.leastPlace = {pieces_[thinnest].face, least.ball.onFace, least, limit_};
+    region.leastPlace = {pieces_[thinnest].face, least, limit_};
     if (const std::optional<WallPlace> wall = search.leastWall(ofRegion)) {
       region.kind = ThinKind::Wall;
       region.place = *wall;

@@ -27,8 +27,8 @@ struct ConnectedThinParts {
   double perimeter = 0;  ///< Length of the border of the parts.
 };
 
-/// The thin regions at a limit. pieces: divided pieces; receives further halves. Two sides belong to one region if the
-/// place of each side is opposite to the other side. Throws Error{Cancelled}.
+/// The thin regions at a limit. pieces: divided pieces; receives diameters at corners. Two sides belong to one region
+/// if the place of each side is opposite to the other side. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit,
                                                               const RunControl& control);
 

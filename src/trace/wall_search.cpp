@@ -29,8 +29,8 @@ constexpr double kStepBeyond = 1.0 / 64;
 /// Shares of the limit: the greatest length of parts whose middle stands for their points, and the size of the cells of
 /// which one point is tested.
 constexpr double kPointSpacing = 0.36, kCellSize = 1.0 / 4;
-
-/// Shorter parts are not halved, so that a limit far below the size of the shape does not take for ever (normalised).
+/// Parts that are at most this long are not halved, which bounds the work if the limit is far below the size of the
+/// shape (normalised).
 constexpr double kMinPartSize = 0x1p-11;
 
 /// The number of a cell of a grid, shifted by some cells along each axis.
@@ -49,12 +49,6 @@ uint64_t directionOf(const Vec3d& normal) {
   return axis << 1 | (normal[axis] < 0 ? 1 : 0);
 }
 
-double sizeOf(const std::array<Vec3d, 3>& corners) {
-  return std::max({length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
-}
-
-Vec3d middleOf(const std::array<Vec3d, 3>& corners) { return (corners[0] + corners[1] + corners[2]) / 3.0; }
-
 double reachOf(const Contradiction& contradiction) { return contradiction.isThinner ? kTaperReach : kThinReach; }
 
 }  // namespace
@@ -68,7 +62,7 @@ std::optional<WallPlace> WallSearch::leastWall(std::span<const uint32_t> pieces)
     return best && (pointCount_ > kMaxPointsForLeast || least >= best->ball.ball.diameter / (1 + kEqualWalls));
   };
   forEachPoint(pieces, limit_, isDone, [&](const SurfacePointDisc& disc) {
-    if (!best || disc.diameter() < best->ball.ball.diameter) best = placeOf(disc);
+    if (!best || disc.diameter() < best->ball.ball.diameter) best = WallPlace{disc.face, disc.ball, disc.limit};
   });
   return best;
 }
@@ -79,7 +73,7 @@ LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor
     return isTooLong() || (best && std::max(floor, least / kThinShare) >= best->limit / (1 + kEqualWalls));
   };
   forEachPoint(pieces, floor, isDone, [&](const SurfacePointDisc& disc) {
-    if (!best || disc.limit < best->limit) best = placeOf(disc);
+    if (!best || disc.limit < best->limit) best = WallPlace{disc.face, disc.ball, disc.limit};
   });
   if (isTooLong()) return {{}, false};
   return {best};
@@ -94,15 +88,16 @@ std::optional<WallPlace> WallSearch::findDetail(std::span<const uint32_t> pieces
   for (scale_ = limit_; !detail && scale_ > kLeastDetailShare * limit_; scale_ /= 2)
     forEachPoint(
         pieces, scale_ / 2, [&](double) { return detail || pointCount_ > kMaxPointsForDetail; },
-        [&](const SurfacePointDisc& disc) { detail = placeOf(disc); });
+        [&](const SurfacePointDisc& disc) {
+          detail = WallPlace{disc.face, disc.ball, disc.limit};
+        });
   scale_ = limit_;
   return detail;
 }
 
-WallPlace WallSearch::placeOf(const SurfacePointDisc& disc) { return {disc.face, disc.point, disc.ball, disc.limit}; }
-
-/// Visits points that are walls at a limit from `floor` to scale_, at the least such limit, by ascending thickness.
-/// isDone(least thickness of the rest) ends the search.
+/// Looks for points that are walls at a limit from `floor` to scale_. Parts are tested by ascending least thickness.
+/// visit(disc) receives each such point with the least of these limits. The search ends if isDone(least thickness of
+/// the parts that remain) is true.
 void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(double)> isDone,
                               FunctionRef<void(const SurfacePointDisc&)> visit) {
   cells_.clear();
@@ -116,27 +111,28 @@ void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, Fu
   for (const uint32_t i : pieces) {
     const ThinPiece& piece = pieces_[i];
     if (piece.least.ball.diameter < kThinShare * scale_)
-      queue.push(
-          {piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter, sizeOf(piece.corners), piece.face});
+      queue.push({piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter,
+                  longestSideOf(piece.corners).second, piece.face});
   }
-  const double spacing = std::max(kPointSpacing * scale_, kMinPartSize);
   while (!queue.empty()) {
     const Part part = queue.top();
     queue.pop();
     if (isDone(part.least)) break;
     if (isExcluded(part, floor)) continue;
     testPoints(part, floor, visit);
-    if (part.size <= spacing || isDone(part.least) || isExcluded(part, floor)) continue;
+    if (isShort(part) || isDone(part.least) || isExcluded(part, floor)) continue;
     for (const Part& half : halvesOf(part))
       if (half.least < kThinShare * scale_) queue.push(half);
   }
 }
 
+/// Whether one point stands for all points of a part.
+bool WallSearch::isShort(const Part& part) const { return part.size <= std::max(kPointSpacing * scale_, kMinPartSize); }
+
 void WallSearch::testPoints(const Part& part, double floor, FunctionRef<void(const SurfacePointDisc&)> visit) {
   SurfacePointDisc disc{part.face, middleOf(part.corners), part.atMiddle, 0};
   const Vec3d& normal = pieces_.normal(part.face);
-  if (part.size <= std::max(kPointSpacing * scale_, kMinPartSize) &&
-      !cells_.insert(cellOf(disc.point, kCellSize * scale_) ^ directionOf(normal) << 61).second)
+  if (isShort(part) && !cells_.insert(cellOf(disc.point, kCellSize * scale_) ^ directionOf(normal) << 61).second)
     return;
   for (int i = 0; i < kPointsPerPart; ++i) {
     ++pointCount_;
@@ -153,25 +149,16 @@ void WallSearch::testPoints(const Part& part, double floor, FunctionRef<void(con
 }
 
 std::array<WallSearch::Part, 2> WallSearch::halvesOf(const Part& part) const {
-  const auto& [a, b, c] = part.corners;
-  const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
-  const size_t k = ab >= bc && ab >= ca ? 0 : bc >= ca ? 1 : 2;
-  const Vec3d &from = part.corners[k], &to = part.corners[(k + 1) % 3], &opposite = part.corners[(k + 2) % 3];
-  const Vec3d middle = 0.5 * (from + to);
-  std::array<Part, 2> halves{Part{{from, middle, opposite}, {}}, Part{{middle, to, opposite}, {}}};
+  const std::array<std::array<Vec3d, 3>, 2> halves = asdfvk::halvesOf(part.corners, longestSideOf(part.corners).first);
   std::array<BallQuery, 2> queries;
-  for (size_t i = 0; i < 2; ++i) {
-    const std::array<Vec3d, 3>& corners = halves[i].corners;
-    queries[i] = {{corners, pieces_.normal(part.face)}, middleOf(corners), {}, {}, pieces_.tree().bodyOf(part.face)};
-    queries[i].atPoint.ball.diameter = queries[i].least.ball.diameter = pieces_.limit();
-  }
-  pieces_.tree().shrink(queries);
-  const bool isSheet = pieces_.isSheet(part.face);
   for (size_t i = 0; i < 2; ++i)
-    halves[i] = isSheet ? Part{halves[i].corners, part.atMiddle, 0, sizeOf(halves[i].corners), part.face}
-                        : Part{halves[i].corners, queries[i].atPoint, queries[i].least.ball.diameter,
-                               sizeOf(halves[i].corners), part.face};
-  return halves;
+    queries[i] = pieces_.queryAt(part.face, halves[i], middleOf(halves[i]), pieces_.limit());
+  pieces_.tree().shrink(queries);
+  const auto partOf = [&](size_t i) {
+    return Part{halves[i], queries[i].atPoint, queries[i].least.ball.diameter, longestSideOf(halves[i]).second,
+                part.face};
+  };
+  return {partOf(0), partOf(1)};
 }
 
 /// Sets disc.limit to the least limit from `floor` to scale_ at which the point is a wall. If there is none, returns a

@@ -14,12 +14,11 @@
 
 namespace asdfvk {
 
-/// A point of the surface that is a wall at a limit.
+/// A point of the surface that is thin: the point TouchingBall::onFace of the ball. Normalised.
 struct WallPlace {
   uint32_t face = kNoFace;
-  Vec3d point;  ///< Normalised.
   InscribedBall ball;
-  double limit = 0;  ///< The least limit of a detail that was found; normalised.
+  double limit = 0;  ///< The least limit that was found at which the point is a wall.
 };
 
 /// The wall at the least limit, unset if there is none; or a search that gave up.
@@ -61,7 +60,7 @@ class WallSearch {
   [[nodiscard]] bool isExcluded(const Part& part, double floor) const;
   void keep(const Contradiction& contradiction);
   [[nodiscard]] bool isTooLong() const;
-  [[nodiscard]] static WallPlace placeOf(const SurfacePointDisc& disc);
+  [[nodiscard]] bool isShort(const Part& part) const;
 
   ThinPieces& pieces_;
   double limit_;

@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "mesh/components.h"
 #include "mesh/winding.h"
+#include "support/separated_faces.h"
 #include "support/shapes.h"
 
 // The edges of surfaces with split vertices, nearly equal vertices and T-junctions.
@@ -29,17 +30,10 @@ Components componentsOf(const Mesh& mesh, const SurfaceEdges& edges) {
 
 /// Every face with vertices of its own, which are moved by up to `amount`.
 Mesh split(const Mesh& mesh, double amount = 0, uint64_t seed = 1) {
-  Mesh result;
+  Mesh result = separated(mesh);
   Random random(seed);
-  for (const Face& face : mesh.faces) {
-    const auto first = static_cast<uint32_t>(result.vertices.size());
-    for (const uint32_t vertex : face) {
-      Vec3d p = mesh.vertices[vertex];
-      for (size_t axis = 0; axis < 3; ++axis) p[axis] += amount * (2 * random.real() - 1);
-      result.vertices.push_back(p);
-    }
-    result.faces.push_back({first, first + 1, first + 2});
-  }
+  for (Vec3d& p : result.vertices)
+    for (size_t axis = 0; axis < 3; ++axis) p[axis] += amount * (2 * random.real() - 1);
   return result;
 }
 
