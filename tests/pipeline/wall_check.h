@@ -17,7 +17,8 @@ inline Options limitedTo(std::optional<double> limit, Orientation orientation = 
   return options;
 }
 
-inline ThicknessReport check(const Mesh& mesh, std::optional<double> limit, Orientation orientation = Orientation::Keep) {
+inline ThicknessReport check(const Mesh& mesh, std::optional<double> limit,
+                             Orientation orientation = Orientation::Keep) {
   return referenceSession().compute(mesh, limitedTo(limit, orientation)).report.thickness.value();
 }
 
