@@ -72,14 +72,15 @@ std::vector<uint32_t> weldVertices(const TriangleMesh& mesh, const Normalization
       if (other < lowest[i] && isNear(placed.vertex, other)) lowest[i] = other;
     });
   });
-  std::vector<std::pair<uint32_t, uint32_t>> order;  // The vertex, and its index in the grid.
+  std::vector<PlacedVertex> order;
   for (uint32_t i = 0; i < lowest.size(); ++i)
-    if (lowest[i] != grid.placed()[i].vertex) order.emplace_back(grid.placed()[i].vertex, i);
-  std::sort(order.begin(), order.end());
-  for (const auto& [vertex, index] : order) {
-    uint32_t& found = replacement[vertex];
-    grid.forEachNear(grid.placed()[index].cell, [&](uint32_t other) {
-      if (other < found && replacement[other] == other && isNear(vertex, other)) found = other;
+    if (lowest[i] != grid.placed()[i].vertex) order.push_back(grid.placed()[i]);
+  std::sort(order.begin(), order.end(),
+            [](const PlacedVertex& a, const PlacedVertex& b) { return a.vertex < b.vertex; });
+  for (const PlacedVertex& placed : order) {
+    uint32_t& found = replacement[placed.vertex];
+    grid.forEachNear(placed.cell, [&](uint32_t other) {
+      if (other < found && replacement[other] == other && isNear(placed.vertex, other)) found = other;
     });
   }
   return replacement;
