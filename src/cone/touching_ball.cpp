@@ -27,7 +27,9 @@ double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
 
 /// Adds a margin for rounding. Lower bounds are compared with this number, so that walls in any order give the same
 /// bits.
-double withRounding(double diameter) { return diameter * (1 + 1e-9); }
+double withRounding(double diameter, double share = 1e-9) { return diameter * (1 + share); }
+/// Relative rounding error of a diameter that is equal to the depth.
+constexpr double kRounding = 1e-14;
 
 /// The part of a triangle that is deeper than minDepth: up to four corners with their depths.
 class DeepPart {
@@ -48,6 +50,7 @@ class DeepPart {
 
   [[nodiscard]] std::span<const Vec3d> corners() const { return {corners_.data(), count_}; }
   [[nodiscard]] double depth(size_t corner) const { return depths_[corner]; }
+  [[nodiscard]] double leastDepth() const { return *std::min_element(depths_.begin(), depths_.begin() + count_); }
   /// Calls visit(a, b) for the edges with a point of depth at most maxDepth.
   template <typename Visit>
   void forEachEdge(double maxDepth, const Visit& visit) const {
@@ -91,8 +94,10 @@ Vec3d nearestInPlane(const PlaneTriangle& triangle, const Vec3d& p) {
 class LeastBall {
  public:
   LeastBall(const PlaneTriangle& wall, const Vec3d& axis, const DeepPart& part, double limit)
-      : wall_(wall), axis_(axis), part_(part), limit_(withRounding(limit)) {}
+      : wall_(wall), axis_(axis), part_(part), limit_(withRounding(limit)), leastDepth_(part.leastDepth()) {}
 
+  /// Whether no other ball is smaller, because the diameter is the least depth of the wall.
+  [[nodiscard]] bool isLeast() const { return best_.diameter == leastDepth_; }
   [[nodiscard]] bool mayImprove(double bound) const { return !(bound > limit_); }
 
   /// For a point p of the face, boundAt(offsetOf(p)) is the diameter of the ball at p that touches the plane of the
@@ -103,7 +108,7 @@ class LeastBall {
   void offer(const Vec3d& p, const Vec3d& q) {
     const double diameter = diameterThrough(q - p, axis_);
     if (!(diameter < best_.diameter)) return;
-    best_ = {diameter, p, q};
+    best_ = {diameter < withRounding(leastDepth_, kRounding) ? leastDepth_ : diameter, p, q};
     limit_ = std::min(limit_, withRounding(diameter));
   }
 
@@ -143,7 +148,7 @@ class LeastBall {
   Vec3d axis_;
   const DeepPart& part_;
   TouchingBall best_;
-  double limit_;
+  double limit_, leastDepth_;
 };
 
 }  // namespace
@@ -152,19 +157,19 @@ TouchingBall leastTouchingBall(const PlaneTriangle& face, const PlaneTriangle& w
   const Vec3d axis = -face.normal;
   const DeepPart part(wall, face.corners[0], axis, minDepth);
   const std::span<const Vec3d> corners = part.corners();
-  if (corners.empty()) return {};
+  if (corners.empty() || part.leastDepth() > withRounding(limit)) return {};
   LeastBall least(wall, axis, part, limit);
   std::array<double, 3> offsets, bounds;
   for (size_t k = 0; k < 3; ++k) {
     offsets[k] = least.offsetOf(face.corners[k]);
     bounds[k] = least.boundAt(offsets[k]);
   }
-  for (size_t k = 0; k < corners.size(); ++k)
+  for (size_t k = 0; k < corners.size() && !least.isLeast(); ++k)
     if (least.mayImprove(part.depth(k)))
       least.offer(nearestInPlane(face, corners[k] - part.depth(k) * axis), corners[k]);
-  for (size_t k = 0; k < 3; ++k)
+  for (size_t k = 0; k < 3 && !least.isLeast(); ++k)
     if (least.mayImprove(bounds[k])) least.offerPoint(face.corners[k], offsets[k]);
-  for (size_t k = 0; k < 3; ++k) {
+  for (size_t k = 0; k < 3 && !least.isLeast(); ++k) {
     const size_t next = (k + 1) % 3;
     const bool isCrossed = (offsets[k] < 0) != (offsets[next] < 0);
     if (isCrossed || least.mayImprove(std::min(bounds[k], bounds[next])))
@@ -177,7 +182,7 @@ TouchingBall leastTouchingBall(const Vec3d& point, const Vec3d& faceNormal, cons
                                double limit) {
   const Vec3d axis = -faceNormal;
   const DeepPart part(wall, point, axis, minDepth);
-  if (part.corners().empty()) return {};
+  if (part.corners().empty() || part.leastDepth() > withRounding(limit)) return {};
   LeastBall least(wall, axis, part, limit);
   const double offset = least.offsetOf(point);
   if (least.mayImprove(least.boundAt(offset))) least.offerPoint(point, offset);

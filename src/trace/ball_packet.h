@@ -23,6 +23,8 @@ inline constexpr float kWallPlaneMargin = 0x1p-19F, kWallCosineMargin = 0x1p-20F
 /// Balls with a larger diameter are assumed to reach every box.
 inline constexpr float kMaxBoxedDiameter = 8;
 inline constexpr float kUnlimitedDiameter = 0x1p60F;
+/// Squared distances below this number are taken as this number, so that their root has an inverse.
+inline constexpr float kMinSquaredWay = 0x1p-60F;
 /// The least depth in float32 that is exact enough for the computation of a limit.
 inline constexpr float kMinLimitDepth = 0x1p-17F;
 
@@ -100,22 +102,24 @@ class BallPacket {
     for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
   }
 
-  /// Lowers the limits to the diameters of the balls through the middle of `wall`, which is probably near.
+  /// Lowers the limits to the diameters of the balls through a point of `wall`, which is probably near.
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
     const Mask opposing =
         lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
-    if (anyLane(opposing)) shrinkLimits(wall, middleOf(wall.middle, opposing), opposing);
+    if (!anyLane(opposing)) return;
+    const Lanes q = isLong(wall) ? nearestPoint(wall) : inAllLanes(wall.middle);
+    shrinkLimits(q, tangentAt(q, opposing), opposing);
   }
 
  private:
   using Mask = IntsOf<Floats>;
   using Lanes = Vec3Lanes<Floats>;
 
-  /// The balls that touch the triangles at BallQuery::point and contain the middle of a wall on their surface.
-  struct Middle {
+  /// The balls that touch the triangles at BallQuery::point, and pass through a point q.
+  struct Tangent {
     Floats diameter;  ///< Upper bound that covers rounding; unlimited if unknown.
     Floats lowest;    ///< Lower bound; 0 if unknown.
-    Lanes slope;      ///< Gradient of the diameter with respect to the point of the wall.
+    Lanes slope;      ///< Gradient of the diameter with respect to q.
     Floats doubt;     ///< Rounding error of the slope.
   };
 
@@ -138,13 +142,14 @@ class BallPacket {
   /// smaller balls.
   ASDFVK_ALWAYS_INLINE void placeBalls() {
     const Floats limit = asdfvk::max(leastLimit_, atPointLimit_);
-    const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
+    radius_ = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
     const auto shifted = [&](const Lanes& v) ASDFVK_ALWAYS_INLINE {
-      return Lanes{v.x - radius * normal_.x, v.y - radius * normal_.y, v.z - radius * normal_.z};
+      return Lanes{v.x - radius_ * normal_.x, v.y - radius_ * normal_.y, v.z - radius_ * normal_.z};
     };
     low_ = shifted(boxMin_);
     high_ = shifted(boxMax_);
-    const Floats reach = radius + kWallBoxMargin;
+    centre_ = shifted(corners_[3]);
+    const Floats reach = radius_ + kWallBoxMargin;
     const Mask isBoxed = lessEqual(limit, broadcast<Floats>(kMaxBoxedDiameter));
     squaredRadius_ = orUnlimited(isBoxed, reach * reach);
   }
@@ -181,27 +186,88 @@ class BallPacket {
 
   /// Lanes whose balls may reach the cylinder of the node (WallNode::axis).
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
-    const Middle middle = middleOf(node.middle, lanes);
-    const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope);
+    const Tangent tangent = tangentAt(inAllLanes(node.middle), lanes);
+    const Floats along = dotLanes(node.axis, tangent.slope), square = dot(tangent.slope, tangent.slope);
     const Floats across = asdfvk::max(square - along * along, Floats{}) + kWallBoxMargin * (1 + square);
     // The lower bound without the term sqrt(across) * radius; the lambda below squares this term.
     const Floats atPoint =
-        middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) - middle.doubt * node.reach;
+        tangent.lowest + asdfvk::min(along * node.lowest, along * node.highest) - tangent.doubt * node.reach;
     const Floats change = across * (node.radius * node.radius * (1 + kWallBoxMargin));
     const auto reaches = [&](const Floats& bound, const Floats& limit) ASDFVK_ALWAYS_INLINE {
       const Floats above = asdfvk::max(bound - limit, Floats{});
       return lessEqual(above * above, change);
     };
-    return lanes & (reaches(leastBound(middle, atPoint), leastLimit_) | reaches(atPoint, atPointLimit_));
+    return lanes & (reaches(leastBound(tangent, atPoint), leastLimit_) | reaches(atPoint, atPointLimit_));
   }
 
   /// Lower bound of the diameters at all points of the triangle. The diameter is a convex function of both points.
-  /// Therefore it is at least its tangent at BallQuery::point and the middle of the wall. atPoint: lower bound at
+  /// Therefore it is at least its tangent at BallQuery::point and a point of the wall. atPoint: lower bound at
   /// BallQuery::point.
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Middle& middle, const Floats& atPoint) const {
-    const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], middle.slope), dot(corners_[1], middle.slope)),
-                                        dot(corners_[2], middle.slope));
-    return atPoint + dot(corners_[3], middle.slope) - greatest - middle.doubt * reach_;
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Tangent& tangent, const Floats& atPoint) const {
+    const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], tangent.slope), dot(corners_[1], tangent.slope)),
+                                        dot(corners_[2], tangent.slope));
+    return atPoint + dot(corners_[3], tangent.slope) - greatest - tangent.doubt * reach_;
+  }
+
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Lanes inAllLanes(const Vec3f& v) {
+    return {broadcast<Floats>(v.x), broadcast<Floats>(v.y), broadcast<Floats>(v.z)};
+  }
+
+  /// Whether the tangent at the middle of a wall is a poor bound at its corners.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE bool isLong(const Wall& wall) const {
+    return anyLane(lessEqual(radius_, broadcast<Floats>(wall.reach)));
+  }
+
+  /// The points of a wall nearest to centre_.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Lanes nearestPoint(const Wall& wall) const {
+    const Floats above = dotLanes(wall.normal, centre_) - wall.offset;
+    const auto select3 = [](const Mask& mask, const Lanes& a, const Lanes& b) ASDFVK_ALWAYS_INLINE {
+      return Lanes{select(mask, a.x) + select(~mask, b.x), select(mask, a.y) + select(~mask, b.y),
+                   select(mask, a.z) + select(~mask, b.z)};
+    };
+    Lanes nearest = centre_;
+    Floats least = broadcast<Floats>(kUnlimitedDiameter);
+    Mask isInside = ~Mask{};
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3f a = wall.middle + wall.spokes[k], edge = wall.spokes[(k + 1) % 3] - wall.spokes[k];
+      const Vec3f inward = cross(wall.normal, edge);
+      const Lanes d{centre_.x - a.x, centre_.y - a.y, centre_.z - a.z};
+      isInside &= lessEqual(Floats{}, dotLanes(inward, d));
+      const float square = std::max(asdfvk::dot(edge, edge), std::numeric_limits<float>::min());
+      const Floats t = asdfvk::min(asdfvk::max(dotLanes(edge, d) / square, Floats{}), broadcast<Floats>(1));
+      const Lanes q{a.x + t * edge.x, a.y + t * edge.y, a.z + t * edge.z};
+      const Lanes away{centre_.x - q.x, centre_.y - q.y, centre_.z - q.z};
+      const Floats distance = dot(away, away);
+      nearest = select3(lessEqual(distance, least), q, nearest);
+      least = asdfvk::min(least, distance);
+    }
+    const Lanes foot{centre_.x - above * wall.normal.x, centre_.y - above * wall.normal.y,
+                     centre_.z - above * wall.normal.z};
+    return select3(isInside, foot, nearest);
+  }
+
+  /// Lanes whose balls do not reach a wall: at BallQuery::point, and at all points of the triangle.
+  struct Separated {
+    Mask atPoint, atFace;
+  };
+  /// nearest: the points of the wall nearest to centre_. The planes perpendicular to the lines from centre_ to them
+  /// separate the balls of the triangle from the wall.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Separated separatedBy(const Lanes& nearest, const Wall& wall) const {
+    const Lanes way{nearest.x - centre_.x, nearest.y - centre_.y, nearest.z - centre_.z};
+    const Floats square = dot(way, way), inverse = rsqrt(asdfvk::max(square, broadcast<Floats>(kMinSquaredWay)));
+    const Floats distance = square * inverse, rounding = kWallBoxMargin * (1 + distance + reach_);
+    const Lanes axis{way.x * inverse, way.y * inverse, way.z * inverse};
+    const Lanes toMiddle{wall.middle.x - centre_.x, wall.middle.y - centre_.y, wall.middle.z - centre_.z};
+    const Floats wallBegin =
+        dot(toMiddle, axis) + asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], axis), dotLanes(wall.spokes[1], axis)),
+                                          dotLanes(wall.spokes[2], axis));
+    const Floats spread =
+        asdfvk::max(asdfvk::max(dot(corners_[0], axis), dot(corners_[1], axis)), dot(corners_[2], axis)) -
+        dot(corners_[3], axis);
+    const Floats radius = 0.5F * leastLimit_;
+    const Floats ballsEnd = spread + (radius_ - radius) * dot(normal_, axis) + radius;
+    return {lessEqual(0.5F * asdfvk::max(leastLimit_, atPointLimit_) + rounding, distance),
+            lessEqual(ballsEnd + rounding, wallBegin) & lessEqual(leastLimit_, broadcast<Floats>(kMaxBoxedDiameter))};
   }
 
   ASDFVK_ALWAYS_INLINE void test(const Wall& wall) {
@@ -223,21 +289,29 @@ class BallPacket {
     if (!anyLane(isNear)) return;
     isNear &= reach(wall);
     if (!anyLane(isNear)) return;
-    const Middle middle = middleOf(wall.middle, isNear);
+    const bool isLongWall = isLong(wall);
+    const Lanes q = isLongWall ? nearestPoint(wall) : inAllLanes(wall.middle);
+    const Tangent tangent = tangentAt(q, isNear);
+    const Lanes toMiddle{wall.middle.x - q.x, wall.middle.y - q.y, wall.middle.z - q.z};
     const Floats pointBound =
-        middle.lowest +
-        asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope), dotLanes(wall.spokes[1], middle.slope)),
-                    dotLanes(wall.spokes[2], middle.slope)) -
-        middle.doubt * wall.reach;
-    const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
-    const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
+        tangent.lowest + dot(toMiddle, tangent.slope) +
+        asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], tangent.slope), dotLanes(wall.spokes[1], tangent.slope)),
+                    dotLanes(wall.spokes[2], tangent.slope)) -
+        tangent.doubt * (3 * wall.reach);
+    Floats leastAtFace = asdfvk::max(least, leastBound(tangent, pointBound));
+    Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
+    if (isLongWall) {
+      const Separated separated = separatedBy(q, wall);
+      leastAtFace = orUnlimited(~separated.atFace, leastAtFace);
+      leastAtPoint = orUnlimited(~separated.atPoint, leastAtPoint);
+    }
     const auto isWithinLimits = [&]() ASDFVK_ALWAYS_INLINE {
       return lessEqual(leastAtFace, leastLimit_) | lessEqual(leastAtPoint, atPointLimit_);
     };
     isNear &= isWithinLimits();
     if (!anyLane(isNear)) return;
     const Mask isSure = isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin));
-    if (anyLane(isSure) && shrinkLimits(wall, middle, isSure)) isNear &= isWithinLimits();
+    if (anyLane(isSure) && shrinkLimits(q, tangent, isSure)) isNear &= isWithinLimits();
     for (uint32_t lanes = bitsOf(isNear); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(lanes));
       collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
@@ -248,7 +322,7 @@ class BallPacket {
     return a.x * b.x + a.y * b.y + a.z * b.z;
   }
 
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Middle middleOf(const Vec3f& q, const Mask& lanes) const {
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Tangent tangentAt(const Lanes& q, const Mask& lanes) const {
     const Lanes v{q.x - corners_[3].x, q.y - corners_[3].y, q.z - corners_[3].z};
     const Floats depth = -dot(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
     const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
@@ -261,13 +335,13 @@ class BallPacket {
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
-  /// Lowers the limits to the diameters of the balls through the middle of a wall. Returns whether a limit changed.
-  ASDFVK_ALWAYS_INLINE bool shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
-    const Floats diameter = orUnlimited(lanes, middle.diameter);
+  /// Lowers the limits to the diameters of the balls through a point of a wall. Returns whether a limit changed.
+  ASDFVK_ALWAYS_INLINE bool shrinkLimits(const Lanes& q, const Tangent& tangent, const Mask& lanes) {
+    const Floats diameter = orUnlimited(lanes, tangent.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
     Floats least = asdfvk::min(leastLimit_, diameter);
     for (size_t k = 0; k < 3; ++k) {
-      const Lanes v{wall.middle.x - corners_[k].x, wall.middle.y - corners_[k].y, wall.middle.z - corners_[k].z};
+      const Lanes v{q.x - corners_[k].x, q.y - corners_[k].y, q.z - corners_[k].z};
       const Floats depth = -dot(v, normal_);
       const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
       const Floats atCorner = dot(v, v) / depth * (1 + kWallBoxMargin + kWallBoxMargin / depth);
@@ -333,7 +407,8 @@ class BallPacket {
   std::array<Lanes, 4> corners_;      ///< Corners of the triangle, and the point.
   Floats leastLimit_, atPointLimit_;  ///< Limits of the diameters.
   Lanes low_, high_;                  ///< Box of the centres of the balls of the greater limit.
-  Floats squaredRadius_;
+  Lanes centre_;                      ///< Centre of this ball at BallQuery::point.
+  Floats radius_, squaredRadius_;
   Floats reach_;  ///< 1 + the length from the point to the corners.
   Mask isUsed_, bodies_;
   std::array<std::array<Candidate, kMaxCandidateCount>, kSize> candidates_;

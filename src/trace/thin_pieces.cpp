@@ -150,8 +150,11 @@ InscribedBall ThinPieces::ballAtMiddle(uint32_t index) const {
 
 BallQuery ThinPieces::queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point,
                               double greatest) const {
-  const InscribedBall ball{{isSheet(face) ? 0 : greatest, point, point}, kNoFace};
-  return {{part, normal(face)}, point, ball, ball, tree_.bodyOf(face)};
+  BallQuery query{{part, normal(face)}, point, {}, {}, tree_.bodyOf(face)};
+  query.atPoint = {{isSheet(face) ? 0 : greatest, point, point}, kNoFace};
+  query.least = query.atPoint;
+  if (part[0] == part[1] && part[0] == part[2]) query.least.ball.diameter = 0;
+  return query;
 }
 
 InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point) const {
