@@ -105,7 +105,10 @@ const char* verdictWord(ThicknessVerdict verdict) {
 
 std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces) {
   const std::string least = std::isnan(thickness.min) ? "" : leastText(thickness, hasPlaces);
-  if (!thickness.verdict) return least.empty() ? "no thickness" : "least wall " + least;
+  if (!thickness.verdict)
+    return !least.empty()                 ? "least wall " + least
+           : std::isnan(thickness.median) ? "no thickness"
+                                          : "the least wall was not found";
   const std::string limit = limitText(*thickness.thinnerThan), others = kindsText(thickness, false);
   const std::string begin = std::string(verdictWord(*thickness.verdict)) + ": ";
   const std::string notCounted = others.empty() ? "" : fmt::format("; {} not counted", others);
@@ -153,7 +156,7 @@ ReportRows thicknessRows(const Report& report, OptionSpelling spelling) {
                                         report.size.y, report.size.z));
   addRegions(thickness, spelling, rows);
   if (const auto& ball = thickness.greatestSection)
-    rows.emplace_back("section", fmt::format("{}, the diameter (to 0.1 %) of the largest ball inside, centre {}",
+    rows.emplace_back("section", fmt::format("{}, the diameter of the largest ball found inside, centre {}",
                                              lengthText(ball->diameter), pointText(ball->centre)));
   if (std::isnan(thickness.median)) return rows;
   std::string text = fmt::format("by area p1 {}, p5 {}, p50 {}, p95 {}, max {}", lengthText(thickness.percentile1),

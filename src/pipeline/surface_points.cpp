@@ -106,8 +106,8 @@ std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<co
     tree.shrink(queries);
     for (size_t i = 0; i < block.size(); ++i) {
       const InscribedBall& found = queries[i].atPoint;
-      const double diameter =
-          found.wall == kNoFace ? sections[solids.solidOf[nearest[block[i]]]].diameter : found.ball.diameter;
+      const GreatestSection& section = sections[solids.solidOf[nearest[block[i]]]];
+      const double diameter = found.wall == kNoFace ? section.diameter : section.capped(found.ball.diameter);
       if (std::isfinite(diameter)) values[block[i]] = unit.toMeshLength(diameter);
     }
   };

@@ -17,9 +17,11 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 // Number of faces whose balls are shrunk at a time. They need 9 MiB.
 constexpr size_t kBlockFaceCount = size_t{1} << 16;
-// Progress after the greatest sections, and after the balls of all faces.
-constexpr double kSectionsProgress = 0.2, kBallsProgress = 0.9;
+// Progress after the balls of all faces, and after the greatest sections.
+constexpr double kBallsProgress = 0.6, kSectionsProgress = 0.8;
 constexpr double kLeastLimit = 2 * kUnresolved;
+/// Without a limit, walls are looked for at limits from this number on (normalised).
+constexpr double kLeastWallLimit = 0x1p-8;
 /// Limits of the next wall of a surface that bounds no body are at most this number (normalised).
 constexpr double kLargestLimit = 2;
 
@@ -47,23 +49,26 @@ class Measurement {
                   {},
                   {},
                   {}};
+    walls_.resize(count);
     control.checkpoint(0);
-    std::vector<GreatestSection> sections = findGreatestSections(scene_, solids_.solidOf, solids_.isClosed,
-                                                                 kQuickSection, control.part(0, kSectionsProgress));
-    keepGreatest(sections);
+    std::vector<GreatestSection> sections =
+        findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, kFirstSection, control.withoutProgress());
     const WallTree tree(scene_, opposing_, &solids_, control.withoutProgress());
-    const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
+    const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(0, kBallsProgress));
+    searchCaps(sections, control.part(kBallsProgress, kSectionsProgress));
+    keepGreatest(sections);
+    finishValues(sections);
     thickness_.unjudged = judgement_.unjudged();
     if (limit_) {
       ThinPieces pieces(tree, fans_, thin, kThinShare * *limit_);
       pieces.divide(std::max(*limit_ / kPiecesPerLimit, kMinPieceLength), control.withoutProgress());
       thickness_.regions = findThinRegions(pieces, *limit_, control.withoutProgress());
       addThinBodies(sections, control.withoutProgress());
-      const auto isWall = [](const ConnectedThinParts& region) { return region.kind == ThinKind::Wall; };
-      if (!thickness_.unjudged.preventVerdict() &&
-          std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
-        keepNextWall(tree, sections, control.withoutProgress());
     }
+    const auto isWall = [](const ConnectedThinParts& region) { return region.kind == ThinKind::Wall; };
+    if (!thickness_.unjudged.preventVerdict() &&
+        std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
+      keepNextWall(tree, sections, control.withoutProgress());
     control.checkpoint(1);
     return std::move(thickness_);
   }
@@ -130,13 +135,15 @@ class Measurement {
     std::vector<double> least(mesh_.faceCount(), kNoValue);
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
       if (thickness_.isJudged[face] == 0) continue;
-      least[face] = thickness_.least[face] * unit_.scale;
+      if (walls_[face].least != kNoFace || judgement_.isSheet(face)) least[face] = thickness_.least[face] * unit_.scale;
       const GreatestSection& section = sections[solids_.solidOf[face]];
       if (thinnest == nullptr || section.bound < thinnest->bound) thinnest = &section;
     }
     if (thinnest == nullptr) return;
     const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
-    const LeastLimit next = findNextWall(tree, fans_, least, *limit_, last, control);
+    const LeastLimit next = findNextWall(
+        tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
+        control);
     thickness_.nextWall = next.wall;
     if (next.isKnown && !next.wall && thinnest->bound < kUnlimited) thickness_.nextWall = placeOf(*thinnest);
   }
@@ -169,35 +176,77 @@ class Measurement {
       const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(faces.size()); };
       shrinkFaceBalls(tree, balls, control.part(share(begin), share(end)));
       for (FaceBalls& each : balls) {
-        const double greatest = sections[solids_.solidOf[each.face]].diameter;
-        const double least = take(each, greatest);
-        const bool isJudged = !std::isnan(least) && judgement_.isJudged(each.face);
-        thickness_.isJudged[each.face] = isJudged ? 1 : 0;
+        keep(each);
         const bool isLimited = each.least.wall != kNoFace || judgement_.isSheet(each.face);
-        if (isJudged && limit_ && isLimited && each.least.ball.diameter < kThinShare * *limit_) thin.push_back(each);
+        if (limit_ && judgement_.isJudged(each.face) && isLimited && each.least.ball.diameter < kThinShare * *limit_)
+          thin.push_back(each);
       }
     }
     return thin;
   }
 
-  /// Stores the values of a face and returns its least thickness.
-  double take(FaceBalls& balls, double greatest) {
-    if (judgement_.isDoubleSided(balls.face)) return kNoValue;
-    if (judgement_.isSheet(balls.face)) {
-      const Vec3d place = scene_.originOf(balls.face);
-      balls.atBarycentre = balls.least = {{0, place, place}, kNoFace};
-      return thickness_.atBarycentre[balls.face] = thickness_.least[balls.face] = 0;
-    }
-    const auto lengthOf = [&](InscribedBall& ball) {
-      if (ball.wall == kNoFace || ball.ball.diameter > greatest * (1 + kSectionTolerance))
-        ball.ball.diameter = greatest;
-      return ball.ball.diameter < kUnlimited ? unit_.toMeshLength(ball.ball.diameter) : kNoValue;
-    };
+  /// Stores the diameters of a face, infinite where no wall limits the ball.
+  void keep(FaceBalls& balls) {
     const uint32_t face = balls.face;
-    thickness_.atBarycentre[face] = lengthOf(balls.atBarycentre);
-    thickness_.least[face] = lengthOf(balls.least);
-    if (balls.least.ball.diameter <= kUnresolved) thickness_.least[face] = 0;
-    return thickness_.least[face];
+    if (judgement_.isSheet(face)) balls = sheetBalls(face);
+    const auto diameterOf = [&](const InscribedBall& ball) {
+      return ball.wall == kNoFace && !judgement_.isSheet(face) ? kUnlimited : ball.ball.diameter;
+    };
+    walls_[face] = {balls.atBarycentre.wall, balls.least.wall};
+    thickness_.atBarycentre[face] = diameterOf(balls.atBarycentre);
+    thickness_.least[face] = diameterOf(balls.least);
+  }
+
+  [[nodiscard]] FaceBalls sheetBalls(uint32_t face) const {
+    const Vec3d place = scene_.originOf(face);
+    const InscribedBall ball{{0, place, place}, kNoFace};
+    return {face, ball, ball};
+  }
+
+  /// The balls of a face again, from the walls that limit them. Precondition: a wall limits the least ball.
+  [[nodiscard]] FaceBalls ballsOf(uint32_t face) const {
+    if (judgement_.isSheet(face)) return sheetBalls(face);
+    const auto [atBarycentre, least] = walls_[face];
+    const PlaneTriangle triangle = triangleOf(scene_, face);
+    const Vec3d origin = scene_.originOf(face);
+    FaceBalls balls{face, {{kUnlimited, origin, origin}, kNoFace}, {}};
+    if (atBarycentre != kNoFace)
+      balls.atBarycentre = {
+          leastTouchingBall(origin, triangle.normal, triangleOf(scene_, atBarycentre), kContactDistance, kUnlimited),
+          atBarycentre};
+    balls.least = {leastTouchingBall(triangle, triangleOf(scene_, least), kContactDistance), least};
+    return balls;
+  }
+
+  /// Searches the greatest sections that are less than the balls of a face, because they cap the thickness there.
+  void searchCaps(std::vector<GreatestSection>& sections, const RunControl& control) const {
+    std::vector<uint8_t> isWanted(sections.size());
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
+      if (const uint32_t solid = solids_.solidOf[face];
+          solids_.isClosed[solid] != 0 && isInDomain(face) && sections[solid].caps(thickness_.atBarycentre[face]))
+        isWanted[solid] = 1;
+    if (std::find(isWanted.begin(), isWanted.end(), 1) == isWanted.end()) return;
+    const std::vector<GreatestSection> searched =
+        findGreatestSections(scene_, solids_.solidOf, isWanted, kQuickSection, control);
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      if (isWanted[solid] != 0) sections[solid] = searched[solid];
+  }
+
+  /// Caps the thicknesses, and converts them to the unit of the mesh.
+  void finishValues(std::span<const GreatestSection> sections) {
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
+      double &atBarycentre = thickness_.atBarycentre[face], &least = thickness_.least[face];
+      if (std::isnan(least)) continue;
+      const GreatestSection& section = sections[solids_.solidOf[face]];
+      const bool isUnresolved = least <= kUnresolved;
+      for (double* value : {&atBarycentre, &least}) {
+        *value = section.capped(*value);
+        *value = *value < kUnlimited && !judgement_.isDoubleSided(face) ? unit_.toMeshLength(*value) : kNoValue;
+      }
+      if (std::isnan(least)) continue;
+      if (isUnresolved) least = 0;
+      thickness_.isJudged[face] = judgement_.isJudged(face) ? 1 : 0;
+    }
   }
 
   const Computation& computation_;
@@ -209,6 +258,11 @@ class Measurement {
   const Solids& solids_;
   PointFans fans_;
   std::optional<double> limit_;  ///< Normalised.
+  /// The walls that limit the balls of a face; kNoFace for none.
+  struct FaceWalls {
+    uint32_t atBarycentre = kNoFace, least = kNoFace;
+  };
+  std::vector<FaceWalls> walls_;  ///< #F
   FaceThickness thickness_;
 };
 

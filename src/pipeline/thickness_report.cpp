@@ -36,9 +36,9 @@ class Description {
     report_.thinnerThan = options.thinnerThan;
     report_.countsDetails = options.countsDetails;
     report_.countsEdges = options.countsEdges;
-    if (!report_.thinnerThan) return std::move(report_);
-    describeRegions(surface);
+    if (report_.thinnerThan) describeRegions(surface);
     describeLeast();
+    if (!report_.thinnerThan) return std::move(report_);
     report_.verdict = verdict();
     ASDFVK_CHECK(report_.verdict == ThicknessVerdict::Failed || !(report_.min < kThinShare * *report_.thinnerThan));
     return std::move(report_);
@@ -152,7 +152,7 @@ class Description {
     if (!std::isnan(report_.min) || !thickness_.nextWall) return;
     const WallPlace& next = *thickness_.nextWall;
     // A wall that tapers may be thinner than the limit at which it becomes a wall.
-    const double limit = *report_.thinnerThan, least = thicknessOf(next);
+    const double limit = report_.thinnerThan.value_or(0), least = thicknessOf(next);
     takeLeast(least < kThinShare * limit ? std::max(unit_.toMeshLength(next.limit), limit) : least,
               prepared_.mesh.inputFaceOf(next.face), placeInMesh(next.ball.ball.onFace),
               placeInMesh(next.ball.ball.onWall));

@@ -10,6 +10,8 @@
 
 namespace asdfvk {
 
+inline constexpr double kSectionTolerance = 1e-3;
+
 /// The largest ball inside of a solid, in normalised coordinates.
 struct GreatestSection {
   Vec3d centre;
@@ -17,9 +19,10 @@ struct GreatestSection {
   /// Bound of the diameters of all balls inside. The bound is at most (1 + kSectionTolerance) * diameter, or greater if
   /// the search ended early.
   double bound = std::numeric_limits<double>::infinity();
-};
 
-inline constexpr double kSectionTolerance = 1e-3;
+  [[nodiscard]] bool caps(double thickness) const { return thickness > (1 + kSectionTolerance) * diameter; }
+  [[nodiscard]] double capped(double thickness) const { return caps(thickness) ? diameter : thickness; }
+};
 
 /// Where a search for a greatest section ends before the tolerance.
 struct SectionSearch {
@@ -29,8 +32,10 @@ struct SectionSearch {
   /// The search ends as soon as a ball with this diameter is found, or as no ball can have it.
   double enough = std::numeric_limits<double>::infinity();
 };
+/// A first search, which often finds the greatest section of a simple solid.
+inline constexpr SectionSearch kFirstSection{.cubeCount = 250};
 /// The work is in proportion to the faces.
-inline constexpr SectionSearch kQuickSection{.cubeCount = 2000, .cubesPerFace = 1};
+inline constexpr SectionSearch kQuickSection{.cubeCount = 1000, .cubesPerFace = 1};
 inline constexpr uint32_t kLeastCubeCount = 32;
 
 /// The greatest section of each wanted solid; infinite for other solids. Branch and bound over cubes in the box of the

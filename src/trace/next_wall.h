@@ -3,14 +3,17 @@
 #include <span>
 
 #include "asdf_vk/run_control.h"
+#include "core/function_ref.h"
 #include "trace/thin_regions.h"
 
 namespace asdfvk {
 
 /// The wall at the least limit from `first` to `last` at which the surface has a wall. least: #F, the least thickness
-/// of each face (normalised); NaN for a face that is not judged. Throws Error{Cancelled}.
+/// of each face (normalised); NaN for a face that is not judged or that no wall opposes. ballsOf(face): its balls.
+/// Throws Error{Cancelled}.
 [[nodiscard]] LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least,
-                                      double first, double last, const RunControl& control);
+                                      FunctionRef<FaceBalls(uint32_t)> ballsOf, double first, double last,
+                                      const RunControl& control);
 
 /// Pieces are divided until their sides are at most as long as the larger of limit / kPiecesPerLimit and
 /// kMinPieceLength (normalised).

@@ -171,7 +171,8 @@ std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, c
     const Vec3d& corner = polygon.corners[k];
     std::array<Vec3d, 3> triangle{corner, corner, corner};
     if (k >= 2) triangle = {polygon.corners[0], polygon.corners[k - 1], corner};
-    queries[k] = pieces_.queryAt(piece.face, triangle, corner, kCornerRange * pieces_.limit());
+    queries[k] = pieces_.queryAt(piece.face, triangle, corner, kCornerRange * pieces_.limit(),
+                                 {piece.least.wall, piece.middleWall});
   }
   pieces_.tree().shrink({queries.data(), polygon.count});
   for (size_t k = 2; k < polygon.count; ++k) {

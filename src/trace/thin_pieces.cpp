@@ -98,7 +98,11 @@ uint32_t ThinPieces::addHalves(uint32_t index) {
   const uint32_t halfway = side.from / 2 + side.to / 2;
   const auto first = static_cast<uint32_t>(pieces_.size());
   const auto add = [&](const std::array<Vec3d, 3>& half, const std::array<LinePart, 3>& sides) {
-    pieces_.push_back({.face = piece.face, .corners = half, .least = {}, .sides = sides});
+    pieces_.push_back({.face = piece.face,
+                       .corners = half,
+                       .least = {{}, piece.least.wall},
+                       .middleWall = piece.middleWall,
+                       .sides = sides});
   };
   add(halves[0], {LinePart{side.line, side.from, halfway}, cut, piece.sides[opposite]});
   add(halves[1], {LinePart{side.line, halfway, side.to}, piece.sides[next], LinePart{cut.line, cut.to, cut.from}});
@@ -112,7 +116,8 @@ void ThinPieces::measure(std::span<ThinPiece> pieces) const {
     const std::span<ThinPiece> own = pieces.subspan(first, std::min(kBlockSize, pieces.size() - first));
     std::vector<BallQuery> queries(own.size());
     for (size_t i = 0; i < own.size(); ++i)
-      queries[i] = queryAt(own[i].face, own[i].corners, middleOf(own[i].corners), limit_);
+      queries[i] = queryAt(own[i].face, own[i].corners, middleOf(own[i].corners), limit_,
+                           {own[i].least.wall, own[i].middleWall});
     tree_.shrink(queries);
     for (size_t i = 0; i < own.size(); ++i) {
       own[i].least = queries[i].least;
@@ -131,7 +136,8 @@ void ThinPieces::measureCorners(std::span<const uint32_t> pieces) {
     if (piece.atCorners[0] > 0) continue;
     for (size_t k = 0; k < 3; ++k) {
       const Vec3d& corner = piece.corners[k];
-      queries.push_back(queryAt(piece.face, {corner, corner, corner}, corner, kCornerRange * limit_));
+      queries.push_back(queryAt(piece.face, {corner, corner, corner}, corner, kCornerRange * limit_,
+                                {piece.least.wall, piece.middleWall}));
       results.push_back(&piece.atCorners[k]);
     }
   }
@@ -148,17 +154,17 @@ InscribedBall ThinPieces::ballAtMiddle(uint32_t index) const {
           piece.middleWall};
 }
 
-BallQuery ThinPieces::queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point,
-                              double greatest) const {
-  BallQuery query{{part, normal(face)}, point, {}, {}, tree_.bodyOf(face)};
+BallQuery ThinPieces::queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point, double greatest,
+                              const std::array<uint32_t, 2>& hints) const {
+  BallQuery query{{part, normal(face)}, point, {}, {}, tree_.bodyOf(face), hints};
   query.atPoint = {{isSheet(face) ? 0 : greatest, point, point}, kNoFace};
   query.least = query.atPoint;
   if (part[0] == part[1] && part[0] == part[2]) query.least.ball.diameter = 0;
   return query;
 }
 
-InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point) const {
-  BallQuery query = queryAt(face, {point, point, point}, point, limit_);
+InscribedBall ThinPieces::ballAt(uint32_t face, const Vec3d& point, uint32_t hint) const {
+  BallQuery query = queryAt(face, {point, point, point}, point, limit_, {hint, kNoFace});
   tree_.shrink({&query, 1});
   return query.atPoint;
 }

@@ -78,10 +78,11 @@ class ThinPieces {
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return tree_.scene().geometry.normals[face]; }
   /// The query for a part of a face and a point of the part. The diameters are at most `greatest`; 0 on a sheet. If the
   /// part is a single point, BallQuery::least is 0, which saves the search for it.
-  [[nodiscard]] BallQuery queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point,
-                                  double greatest) const;
-  /// The ball at a point of a face, with a diameter of at most the limit.
-  [[nodiscard]] InscribedBall ballAt(uint32_t face, const Vec3d& point) const;
+  [[nodiscard]] BallQuery queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point, double greatest,
+                                  const std::array<uint32_t, 2>& hints) const;
+  /// The ball at a point of a face, with a diameter of at most the limit. hint: a wall that is probably near, or
+  /// kNoFace.
+  [[nodiscard]] InscribedBall ballAt(uint32_t face, const Vec3d& point, uint32_t hint) const;
 
  private:
   [[nodiscard]] ThinPiece rootPiece(const FaceBalls& balls);

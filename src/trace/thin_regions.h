@@ -32,7 +32,7 @@ struct ConnectedThinParts {
 [[nodiscard]] std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit,
                                                               const RunControl& control);
 
-/// The wall at the least limit from `floor` to `limit`. pieces: as in findThinRegions().
+/// The wall at the least limit from `floor` to `limit`. pieces: not necessarily divided.
 [[nodiscard]] LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, const RunControl& control);
 
 }  // namespace asdfvk

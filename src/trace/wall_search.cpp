@@ -14,11 +14,13 @@ namespace {
 constexpr int kPointsPerPart = 3;
 /// Number of limits per point at which a detail is looked for.
 constexpr int kLimitsPerPoint = 8;
+/// Each limit is at least this factor of the limit before.
+constexpr double kLimitStep = 1 + 1.0 / 32;
 /// Number of tested points after which the search for the least wall ends with the least one found, and number of
 /// points at which a detail is looked for.
 constexpr size_t kMaxPointsForLeast = 2000, kMaxPointsForDetail = 500;
 /// Number of tested points, and of visited faces, after which the search for the least limit gives up.
-constexpr size_t kMaxPointsForLimit = 20'000, kMaxVisitsForLimit = 1'000'000;
+constexpr size_t kMaxPointsForLimit = 40'000, kMaxVisitsForLimit = 2'000'000;
 /// Number of contradictions per cell that are kept.
 constexpr size_t kContradictionsPerCell = 8;
 /// Walls are as thick as each other within this relative difference.
@@ -136,7 +138,7 @@ void WallSearch::testPoints(const Part& part, double floor, FunctionRef<void(con
     return;
   for (int i = 0; i < kPointsPerPart; ++i) {
     ++pointCount_;
-    if (i > 0) disc.ball = pieces_.ballAt(disc.face, disc.point);
+    if (i > 0) disc.ball = pieces_.ballAt(disc.face, disc.point, disc.ball.wall);
     const std::optional<Contradiction> contradiction = contradictionFrom(disc, floor);
     if (!contradiction) return visit(disc);
     keep(*contradiction);
@@ -152,7 +154,8 @@ std::array<WallSearch::Part, 2> WallSearch::halvesOf(const Part& part) const {
   const std::array<std::array<Vec3d, 3>, 2> halves = asdfvk::halvesOf(part.corners, longestSideOf(part.corners).first);
   std::array<BallQuery, 2> queries;
   for (size_t i = 0; i < 2; ++i)
-    queries[i] = pieces_.queryAt(part.face, halves[i], middleOf(halves[i]), pieces_.limit());
+    queries[i] =
+        pieces_.queryAt(part.face, halves[i], middleOf(halves[i]), pieces_.limit(), {part.atMiddle.wall, kNoFace});
   pieces_.tree().shrink(queries);
   const auto partOf = [&](size_t i) {
     return Part{halves[i], queries[i].atPoint, queries[i].least.ball.diameter, longestSideOf(halves[i]).second,
@@ -170,7 +173,7 @@ std::optional<Contradiction> WallSearch::contradictionFrom(SurfacePointDisc& dis
   for (int i = 0; i < kLimitsPerPoint && disc.limit <= scale_; ++i) {
     contradiction = check_.contradictionAt(disc);
     if (!contradiction || contradiction->isThinner || contradiction->diameter >= kThinShare * scale_) break;
-    disc.limit = contradiction->diameter / kThinShare * (1 + kEqualWalls);
+    disc.limit = std::max(contradiction->diameter / kThinShare * (1 + kEqualWalls), disc.limit * kLimitStep);
   }
   return contradiction;
 }

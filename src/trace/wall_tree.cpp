@@ -24,18 +24,24 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const
     : scene_(scene), opposing_(opposing), nodes_(scene.bvh.nodes.size()), wallOf_(scene.mesh.faceCount()) {
   const Buckets<uint32_t> copies = groupCopies(scene.representatives);
   const std::span<const uint32_t> primitives = scene.bvh.primitiveFaces;
-  std::vector<uint32_t> wallOfPrimitive(primitives.size() + 1);
-  for (size_t i = 0; i < primitives.size(); ++i)
-    wallOfPrimitive[i + 1] = wallOfPrimitive[i] + static_cast<uint32_t>(copies[primitives[i]].size());
-  walls_.resize(wallOfPrimitive.back());
+  const auto bodyOf = [&](uint32_t face) { return solids == nullptr ? kNoBody : solids->bodyOf(face); };
+  std::vector<uint32_t> faces, repeated, wallOfPrimitive(primitives.size() + 1);
+  faces.reserve(scene.mesh.faceCount());
   stopOnly.checkpoint(0);
-  forEachInParallel(primitives.size(), [&](size_t i) {
-    const std::span<const uint32_t> faces = copies[primitives[i]];
-    for (size_t k = 0; k < faces.size(); ++k) {
-      wallOf_[faces[k]] = wallOfPrimitive[i] + static_cast<uint32_t>(k);
-      walls_[wallOf_[faces[k]]] = wallOf(faces[k]);
-      if (solids != nullptr) walls_[wallOf_[faces[k]]].body = solids->bodyOf(faces[k]);
+  for (size_t i = 0; i < primitives.size(); ++i) {
+    for (const uint32_t face : copies[primitives[i]]) {
+      const auto isSame = [&](uint32_t other) { return bodyOf(other) == bodyOf(face); };
+      const bool isRepeated = std::any_of(faces.begin() + wallOfPrimitive[i], faces.end(), isSame);
+      (isRepeated ? repeated : faces).push_back(face);
     }
+    wallOfPrimitive[i + 1] = static_cast<uint32_t>(faces.size());
+  }
+  faces.insert(faces.end(), repeated.begin(), repeated.end());
+  walls_.resize(faces.size());
+  forEachInParallel(faces.size(), [&](size_t i) {
+    wallOf_[faces[i]] = static_cast<uint32_t>(i);
+    walls_[i] = wallOf(faces[i]);
+    walls_[i].body = bodyOf(faces[i]);
   });
   stopOnly.checkpoint(0);
   std::vector<uint32_t> firstWalls(nodes_.size()), wallCounts(nodes_.size());
@@ -93,10 +99,16 @@ void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSe
   dispatch<Float16>(instructionSet, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     for (size_t begin = 0; begin < queries.size(); begin += kLaneCount<Floats>) {
       BallPacket<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
-      if (begin > 0) {  // Lowers the limits by the walls of the previous queries.
+      uint32_t last = kNoFace;
+      const auto offer = [&](uint32_t wall) ASDFVK_ALWAYS_INLINE {
+        if (wall != kNoFace && wall != last) packet.offer(walls_[wallOf_[wall]]);
+        last = wall;
+      };
+      for (const BallQuery& query : queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)))
+        for (const uint32_t wall : query.hints) offer(wall);
+      if (begin > 0) {
         for (const BallQuery& before : queries.subspan(begin - kLaneCount<Floats>, kLaneCount<Floats>))
-          for (const uint32_t wall : {before.atPoint.wall, before.least.wall})
-            if (wall != kNoFace) packet.offer(walls_[wallOf_[wall]]);
+          for (const uint32_t wall : {before.atPoint.wall, before.least.wall}) offer(wall);
       }
       packet.run();
     }

@@ -29,9 +29,11 @@ struct BallQuery {
   InscribedBall atPoint;   ///< The largest ball at the point.
   InscribedBall least;  ///< Each point of the triangle has such a largest ball. `least` is the smallest of these balls.
   uint32_t body = kNoBody;  ///< Body of the triangle, see Solids::bodyOf.
+  /// Walls that are probably near, or kNoFace. They save time, and change no result.
+  std::array<uint32_t, 2> hints{kNoFace, kNoFace};
 };
 
-/// A face. Coincident faces are separate walls, because coincident faces of touching parts have opposite normals.
+/// A face.
 struct Wall {
   Vec3f normal;
   float offset = 0;  ///< Offset of the plane along the normal.
@@ -74,7 +76,8 @@ class WallTree {
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return walls_[wallOf_[face]].body; }
   [[nodiscard]] const OpposingWalls& opposing() const { return opposing_; }
   [[nodiscard]] std::span<const WallNode> nodes() const { return nodes_; }
-  /// The walls in the order of the hierarchy: consecutive walls are neighbours in space.
+  /// The walls in the order of the hierarchy: consecutive walls are neighbours in space. The last walls are copies of
+  /// faces of the same body. They are not in the hierarchy, because they bound no other balls.
   [[nodiscard]] std::span<const Wall> walls() const { return walls_; }
 
  private:

@@ -159,7 +159,7 @@ TEST_CASE("size, walls, details, edges, greatest section and percentiles follow,
                  "            detail 0.5 from (1, 2, 3) to (1, 2, 4), face 3; 2 faces, area 12.5 (2 %)\n"
                  "  edges     1 edge, not counted\n"
                  "            edge of 30 degrees, thin over 2.5, 0 at (0, 0, 5), face 7; 1 face, area 0.5 (0.1 %)\n"
-                 "  section   4, the diameter (to 0.1 %) of the largest ball inside, centre (30, 5, 2.5)\n"
+                 "  section   4, the diameter of the largest ball found inside, centre (30, 5, 2.5)\n"
                  "  thickness by area p1 1.1, p5 2, p50 2, p95 2, max 4\n"
                  "  mesh      ");
   thickness.countsEdges = true;
