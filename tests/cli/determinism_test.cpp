@@ -6,7 +6,8 @@
 namespace asdfvk::test {
 namespace {
 
-TEST_CASE("processes on the Vulkan device give the same bytes, whatever their number of threads") {
+TEST_CASE("processes on the Vulkan device give the same bytes, whatever their number of threads" *
+          doctest::test_suite("slow")) {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   const ScratchFolder folder;

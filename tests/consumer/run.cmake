@@ -1,7 +1,7 @@
 # Configures, builds and runs the consumer in FOLDER, from a separate current directory.
 #   -DMODE=installed   installs BUILD into FOLDER/prefix first
 #   -DMODE=configured     adds SOURCE as a subdirectory, and configures only
-#   -DMODE=subdirectory   the same, built and run
+#   -DMODE=subdirectory   the same, built file by file and run
 #   -DGENERATE=FILE   asdf-vk-generate, for the mesh of the README example
 function(run)
   execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${FOLDER}/elsewhere COMMAND_ERROR_IS_FATAL ANY)
@@ -14,8 +14,7 @@ if(MODE STREQUAL "installed")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/prefix)
   list(APPEND arguments -DCMAKE_PREFIX_PATH=${FOLDER}/prefix)
 else()
-  list(APPEND arguments -DASDF_VK_SOURCE=${SOURCE} -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
-       -DCMAKE_CXX_FLAGS_RELEASE=-O0)
+  list(APPEND arguments -DASDF_VK_SOURCE=${SOURCE} -DCMAKE_CXX_FLAGS_RELEASE=-O0)
 endif()
 run(${CMAKE_COMMAND} ${arguments})
 if(MODE STREQUAL "configured")

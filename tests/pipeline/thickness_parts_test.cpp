@@ -120,8 +120,8 @@ TEST_CASE("each part has its least thickness, whatever the triangulation, the ro
   }
 }
 
-TEST_CASE(
-    "the thickness at sharp edges and tips is 0; narrow ones are walls, others are edges, at each triangulation") {
+TEST_CASE("the thickness at sharp edges and tips is 0; narrow ones are walls, others are edges, at each triangulation" *
+          doctest::test_suite("slow")) {
   for (const std::string_view name : {"knife"sv, "blade"sv, "spike"sv, "sharp-thread"sv}) {
     CAPTURE(name);
     const ThicknessPart part = makeThicknessPart(name);
