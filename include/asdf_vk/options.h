@@ -154,6 +154,9 @@ struct ThicknessOptions {
   bool countsDetails = false;
   /// Whether details and edges fail the check, too. Requires thinnerThan.
   bool countsEdges = false;
+  /// Whether the next wall (ThicknessReport::min) is searched to the end. If not, the search ends where it would take
+  /// longer than a check usually does.
+  bool findsNextWall = false;
 };
 
 /// Targets that end the rounds. Each round adds seeds and keeps the traced values of earlier rounds. Any target

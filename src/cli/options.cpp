@@ -271,6 +271,8 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   complete(line.computation, given);
   requireValid(line.session, given.spelling);
   for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
+  if (Options& options = line.computation.options; line.outputs.verbose && options.measuresThickness())
+    options.thickness.findsNextWall = true;
   completeFields(line);
   completeResult(line, given);
   completePage(line);

@@ -161,7 +161,7 @@ const std::array kOutputRows{
     OptionRow{.name = "quiet", .access = ASDFVK_MEMBER(Outputs, quiet), .text = "Print errors only"},
     OptionRow{.name = "verbose",
               .access = ASDFVK_MEMBER(Outputs, verbose),
-              .text = "Print the full report: device, seeds, times, solver, places"},
+              .text = "Print the full report: device, seeds, times, solver, places. Implies --next-wall"},
     OptionRow{.name = "picture",
               .group = kPictureGroup,
               .text = "Also render the coloured mesh; - is standard output. For one mesh only",

@@ -242,6 +242,11 @@ const std::array kComputationRows{
               .access = COMPUTATION_MEMBER(options.thickness.countsEdges),
               .text = "Details and edges fail the check, too: each point that is thinner than T",
               .needs = "thinner-than"},
+    OptionRow{.name = "next-wall",
+              .access = COMPUTATION_MEMBER(options.thickness.findsNextWall),
+              .text = "The least wall that passes is searched to the end, however long the search takes. asdf-vk does "
+                      "it with --verbose, too",
+              .needs = "measure=thickness|both"},
     OptionRow{.name = "wall-angle",
               .access = COMPUTATION_MEMBER(options.thickness.wallAngleDegrees),
               .range = aboveUpTo(90, 180),

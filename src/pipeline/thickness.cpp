@@ -143,7 +143,7 @@ class Measurement {
     const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
     const LeastLimit next = findNextWall(
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
-        control);
+        computation_.options.thickness.findsNextWall ? NextWallEffort::Full : NextWallEffort::Quick, control);
     thickness_.nextWall = next.wall;
     if (next.isKnown && !next.wall && thinnest->bound < kUnlimited) thickness_.nextWall = placeOf(*thinnest);
   }

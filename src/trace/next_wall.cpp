@@ -10,11 +10,13 @@ namespace {
 
 /// Each limit is this factor of the limit before.
 constexpr double kStep = 2;
+/// Number of visited faces, of which about a million take a second.
+constexpr size_t kQuickWork = 500'000, kFullWork = size_t{1} << 26;
 
 }  // namespace
 
 LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least,
-                        FunctionRef<FaceBalls(uint32_t)> ballsOf, double first, double last,
+                        FunctionRef<FaceBalls(uint32_t)> ballsOf, double first, double last, NextWallEffort effort,
                         const RunControl& control) {
   LeastLimit found;
   for (double low = first; found.isKnown && !found.wall && low < last; low *= kStep) {
@@ -23,7 +25,7 @@ LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<c
     for (const Wall& each : tree.walls())
       if (least[each.face] < thin) faces.push_back(ballsOf(each.face));
     ThinPieces pieces(tree, fans, faces, thin);
-    found = findLeastLimit(pieces, limit, first, control);
+    found = findLeastLimit(pieces, limit, first, effort == NextWallEffort::Full ? kFullWork : kQuickWork, control);
   }
   return found;
 }

@@ -12,6 +12,8 @@ namespace {
 /// Share of the limit: the greatest length of pieces whose thickness is taken as linear.
 constexpr double kLinearLength = 0.26;
 constexpr double kSlack = 1 + 1e-9;
+/// Clipping a piece takes as long as visiting this number of faces.
+constexpr size_t kClippedWork = 16;
 /// Number of pieces whose corners are measured together: 15 of 16 lanes.
 constexpr size_t kMeasuredTogether = 5;
 
@@ -166,6 +168,7 @@ std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, c
   for (const Vec3d& axis : {along, across})
     for (const double sign : {1.0, -1.0}) polygon = polygon.cut(sign * axis, sign * dot(axis, disc.point) + reach);
   if (polygon.count < 3) return {};
+  work_ += kClippedWork;
   std::array<BallQuery, 8> queries;
   for (size_t k = 0; k < polygon.count; ++k) {
     const Vec3d& corner = polygon.corners[k];
@@ -225,7 +228,7 @@ void DiscCheck::forEachFaceAround(const SurfacePointDisc& disc,
   queue_.assign(1, disc.face);
   visits_[disc.face] = walkCount_;
   for (size_t i = 0; i < queue_.size(); ++i) {
-    ++visitCount_;
+    ++work_;
     const uint32_t face = queue_[i];
     if (!scene.geometry.isDegenerate(face)) {
       if (!(dot(normal, pieces_.normal(face)) > kSameSideCosine)) continue;

@@ -39,7 +39,8 @@ class DiscCheck {
   /// A contradiction, or unset if the middle of the disc is a wall.
   [[nodiscard]] std::optional<Contradiction> contradictionAt(const SurfacePointDisc& disc);
   /// Number of faces that were visited.
-  [[nodiscard]] size_t visitCount() const { return visitCount_; }
+  /// The work so far, as a number of visited faces.
+  [[nodiscard]] size_t work() const { return work_; }
 
  private:
   [[nodiscard]] std::optional<Contradiction> taperAt(const SurfacePointDisc& disc) const;
@@ -53,7 +54,7 @@ class DiscCheck {
   std::vector<uint32_t> visits_;  // #F, number of the last walk that visited the face.
   std::vector<uint32_t> queue_, uncertain_;
   uint32_t walkCount_ = 0;
-  size_t visitCount_ = 0;
+  mutable size_t work_ = 0;
 };
 
 }  // namespace asdfvk

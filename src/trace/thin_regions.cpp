@@ -154,9 +154,9 @@ std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit
   return Regions(pieces, limit).run(control);
 }
 
-LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, const RunControl& control) {
+LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, size_t maxWork, const RunControl& control) {
   control.checkpoint(0.5);
-  return WallSearch(pieces, limit).leastLimit(Regions(pieces, limit).leaves(), floor);
+  return WallSearch(pieces, limit).leastLimit(Regions(pieces, limit).leaves(), floor, maxWork);
 }
 
 }  // namespace asdfvk

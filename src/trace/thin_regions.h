@@ -33,6 +33,8 @@ struct ConnectedThinParts {
                                                               const RunControl& control);
 
 /// The wall at the least limit from `floor` to `limit`. pieces: not necessarily divided.
-[[nodiscard]] LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, const RunControl& control);
+/// maxWork: see WallSearch::leastLimit().
+[[nodiscard]] LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, size_t maxWork,
+                                        const RunControl& control);
 
 }  // namespace asdfvk

@@ -19,8 +19,8 @@ constexpr double kLimitStep = 1 + 1.0 / 32;
 /// Number of tested points after which the search for the least wall ends with the least one found, and number of
 /// points at which a detail is looked for.
 constexpr size_t kMaxPointsForLeast = 2000, kMaxPointsForDetail = 500;
-/// Number of tested points, and of visited faces, after which the search for the least limit gives up.
-constexpr size_t kMaxPointsForLimit = 40'000, kMaxVisitsForLimit = 2'000'000;
+/// A tested point takes as long as visiting this number of faces.
+constexpr size_t kPointWork = 8;
 /// Number of contradictions per cell that are kept.
 constexpr size_t kContradictionsPerCell = 8;
 /// Walls are as thick as each other within this relative difference.
@@ -69,7 +69,8 @@ std::optional<WallPlace> WallSearch::leastWall(std::span<const uint32_t> pieces)
   return best;
 }
 
-LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor) {
+LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork) {
+  const auto isTooLong = [&] { return check_.work() + kPointWork * pointCount_ > maxWork; };
   std::optional<WallPlace> best;
   const auto isDone = [&](double least) {
     return isTooLong() || (best && std::max(floor, least / kThinShare) >= best->limit / (1 + kEqualWalls));
@@ -79,10 +80,6 @@ LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor
   });
   if (isTooLong()) return {{}, false};
   return {best};
-}
-
-bool WallSearch::isTooLong() const {
-  return pointCount_ > kMaxPointsForLimit || check_.visitCount() > kMaxVisitsForLimit;
 }
 
 std::optional<WallPlace> WallSearch::findDetail(std::span<const uint32_t> pieces) {

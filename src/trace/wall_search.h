@@ -37,8 +37,8 @@ class WallSearch {
 
   /// The least wall among the given pieces; unset if none is a wall.
   [[nodiscard]] std::optional<WallPlace> leastWall(std::span<const uint32_t> pieces);
-  /// The wall at the least limit from `floor` to the limit L. The search gives up if it takes too long.
-  [[nodiscard]] LeastLimit leastLimit(std::span<const uint32_t> pieces, double floor);
+  /// The wall at the least limit from `floor` to the limit L. The search gives up after `maxWork` visits of faces.
+  [[nodiscard]] LeastLimit leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork);
   /// A detail among the pieces that have no wall.
   [[nodiscard]] std::optional<WallPlace> findDetail(std::span<const uint32_t> pieces);
 
@@ -59,7 +59,6 @@ class WallSearch {
   [[nodiscard]] bool excludes(const Contradiction& contradiction, const Part& part, double floor) const;
   [[nodiscard]] bool isExcluded(const Part& part, double floor) const;
   void keep(const Contradiction& contradiction);
-  [[nodiscard]] bool isTooLong() const;
   [[nodiscard]] bool isShort(const Part& part) const;
 
   ThinPieces& pieces_;

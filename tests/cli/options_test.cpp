@@ -76,6 +76,8 @@ const std::vector<OptionCase>& optionCases() {
        [](const Line& l) { return l.computation.options.thickness.countsDetails; }},
       {{"--count-edges", "--thinner-than", "0.5"},
        [](const Line& l) { return l.computation.options.thickness.countsEdges; }},
+      {{"--next-wall", "--measure", "thickness"},
+       [](const Line& l) { return l.computation.options.thickness.findsNextWall; }},
       {{"--wall-angle", "150", "--measure", "thickness"},
        [](const Line& l) { return l.computation.options.thickness.wallAngleDegrees == 150; }},
       {{"--segment", "cgal"},

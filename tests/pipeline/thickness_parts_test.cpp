@@ -25,6 +25,7 @@ Options limitedTo(double limit, bool countsEdges = false) {
   options.measure = Measure::Thickness;
   options.thickness.thinnerThan = limit;
   options.thickness.countsEdges = countsEdges;
+  options.thickness.findsNextWall = true;
   return options;
 }
 
