@@ -154,8 +154,8 @@ FaceKind Material::kindAt(const Vec3d& point, const Vec3d& normal) const {
   int outside = windingNumberAt(scene_, weights_, point + kSampleDistance * normal);
   if (isOutside_) std::tie(inside, outside) = std::pair(-outside, -inside);
   if (inside < 0 || outside < 0) return FaceKind::Inverted;
-  if (inside == 0) return FaceKind::NoThickness;
-  return outside == 0 ? FaceKind::Boundary : FaceKind::Inside;
+  if (outside > 0) return FaceKind::Inside;
+  return inside == 0 ? FaceKind::NoThickness : FaceKind::Boundary;
 }
 
 bool Material::hasKind(FaceKind kind) const {

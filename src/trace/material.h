@@ -16,8 +16,10 @@ namespace asdfvk {
 /// What a face, or a piece of it, is for the solid. The material is where the faces of all closed, consistently wound
 /// components together wind around a point at least once (winding_number.h): the union of all solids.
 enum class FaceKind : uint8_t {
-  Boundary,     ///< Material inside, and none outside. Also faces of components that bound no solid.
-  Inside,       ///< Material on both sides: in another solid, or where solids touch.
+  Boundary,  ///< Material inside, and none outside. Also faces of components that bound no solid.
+  /// Material on both sides: in another solid, or where solids touch. Or material only outside: a side of a sheet that
+  /// lies on a solid.
+  Inside,
   NoThickness,  ///< No material on either side: two sheets of a wall that float32 does not tell apart.
   Inverted,     ///< The solid is wound inwards.
 };

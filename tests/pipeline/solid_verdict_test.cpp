@@ -149,6 +149,21 @@ TEST_CASE("walls without a thickness fail, and surfaces without material are not
   CHECK(check(shapes::joined(ball, ball), 0.5).min == check(ball, 0.5).min);
 }
 
+TEST_CASE("a sheet that lies on a solid or in it is no wall") {
+  const Mesh box = shapes::box({2, 2, 2});
+  const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}, {}};
+  for (const double height : {-1.0, 0.0, 1.0}) {  // The box has its centre in the origin.
+    CAPTURE(height);
+    const Mesh mesh = welded(shapes::joined(box, sheet, {-0.5, -0.25, height}));
+    CHECK(check(mesh, 0.5).verdict == ThicknessVerdict::Passed);
+  }
+  Mesh doubled = box;  // A copy of a face, and its reverse.
+  const Face first = box.faces[0];
+  doubled.faces.push_back(first);
+  doubled.faces.push_back({first[0], first[2], first[1]});
+  CHECK(check(doubled, 0.5).verdict == ThicknessVerdict::Passed);
+}
+
 TEST_CASE("half of a bow tie is inverted") {
   const Mesh bow{{{0, 0, 0}, {9, 4, 0}, {9, 0, 0}, {0, 4, 0}, {0, 0, 4}, {9, 4, 4}, {9, 0, 4}, {0, 4, 4}},
                  {{0, 2, 1},
