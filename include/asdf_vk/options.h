@@ -154,8 +154,8 @@ struct ThicknessOptions {
   bool countsDetails = false;
   /// Whether details and edges fail the check, too. Requires thinnerThan.
   bool countsEdges = false;
-  /// Whether the next wall (ThicknessReport::min) is searched to the end. If not, the search ends where it would take
-  /// longer than a check usually does.
+  /// Whether the next wall, or without a limit the least wall (ThicknessReport::min), is searched to the end. If not,
+  /// the search ends where it would take longer than a check usually does.
   bool findsNextWall = false;
 };
 

@@ -276,7 +276,8 @@ struct ThicknessReport {
   bool countsEdges = false;           ///< Details and edges fail the check, too.
   /// Failed: the least thickness of all thin regions that count. Otherwise: the next wall, which is the least wall at
   /// the smallest limit at which the check fails, to 5 %. Without a limit: the least wall of all that are wider than
-  /// 1/500 of the mesh. NaN if it was not found.
+  /// 1/500 of the mesh. NaN if it was not found, or if the
+  /// search for it ended early (ThicknessOptions::findsNextWall).
   double min = kNoValue;
   std::optional<uint64_t> minFace;  ///< Input face with this thickness; unset if there is none.
   /// Point of this thickness on minFace, and the opposite point on the opposing wall.

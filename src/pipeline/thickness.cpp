@@ -22,6 +22,8 @@ constexpr double kBallsProgress = 0.6, kSectionsProgress = 0.8;
 constexpr double kLeastLimit = 2 * kUnresolved;
 /// Without a limit, walls are looked for at limits from this number on (normalised).
 constexpr double kLeastWallLimit = 0x1p-8;
+/// A body is the next wall as a whole if its greatest section is known to this factor.
+constexpr double kSectionAccuracy = 1.05;
 /// Limits of the next wall of a surface that bounds no body are at most this number (normalised).
 constexpr double kLargestLimit = 2;
 
@@ -145,7 +147,8 @@ class Measurement {
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
         computation_.options.thickness.findsNextWall ? NextWallEffort::Full : NextWallEffort::Quick, control);
     thickness_.nextWall = next.wall;
-    if (next.isKnown && !next.wall && thinnest->bound < kUnlimited) thickness_.nextWall = placeOf(*thinnest);
+    const bool isFound = thinnest->bound <= kSectionAccuracy * thinnest->diameter;
+    if (next.isKnown && !next.wall && isFound) thickness_.nextWall = placeOf(*thinnest);
   }
 
   void keepGreatest(std::span<const GreatestSection> sections) {

@@ -218,21 +218,25 @@ class BallPacket {
     return anyLane(lessEqual(radius_, broadcast<Floats>(wall.reach)));
   }
 
-  /// The points of a wall nearest to centre_.
+  /// Points of a wall, nearly the nearest ones to centre_. Inside of the wall they are means of the corners, so that
+  /// rounding moves none off a narrow wall.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Lanes nearestPoint(const Wall& wall) const {
-    const Floats above = dotLanes(wall.normal, centre_) - wall.offset;
     const auto select3 = [](const Mask& mask, const Lanes& a, const Lanes& b) ASDFVK_ALWAYS_INLINE {
       return Lanes{select(mask, a.x) + select(~mask, b.x), select(mask, a.y) + select(~mask, b.y),
                    select(mask, a.z) + select(~mask, b.z)};
     };
-    Lanes nearest = centre_;
-    Floats least = broadcast<Floats>(kUnlimitedDiameter);
+    Lanes nearest = centre_, weighted{};
+    Floats least = broadcast<Floats>(kUnlimitedDiameter), total = broadcast<Floats>(std::numeric_limits<float>::min());
     Mask isInside = ~Mask{};
     for (size_t k = 0; k < 3; ++k) {
       const Vec3f a = wall.middle + wall.spokes[k], edge = wall.spokes[(k + 1) % 3] - wall.spokes[k];
-      const Vec3f inward = cross(wall.normal, edge);
+      const Vec3f &opposite = wall.spokes[(k + 2) % 3], inward = cross(wall.normal, edge);
       const Lanes d{centre_.x - a.x, centre_.y - a.y, centre_.z - a.z};
-      isInside &= lessEqual(Floats{}, dotLanes(inward, d));
+      const Floats weight = dotLanes(inward, d), positive = asdfvk::max(weight, Floats{});
+      isInside &= lessEqual(Floats{}, weight);
+      weighted = {weighted.x + positive * opposite.x, weighted.y + positive * opposite.y,
+                  weighted.z + positive * opposite.z};
+      total += positive;
       const float square = std::max(asdfvk::dot(edge, edge), std::numeric_limits<float>::min());
       const Floats t = asdfvk::min(asdfvk::max(dotLanes(edge, d) / square, Floats{}), broadcast<Floats>(1));
       const Lanes q{a.x + t * edge.x, a.y + t * edge.y, a.z + t * edge.z};
@@ -241,17 +245,19 @@ class BallPacket {
       nearest = select3(lessEqual(distance, least), q, nearest);
       least = asdfvk::min(least, distance);
     }
-    const Lanes foot{centre_.x - above * wall.normal.x, centre_.y - above * wall.normal.y,
-                     centre_.z - above * wall.normal.z};
-    return select3(isInside, foot, nearest);
+    const Floats share = 1 / total;
+    const Lanes mean{wall.middle.x + weighted.x * share, wall.middle.y + weighted.y * share,
+                     wall.middle.z + weighted.z * share};
+    return select3(isInside, mean, nearest);
   }
 
   /// Lanes whose balls do not reach a wall: at BallQuery::point, and at all points of the triangle.
   struct Separated {
     Mask atPoint, atFace;
   };
-  /// nearest: the points of the wall nearest to centre_. The planes perpendicular to the lines from centre_ to them
-  /// separate the balls of the triangle from the wall.
+  /// nearest: points of the wall, best those nearest to centre_. Planes perpendicular to the lines from centre_ to them
+  /// separate the balls from the wall. The ball of radius_ contains those of limits that were lowered since
+  /// placeBalls().
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Separated separatedBy(const Lanes& nearest, const Wall& wall) const {
     const Lanes way{nearest.x - centre_.x, nearest.y - centre_.y, nearest.z - centre_.z};
     const Floats square = dot(way, way), inverse = rsqrt(asdfvk::max(square, broadcast<Floats>(kMinSquaredWay)));
@@ -266,8 +272,8 @@ class BallPacket {
         dot(corners_[3], axis);
     const Floats radius = 0.5F * leastLimit_;
     const Floats ballsEnd = spread + (radius_ - radius) * dot(normal_, axis) + radius;
-    return {lessEqual(0.5F * asdfvk::max(leastLimit_, atPointLimit_) + rounding, distance),
-            lessEqual(ballsEnd + rounding, wallBegin) & lessEqual(leastLimit_, broadcast<Floats>(kMaxBoxedDiameter))};
+    const Mask isBoxed = lessEqual(asdfvk::max(leastLimit_, atPointLimit_), broadcast<Floats>(kMaxBoxedDiameter));
+    return {isBoxed & lessEqual(radius_ + rounding, wallBegin), isBoxed & lessEqual(ballsEnd + rounding, wallBegin)};
   }
 
   ASDFVK_ALWAYS_INLINE void test(const Wall& wall) {

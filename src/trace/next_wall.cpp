@@ -1,6 +1,7 @@
 #include "trace/next_wall.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "trace/wall_rule.h"
@@ -10,8 +11,8 @@ namespace {
 
 /// Each limit is this factor of the limit before.
 constexpr double kStep = 2;
-/// Number of visited faces, of which about a million take a second.
-constexpr size_t kQuickWork = 500'000, kFullWork = size_t{1} << 26;
+/// Number of visited faces per limit, of which about a million take a second.
+constexpr size_t kQuickWork = 500'000, kFullWork = std::numeric_limits<size_t>::max();
 
 }  // namespace
 

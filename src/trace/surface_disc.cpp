@@ -180,7 +180,9 @@ std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, c
   pieces_.tree().shrink({queries.data(), polygon.count});
   for (size_t k = 2; k < polygon.count; ++k) {
     const TouchingBall& least = queries[k].least.ball;
-    if (least.diameter < kTaperShare * disc.diameter() && length(least.onFace - disc.point) <= reach)
+    const auto& [a, b, c] = queries[k].triangle.corners;
+    const bool isPoint = a == b && a == c;  // Then `least` was not searched, see ThinPieces::queryAt().
+    if (!isPoint && least.diameter < kTaperShare * disc.diameter() && length(least.onFace - disc.point) <= reach)
       return Contradiction{least.onFace, piece.face, least.diameter, true};
     const auto valueAt = [&](size_t corner) { return queries[corner].atPoint.ball.diameter; };
     const LinearTriangle linear{queries[k].triangle, {valueAt(0), valueAt(k - 1), valueAt(k)}};

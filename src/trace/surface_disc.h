@@ -38,7 +38,6 @@ class DiscCheck {
 
   /// A contradiction, or unset if the middle of the disc is a wall.
   [[nodiscard]] std::optional<Contradiction> contradictionAt(const SurfacePointDisc& disc);
-  /// Number of faces that were visited.
   /// The work so far, as a number of visited faces.
   [[nodiscard]] size_t work() const { return work_; }
 

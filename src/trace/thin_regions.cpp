@@ -155,8 +155,7 @@ std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit
 }
 
 LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, size_t maxWork, const RunControl& control) {
-  control.checkpoint(0.5);
-  return WallSearch(pieces, limit).leastLimit(Regions(pieces, limit).leaves(), floor, maxWork);
+  return WallSearch(pieces, limit).leastLimit(Regions(pieces, limit).leaves(), floor, maxWork, control);
 }
 
 }  // namespace asdfvk

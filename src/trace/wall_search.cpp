@@ -12,9 +12,9 @@ namespace {
 
 /// Number of points per part. If a point is not a wall, the next point is farther from the contradiction.
 constexpr int kPointsPerPart = 3;
-/// Number of limits per point at which a detail is looked for.
+/// Number of limits per point at which a wall is looked for.
 constexpr int kLimitsPerPoint = 8;
-/// Each limit is at least this factor of the limit before.
+/// Each limit is at least this factor of the limit before, except for the greatest limit.
 constexpr double kLimitStep = 1 + 1.0 / 32;
 /// Number of tested points after which the search for the least wall ends with the least one found, and number of
 /// points at which a detail is looked for.
@@ -69,8 +69,12 @@ std::optional<WallPlace> WallSearch::leastWall(std::span<const uint32_t> pieces)
   return best;
 }
 
-LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork) {
-  const auto isTooLong = [&] { return check_.work() + kPointWork * pointCount_ > maxWork; };
+LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork,
+                                  const RunControl& control) {
+  const auto isTooLong = [&] {
+    control.checkpoint(0.5);
+    return check_.work() + kPointWork * pointCount_ > maxWork;
+  };
   std::optional<WallPlace> best;
   const auto isDone = [&](double least) {
     return isTooLong() || (best && std::max(floor, least / kThinShare) >= best->limit / (1 + kEqualWalls));
@@ -170,7 +174,8 @@ std::optional<Contradiction> WallSearch::contradictionFrom(SurfacePointDisc& dis
   for (int i = 0; i < kLimitsPerPoint && disc.limit <= scale_; ++i) {
     contradiction = check_.contradictionAt(disc);
     if (!contradiction || contradiction->isThinner || contradiction->diameter >= kThinShare * scale_) break;
-    disc.limit = std::max(contradiction->diameter / kThinShare * (1 + kEqualWalls), disc.limit * kLimitStep);
+    disc.limit =
+        std::max(contradiction->diameter / kThinShare * (1 + kEqualWalls), std::min(disc.limit * kLimitStep, scale_));
   }
   return contradiction;
 }

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "core/function_ref.h"
 #include "trace/surface_disc.h"
 #include "trace/thin_pieces.h"
@@ -37,8 +38,10 @@ class WallSearch {
 
   /// The least wall among the given pieces; unset if none is a wall.
   [[nodiscard]] std::optional<WallPlace> leastWall(std::span<const uint32_t> pieces);
-  /// The wall at the least limit from `floor` to the limit L. The search gives up after `maxWork` visits of faces.
-  [[nodiscard]] LeastLimit leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork);
+  /// The wall at the least limit from `floor` to the limit L. The search gives up when its work exceeds `maxWork`, a
+  /// number of visited faces (DiscCheck::work(), and a share for each tested point). Throws Error{Cancelled}.
+  [[nodiscard]] LeastLimit leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork,
+                                      const RunControl& control);
   /// A detail among the pieces that have no wall.
   [[nodiscard]] std::optional<WallPlace> findDetail(std::span<const uint32_t> pieces);
 

@@ -27,6 +27,7 @@ TEST_CASE("a limit implies the measure, and nothing about the seeds") {
     CHECK_FALSE(line.computation.options.thickness.countsDetails);
     CHECK_FALSE(line.computation.options.thickness.countsEdges);
     CHECK_FALSE(line.computation.options.thickness.findsNextWall);
+    CHECK_FALSE(parseCommandLine({"a.ply", "--verbose"}).computation.options.thickness.findsNextWall);
     CHECK(parseCommandLine({"a.ply", option, "0.5", "--verbose"}).computation.options.thickness.findsNextWall);
     CHECK_EQ(fieldNames(line.outputs, line.computation.options),
              std::vector<std::string>{"thickness", "least_thickness"});

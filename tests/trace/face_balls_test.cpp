@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -69,6 +70,25 @@ std::vector<TracedMesh> variousTracedMeshes() {
   return meshes;
 }
 
+/// A disc whose caps are fans of long faces around a corner of the rim. Some of their corners are nearly in line.
+Mesh fannedDisc(uint32_t sideCount, double height) {
+  Mesh mesh;
+  for (const double z : {0.0, height})
+    for (uint32_t i = 0; i < sideCount; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sideCount;
+      mesh.vertices.push_back({std::cos(angle), std::sin(angle), z});
+    }
+  for (uint32_t i = 0; i < sideCount; ++i) {
+    const uint32_t next = (i + 1) % sideCount;
+    mesh.faces.push_back({i, next, sideCount + next});
+    mesh.faces.push_back({i, sideCount + next, sideCount + i});
+    if (i == 0 || next == 0) continue;
+    mesh.faces.push_back({0, next, i});
+    mesh.faces.push_back({sideCount, sideCount + i, sideCount + next});
+  }
+  return mesh;
+}
+
 void checkThicknessByBruteForce(const std::string& name, const Mesh& mesh, double wallAngle = 120) {
   CAPTURE(name);
   const TracedMesh traced(mesh);
@@ -109,6 +129,8 @@ TEST_CASE("the thickness is that of brute force" * doctest::test_suite("slow")) 
   for (const Mesh& mesh : variousMeshes()) checkThicknessByBruteForce(std::to_string(index++), mesh);
   checkThicknessByBruteForce("dented sphere", shapes::jittered(shapes::icosphere(3), 0.05, 1));
   checkThicknessByBruteForce("cylinder", shapes::cylinder(1, 5, 25, 8));
+  for (const double height : {0.02, 0.3, 3.0})
+    checkThicknessByBruteForce("disc of long faces, height " + std::to_string(height), fannedDisc(150, height));
   checkThicknessByBruteForce("hand, 150 degrees", shapeNamed("hand", 1500), 150);
   checkThicknessByBruteForce("hand, 91 degrees", shapeNamed("hand", 1500), 91);
 }
