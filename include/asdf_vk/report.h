@@ -276,8 +276,7 @@ struct ThicknessReport {
   bool countsEdges = false;           ///< Details and edges fail the check, too.
   /// Failed: the least thickness of all thin regions that count. Otherwise: the next wall, which is the least wall at
   /// the smallest limit at which the check fails, to 5 %. Without a limit: the least wall of all that are wider than
-  /// 1/500 of the mesh. NaN if it was not found, or if the
-  /// search for it ended early (ThicknessOptions::findsNextWall).
+  /// 1/500 of the mesh. NaN if it was not found, or if the search for it ended early (ThicknessOptions::findsNextWall).
   double min = kNoValue;
   std::optional<uint64_t> minFace;  ///< Input face with this thickness; unset if there is none.
   /// Point of this thickness on minFace, and the opposite point on the opposing wall.
@@ -286,8 +285,8 @@ struct ThicknessReport {
   double percentile1 = kNoValue, percentile5 = kNoValue, median = kNoValue, percentile95 = kNoValue, max = kNoValue;
   uint64_t noValueCount = 0;  ///< Input faces without a thickness.
   UnjudgedFaces unjudged;     ///< Input faces for which the comparison with a limit is impossible or uncertain.
-  /// The largest ball that was found inside of a closed component; unset without a closed component. It is searched as
-  /// far as it caps the thickness.
+  /// The largest ball that was found inside of a closed component; unset without a closed component. A larger ball may
+  /// exist, because the search ends as soon as it cannot change a thickness.
   std::optional<SectionBall> greatestSection;
   /// Area of all thin regions, and this area divided by the area of the mesh or of the computed region. NaN without a
   /// limit.

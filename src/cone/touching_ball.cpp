@@ -27,9 +27,10 @@ double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
 
 /// Adds a margin for rounding. Lower bounds are compared with this number, so that walls in any order give the same
 /// bits.
-double withRounding(double diameter, double share = 1e-9) { return diameter * (1 + share); }
-/// Relative rounding error of a diameter that is equal to the depth.
-constexpr double kRounding = 1e-14;
+double withRounding(double diameter) { return diameter * (1 + 1e-9); }
+
+/// A diameter counts as equal to the least depth of the wall up to this relative rounding error.
+constexpr double kDepthRounding = 1e-14;
 
 /// The part of a triangle that is deeper than minDepth: up to four corners with their depths.
 class DeepPart {
@@ -96,7 +97,7 @@ class LeastBall {
   LeastBall(const PlaneTriangle& wall, const Vec3d& axis, const DeepPart& part, double limit)
       : wall_(wall), axis_(axis), part_(part), limit_(withRounding(limit)), leastDepth_(part.leastDepth()) {}
 
-  /// Whether no other ball is smaller, because the diameter is the least depth of the wall.
+  /// Whether the diameter is the least depth of the wall. Then no other ball is smaller.
   [[nodiscard]] bool isLeast() const { return best_.diameter == leastDepth_; }
   [[nodiscard]] bool mayImprove(double bound) const { return !(bound > limit_); }
 
@@ -108,7 +109,7 @@ class LeastBall {
   void offer(const Vec3d& p, const Vec3d& q) {
     const double diameter = diameterThrough(q - p, axis_);
     if (!(diameter < best_.diameter)) return;
-    best_ = {diameter < withRounding(leastDepth_, kRounding) ? leastDepth_ : diameter, p, q};
+    best_ = {diameter < leastDepth_ * (1 + kDepthRounding) ? leastDepth_ : diameter, p, q};
     limit_ = std::min(limit_, withRounding(diameter));
   }
 

@@ -244,8 +244,8 @@ const std::array kComputationRows{
               .needs = "thinner-than"},
     OptionRow{.name = "next-wall",
               .access = COMPUTATION_MEMBER(options.thickness.findsNextWall),
-              .text = "The least wall that passes is searched to the end, however long the search takes. asdf-vk does "
-                      "it with --verbose, too",
+              .text = "Search the next wall, or without a limit the least wall, to the end, however long it takes. "
+                      "Without this option, a long search ends early",
               .needs = "measure=thickness|both"},
     OptionRow{.name = "wall-angle",
               .access = COMPUTATION_MEMBER(options.thickness.wallAngleDegrees),

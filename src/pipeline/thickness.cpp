@@ -76,6 +76,11 @@ class Measurement {
   }
 
  private:
+  /// The walls that limit the balls of a face. kNoFace: no wall limits the ball.
+  struct FaceWalls {
+    uint32_t atBarycentre = kNoFace, least = kNoFace;
+  };
+
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
 
   /// A body whose greatest section is below the limit is a wall as a whole, and so is a body of sheets.
@@ -113,12 +118,16 @@ class Measurement {
                                : 0;
     for (const ConnectedThinParts& region : thickness_.regions)
       if (region.kind == ThinKind::Wall) isUndecided[solids_.solidOf[region.place.face]] = 0;
-    if (std::find(isUndecided.begin(), isUndecided.end(), 1) != isUndecided.end()) {
-      const std::vector<GreatestSection> searched =
-          findGreatestSections(scene_, solids_.solidOf, isUndecided, {.enough = kThinShare * *limit_}, control);
-      for (size_t solid = 0; solid < sections.size(); ++solid)
-        if (isUndecided[solid] != 0) sections[solid] = searched[solid];
-    }
+    searchAgain(sections, isUndecided, {.enough = kThinShare * *limit_}, control);
+  }
+
+  void searchAgain(std::vector<GreatestSection>& sections, std::span<const uint8_t> isWanted,
+                   const SectionSearch& search, const RunControl& control) const {
+    if (std::find(isWanted.begin(), isWanted.end(), 1) == isWanted.end()) return;
+    const std::vector<GreatestSection> searched =
+        findGreatestSections(scene_, solids_.solidOf, isWanted, search, control);
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      if (isWanted[solid] != 0) sections[solid] = searched[solid];
   }
 
   [[nodiscard]] bool isThinBody(const GreatestSection& section) const {
@@ -145,7 +154,7 @@ class Measurement {
     const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
     const LeastLimit next = findNextWall(
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
-        computation_.options.thickness.findsNextWall ? NextWallEffort::Full : NextWallEffort::Quick, control);
+        computation_.options.thickness.findsNextWall ? kFullNextWall : kQuickNextWall, control);
     thickness_.nextWall = next.wall;
     const bool isFound = thinnest->bound <= kSectionAccuracy * thinnest->diameter;
     if (next.isKnown && !next.wall && isFound) thickness_.nextWall = placeOf(*thinnest);
@@ -228,11 +237,7 @@ class Measurement {
       if (const uint32_t solid = solids_.solidOf[face];
           solids_.isClosed[solid] != 0 && isInDomain(face) && sections[solid].caps(thickness_.atBarycentre[face]))
         isWanted[solid] = 1;
-    if (std::find(isWanted.begin(), isWanted.end(), 1) == isWanted.end()) return;
-    const std::vector<GreatestSection> searched =
-        findGreatestSections(scene_, solids_.solidOf, isWanted, kQuickSection, control);
-    for (size_t solid = 0; solid < sections.size(); ++solid)
-      if (isWanted[solid] != 0) sections[solid] = searched[solid];
+    searchAgain(sections, isWanted, kQuickSection, control);
   }
 
   /// Caps the thicknesses, and converts them to the unit of the mesh.
@@ -260,11 +265,7 @@ class Measurement {
   OpposingWalls opposing_;
   const Solids& solids_;
   PointFans fans_;
-  std::optional<double> limit_;  ///< Normalised.
-  /// The walls that limit the balls of a face; kNoFace for none.
-  struct FaceWalls {
-    uint32_t atBarycentre = kNoFace, least = kNoFace;
-  };
+  std::optional<double> limit_;   ///< Normalised.
   std::vector<FaceWalls> walls_;  ///< #F
   FaceThickness thickness_;
 };

@@ -12,6 +12,7 @@
 
 #include "core/box3.h"
 #include "core/simd.h"
+#include "trace/vec3_lanes.h"
 #include "trace/wall_tree.h"
 
 namespace asdfvk {
@@ -27,27 +28,6 @@ inline constexpr float kUnlimitedDiameter = 0x1p60F;
 inline constexpr float kMinSquaredWay = 0x1p-60F;
 /// The least depth in float32 that is exact enough for the computation of a limit.
 inline constexpr float kMinLimitDepth = 0x1p-17F;
-
-template <typename Floats>
-struct Vec3Lanes {
-  Floats x, y, z;
-};
-
-template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline Floats dotLanes(const Vec3f& a, const Vec3Lanes<Floats>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// Squared distance between a box and the boxes [low, high] of the lanes.
-template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Vec3f& boxMax,
-                                                   const Vec3Lanes<Floats>& low, const Vec3Lanes<Floats>& high) {
-  const auto gap = [&](float min, float max, const Floats& lowest, const Floats& highest)
-                       ASDFVK_ALWAYS_INLINE { return asdfvk::max(asdfvk::max(min - highest, lowest - max), Floats{}); };
-  const Floats x = gap(boxMin.x, boxMax.x, low.x, high.x), y = gap(boxMin.y, boxMax.y, low.y, high.y),
-               z = gap(boxMin.z, boxMax.z, low.z, high.z);
-  return x * x + y * y + z * z;
-}
 
 /// The balls of some queries, one query per lane. A traversal of the hierarchy lowers the upper limits of the diameters
 /// by a point of each wall. The traversal also collects the walls whose planes are within the limits. At the end, the
@@ -107,7 +87,7 @@ class BallPacket {
     const Mask opposing =
         lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
     if (!anyLane(opposing)) return;
-    const Lanes q = isLong(wall) ? nearestPoint(wall) : inAllLanes(wall.middle);
+    const Lanes q = pointOf(wall);
     shrinkLimits(q, tangentAt(q, opposing), opposing);
   }
 
@@ -186,8 +166,8 @@ class BallPacket {
 
   /// Lanes whose balls may reach the cylinder of the node (WallNode::axis).
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
-    const Tangent tangent = tangentAt(inAllLanes(node.middle), lanes);
-    const Floats along = dotLanes(node.axis, tangent.slope), square = dot(tangent.slope, tangent.slope);
+    const Tangent tangent = tangentAt(inAllLanes<Floats>(node.middle), lanes);
+    const Floats along = dotLanes(node.axis, tangent.slope), square = dotLanes(tangent.slope, tangent.slope);
     const Floats across = asdfvk::max(square - along * along, Floats{}) + kWallBoxMargin * (1 + square);
     // The lower bound without the term sqrt(across) * radius; the lambda below squares this term.
     const Floats atPoint =
@@ -204,13 +184,7 @@ class BallPacket {
   /// Therefore it is at least its tangent at BallQuery::point and a point of the wall. atPoint: lower bound at
   /// BallQuery::point.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Tangent& tangent, const Floats& atPoint) const {
-    const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], tangent.slope), dot(corners_[1], tangent.slope)),
-                                        dot(corners_[2], tangent.slope));
-    return atPoint + dot(corners_[3], tangent.slope) - greatest - tangent.doubt * reach_;
-  }
-
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Lanes inAllLanes(const Vec3f& v) {
-    return {broadcast<Floats>(v.x), broadcast<Floats>(v.y), broadcast<Floats>(v.z)};
+    return atPoint - greatestCorner(tangent.slope) - tangent.doubt * reach_;
   }
 
   /// Whether the tangent at the middle of a wall is a poor bound at its corners.
@@ -218,60 +192,40 @@ class BallPacket {
     return anyLane(lessEqual(radius_, broadcast<Floats>(wall.reach)));
   }
 
-  /// Points of a wall, nearly the nearest ones to centre_. Inside of the wall they are means of the corners, so that
-  /// rounding moves none off a narrow wall.
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Lanes nearestPoint(const Wall& wall) const {
-    const auto select3 = [](const Mask& mask, const Lanes& a, const Lanes& b) ASDFVK_ALWAYS_INLINE {
-      return Lanes{select(mask, a.x) + select(~mask, b.x), select(mask, a.y) + select(~mask, b.y),
-                   select(mask, a.z) + select(~mask, b.z)};
-    };
-    Lanes nearest = centre_, weighted{};
-    Floats least = broadcast<Floats>(kUnlimitedDiameter), total = broadcast<Floats>(std::numeric_limits<float>::min());
-    Mask isInside = ~Mask{};
-    for (size_t k = 0; k < 3; ++k) {
-      const Vec3f a = wall.middle + wall.spokes[k], edge = wall.spokes[(k + 1) % 3] - wall.spokes[k];
-      const Vec3f &opposite = wall.spokes[(k + 2) % 3], inward = cross(wall.normal, edge);
-      const Lanes d{centre_.x - a.x, centre_.y - a.y, centre_.z - a.z};
-      const Floats weight = dotLanes(inward, d), positive = asdfvk::max(weight, Floats{});
-      isInside &= lessEqual(Floats{}, weight);
-      weighted = {weighted.x + positive * opposite.x, weighted.y + positive * opposite.y,
-                  weighted.z + positive * opposite.z};
-      total += positive;
-      const float square = std::max(asdfvk::dot(edge, edge), std::numeric_limits<float>::min());
-      const Floats t = asdfvk::min(asdfvk::max(dotLanes(edge, d) / square, Floats{}), broadcast<Floats>(1));
-      const Lanes q{a.x + t * edge.x, a.y + t * edge.y, a.z + t * edge.z};
-      const Lanes away{centre_.x - q.x, centre_.y - q.y, centre_.z - q.z};
-      const Floats distance = dot(away, away);
-      nearest = select3(lessEqual(distance, least), q, nearest);
-      least = asdfvk::min(least, distance);
-    }
-    const Floats share = 1 / total;
-    const Lanes mean{wall.middle.x + weighted.x * share, wall.middle.y + weighted.y * share,
-                     wall.middle.z + weighted.z * share};
-    return select3(isInside, mean, nearest);
+  /// Points of a wall, for bounds. The nearer to the balls, the better: on a long wall nearly the nearest to centre_.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Lanes pointOf(const Wall& wall) const {
+    return isLong(wall) ? nearlyNearestPoint(wall.normal, wall.middle, wall.spokes, centre_)
+                        : inAllLanes<Floats>(wall.middle);
+  }
+
+  /// The least position of the corners of a wall along a direction, relative to the middle of the wall.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Floats leastCorner(const Wall& wall, const Lanes& direction) {
+    return asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], direction), dotLanes(wall.spokes[1], direction)),
+                       dotLanes(wall.spokes[2], direction));
+  }
+  /// The greatest position of the corners of the triangle along a direction, relative to BallQuery::point.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats greatestCorner(const Lanes& direction) const {
+    return asdfvk::max(asdfvk::max(dotLanes(corners_[0], direction), dotLanes(corners_[1], direction)),
+                       dotLanes(corners_[2], direction)) -
+           dotLanes(corners_[3], direction);
   }
 
   /// Lanes whose balls do not reach a wall: at BallQuery::point, and at all points of the triangle.
   struct Separated {
     Mask atPoint, atFace;
   };
-  /// nearest: points of the wall, best those nearest to centre_. Planes perpendicular to the lines from centre_ to them
-  /// separate the balls from the wall. The ball of radius_ contains those of limits that were lowered since
-  /// placeBalls().
+  /// nearest: points of the wall. Each plane perpendicular to the line from centre_ to such a point may separate the
+  /// balls from the wall; the nearer the point is to centre_, the more often. The ball of radius_ contains the smaller
+  /// balls of limits that were lowered since placeBalls().
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Separated separatedBy(const Lanes& nearest, const Wall& wall) const {
     const Lanes way{nearest.x - centre_.x, nearest.y - centre_.y, nearest.z - centre_.z};
-    const Floats square = dot(way, way), inverse = rsqrt(asdfvk::max(square, broadcast<Floats>(kMinSquaredWay)));
+    const Floats square = dotLanes(way, way), inverse = rsqrt(asdfvk::max(square, broadcast<Floats>(kMinSquaredWay)));
     const Floats distance = square * inverse, rounding = kWallBoxMargin * (1 + distance + reach_);
     const Lanes axis{way.x * inverse, way.y * inverse, way.z * inverse};
     const Lanes toMiddle{wall.middle.x - centre_.x, wall.middle.y - centre_.y, wall.middle.z - centre_.z};
-    const Floats wallBegin =
-        dot(toMiddle, axis) + asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], axis), dotLanes(wall.spokes[1], axis)),
-                                          dotLanes(wall.spokes[2], axis));
-    const Floats spread =
-        asdfvk::max(asdfvk::max(dot(corners_[0], axis), dot(corners_[1], axis)), dot(corners_[2], axis)) -
-        dot(corners_[3], axis);
+    const Floats wallBegin = dotLanes(toMiddle, axis) + leastCorner(wall, axis);
     const Floats radius = 0.5F * leastLimit_;
-    const Floats ballsEnd = spread + (radius_ - radius) * dot(normal_, axis) + radius;
+    const Floats ballsEnd = greatestCorner(axis) + (radius_ - radius) * dotLanes(normal_, axis) + radius;
     const Mask isBoxed = lessEqual(asdfvk::max(leastLimit_, atPointLimit_), broadcast<Floats>(kMaxBoxedDiameter));
     return {isBoxed & lessEqual(radius_ + rounding, wallBegin), isBoxed & lessEqual(ballsEnd + rounding, wallBegin)};
   }
@@ -295,18 +249,14 @@ class BallPacket {
     if (!anyLane(isNear)) return;
     isNear &= reach(wall);
     if (!anyLane(isNear)) return;
-    const bool isLongWall = isLong(wall);
-    const Lanes q = isLongWall ? nearestPoint(wall) : inAllLanes(wall.middle);
+    const Lanes q = pointOf(wall);
     const Tangent tangent = tangentAt(q, isNear);
     const Lanes toMiddle{wall.middle.x - q.x, wall.middle.y - q.y, wall.middle.z - q.z};
-    const Floats pointBound =
-        tangent.lowest + dot(toMiddle, tangent.slope) +
-        asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], tangent.slope), dotLanes(wall.spokes[1], tangent.slope)),
-                    dotLanes(wall.spokes[2], tangent.slope)) -
-        tangent.doubt * (3 * wall.reach);
+    const Floats pointBound = tangent.lowest + dotLanes(toMiddle, tangent.slope) + leastCorner(wall, tangent.slope) -
+                              tangent.doubt * (3 * wall.reach);
     Floats leastAtFace = asdfvk::max(least, leastBound(tangent, pointBound));
     Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
-    if (isLongWall) {
+    if (isLong(wall)) {
       const Separated separated = separatedBy(q, wall);
       leastAtFace = orUnlimited(~separated.atFace, leastAtFace);
       leastAtPoint = orUnlimited(~separated.atPoint, leastAtPoint);
@@ -324,15 +274,11 @@ class BallPacket {
     }
   }
 
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Floats dot(const Lanes& a, const Lanes& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-  }
-
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Tangent tangentAt(const Lanes& q, const Mask& lanes) const {
     const Lanes v{q.x - corners_[3].x, q.y - corners_[3].y, q.z - corners_[3].z};
-    const Floats depth = -dot(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
+    const Floats depth = -dotLanes(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
     const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
-    const Floats diameter = dot(v, v) * inverse, rounding = diameter * kWallBoxMargin * (1 + inverse);
+    const Floats diameter = dotLanes(v, v) * inverse, rounding = diameter * kWallBoxMargin * (1 + inverse);
     const auto slope = [&](const Floats& along, const Floats& normal)
                            ASDFVK_ALWAYS_INLINE { return select(isDeep, (2 * along + diameter * normal) * inverse); };
     return {orUnlimited(isDeep, diameter + rounding),
@@ -348,9 +294,9 @@ class BallPacket {
     Floats least = asdfvk::min(leastLimit_, diameter);
     for (size_t k = 0; k < 3; ++k) {
       const Lanes v{q.x - corners_[k].x, q.y - corners_[k].y, q.z - corners_[k].z};
-      const Floats depth = -dot(v, normal_);
+      const Floats depth = -dotLanes(v, normal_);
       const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
-      const Floats atCorner = dot(v, v) / depth * (1 + kWallBoxMargin + kWallBoxMargin / depth);
+      const Floats atCorner = dotLanes(v, v) / depth * (1 + kWallBoxMargin + kWallBoxMargin / depth);
       least = asdfvk::min(least, orUnlimited(isDeep, atCorner));
     }
     if (!anyLane(notEqual(least, leastLimit_) | notEqual(atPoint, atPointLimit_))) return false;

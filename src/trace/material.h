@@ -17,8 +17,8 @@ namespace asdfvk {
 /// components together wind around a point at least once (winding_number.h): the union of all solids.
 enum class FaceKind : uint8_t {
   Boundary,  ///< Material inside, and none outside. Also faces of components that bound no solid.
-  /// Material on both sides: in another solid, or where solids touch. Or material only outside: a side of a sheet that
-  /// lies on a solid.
+  /// Material on both sides: the face is in another solid, or solids touch there. Or material only outside: the face is
+  /// a side of a sheet that lies on a solid.
   Inside,
   NoThickness,  ///< No material on either side: two sheets of a wall that float32 does not tell apart.
   Inverted,     ///< The solid is wound inwards.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "asdf_vk/run_control.h"
@@ -8,18 +9,14 @@
 
 namespace asdfvk {
 
-/// Quick: gives up where the search would take longer than a check usually does.
-enum class NextWallEffort { Quick, Full };
+/// Largest work per limit, see WallSearch::leastLimit(): about half a second, and a search to the end.
+inline constexpr size_t kQuickNextWall = 500'000, kFullNextWall = std::numeric_limits<size_t>::max();
 
 /// The wall at the least limit from `first` to `last` at which the surface has a wall. least: #F, the least thickness
 /// of each face (normalised); NaN for a face that is not judged or that no wall opposes. ballsOf(face): its balls.
 /// Throws Error{Cancelled}.
 [[nodiscard]] LeastLimit findNextWall(const WallTree& tree, const PointFans& fans, std::span<const double> least,
                                       FunctionRef<FaceBalls(uint32_t)> ballsOf, double first, double last,
-                                      NextWallEffort effort, const RunControl& control);
-
-/// Pieces are divided until their sides are at most as long as the larger of limit / kPiecesPerLimit and
-/// kMinPieceLength (normalised).
-inline constexpr double kPiecesPerLimit = 4, kMinPieceLength = 0x1p-10;
+                                      size_t maxWork, const RunControl& control);
 
 }  // namespace asdfvk

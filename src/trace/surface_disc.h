@@ -29,9 +29,8 @@ struct Contradiction {
   bool isThinner = false;  ///< Below kTaperShare of the middle, or the end of the surface; else not thin.
 };
 
-/// Decides whether points are walls. The pieces are divided. On faces that have a point below the limit of the pieces,
-/// the thickness is known by their pieces. Short pieces are taken as linear between their corners, and long pieces are
-/// clipped to the disc.
+/// Decides whether points are walls. Faces without pieces are thicker than the limit of the pieces. The thickness of a
+/// short piece is taken as linear between its corners. A long piece is clipped to the disc first.
 class DiscCheck {
  public:
   explicit DiscCheck(ThinPieces& pieces);

@@ -17,6 +17,9 @@ inline constexpr uint32_t kNoPiece = 0xffffffff;
 /// Diameters at the corners of pieces are at most this factor of the limit, so that they show how the thickness varies
 /// near the limit.
 inline constexpr double kCornerRange = 2;
+/// Thin regions need pieces whose sides are at most as long as the larger of limit / kPiecesPerLimit and
+/// kMinPieceLength (normalised).
+inline constexpr double kPiecesPerLimit = 4, kMinPieceLength = 0x1p-10;
 
 [[nodiscard]] inline Vec3d middleOf(const std::array<Vec3d, 3>& corners) {
   return (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -77,7 +80,7 @@ class ThinPieces {
   [[nodiscard]] const PointFans& fans() const { return fans_; }
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return tree_.scene().geometry.normals[face]; }
   /// The query for a part of a face and a point of the part. The diameters are at most `greatest`; 0 on a sheet. If the
-  /// part is a single point, BallQuery::least is 0, which saves the search for it.
+  /// part is a single point, the diameter of BallQuery::least is 0, because only the ball at the point is searched.
   [[nodiscard]] BallQuery queryAt(uint32_t face, const std::array<Vec3d, 3>& part, const Vec3d& point, double greatest,
                                   const std::array<uint32_t, 2>& hints) const;
   /// The ball at a point of a face, with a diameter of at most the limit. hint: a wall that is probably near, or

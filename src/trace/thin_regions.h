@@ -32,7 +32,7 @@ struct ConnectedThinParts {
 [[nodiscard]] std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit,
                                                               const RunControl& control);
 
-/// The wall at the least limit from `floor` to `limit`. pieces: not necessarily divided.
+/// The wall at the least limit from `floor` to `limit`. pieces: divided or not.
 /// maxWork: see WallSearch::leastLimit().
 [[nodiscard]] LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, size_t maxWork,
                                         const RunControl& control);

@@ -51,6 +51,8 @@ uint64_t directionOf(const Vec3d& normal) {
   return axis << 1 | (normal[axis] < 0 ? 1 : 0);
 }
 
+WallPlace placeOf(const SurfacePointDisc& disc) { return {disc.face, disc.ball, disc.limit}; }
+
 double reachOf(const Contradiction& contradiction) { return contradiction.isThinner ? kTaperReach : kThinReach; }
 
 }  // namespace
@@ -64,7 +66,7 @@ std::optional<WallPlace> WallSearch::leastWall(std::span<const uint32_t> pieces)
     return best && (pointCount_ > kMaxPointsForLeast || least >= best->ball.ball.diameter / (1 + kEqualWalls));
   };
   forEachPoint(pieces, limit_, isDone, [&](const SurfacePointDisc& disc) {
-    if (!best || disc.diameter() < best->ball.ball.diameter) best = WallPlace{disc.face, disc.ball, disc.limit};
+    if (!best || disc.diameter() < best->ball.ball.diameter) best = placeOf(disc);
   });
   return best;
 }
@@ -80,7 +82,7 @@ LeastLimit WallSearch::leastLimit(std::span<const uint32_t> pieces, double floor
     return isTooLong() || (best && std::max(floor, least / kThinShare) >= best->limit / (1 + kEqualWalls));
   };
   forEachPoint(pieces, floor, isDone, [&](const SurfacePointDisc& disc) {
-    if (!best || disc.limit < best->limit) best = WallPlace{disc.face, disc.ball, disc.limit};
+    if (!best || disc.limit < best->limit) best = placeOf(disc);
   });
   if (isTooLong()) return {{}, false};
   return {best};
@@ -91,9 +93,7 @@ std::optional<WallPlace> WallSearch::findDetail(std::span<const uint32_t> pieces
   for (scale_ = limit_; !detail && scale_ > kLeastDetailShare * limit_; scale_ /= 2)
     forEachPoint(
         pieces, scale_ / 2, [&](double) { return detail || pointCount_ > kMaxPointsForDetail; },
-        [&](const SurfacePointDisc& disc) {
-          detail = WallPlace{disc.face, disc.ball, disc.limit};
-        });
+        [&](const SurfacePointDisc& disc) { detail = placeOf(disc); });
   scale_ = limit_;
   return detail;
 }
@@ -124,7 +124,7 @@ void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, Fu
     if (isExcluded(part, floor)) continue;
     testPoints(part, floor, visit);
     if (isShort(part) || isDone(part.least) || isExcluded(part, floor)) continue;
-    for (const Part& half : halvesOf(part))
+    for (const Part& half : measuredHalvesOf(part))
       if (half.least < kThinShare * scale_) queue.push(half);
   }
 }
@@ -151,8 +151,8 @@ void WallSearch::testPoints(const Part& part, double floor, FunctionRef<void(con
   }
 }
 
-std::array<WallSearch::Part, 2> WallSearch::halvesOf(const Part& part) const {
-  const std::array<std::array<Vec3d, 3>, 2> halves = asdfvk::halvesOf(part.corners, longestSideOf(part.corners).first);
+std::array<WallSearch::Part, 2> WallSearch::measuredHalvesOf(const Part& part) const {
+  const std::array<std::array<Vec3d, 3>, 2> halves = halvesOf(part.corners, longestSideOf(part.corners).first);
   std::array<BallQuery, 2> queries;
   for (size_t i = 0; i < 2; ++i)
     queries[i] =

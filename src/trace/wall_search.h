@@ -19,7 +19,7 @@ namespace asdfvk {
 struct WallPlace {
   uint32_t face = kNoFace;
   InscribedBall ball;
-  double limit = 0;  ///< The least limit that was found at which the point is a wall.
+  double limit = 0;  ///< The least known limit at which the point is a wall.
 };
 
 /// The wall at the least limit, unset if there is none; or a search that gave up.
@@ -57,7 +57,7 @@ class WallSearch {
   void forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(double)> isDone,
                     FunctionRef<void(const SurfacePointDisc&)> visit);
   void testPoints(const Part& part, double floor, FunctionRef<void(const SurfacePointDisc&)> visit);
-  [[nodiscard]] std::array<Part, 2> halvesOf(const Part& part) const;
+  [[nodiscard]] std::array<Part, 2> measuredHalvesOf(const Part& part) const;
   [[nodiscard]] std::optional<Contradiction> contradictionFrom(SurfacePointDisc& disc, double floor);
   [[nodiscard]] bool excludes(const Contradiction& contradiction, const Part& part, double floor) const;
   [[nodiscard]] bool isExcluded(const Part& part, double floor) const;

@@ -98,13 +98,14 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const
 void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSet) const {
   dispatch<Float16>(instructionSet, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     for (size_t begin = 0; begin < queries.size(); begin += kLaneCount<Floats>) {
-      BallPacket<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
+      const std::span<BallQuery> own = queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin));
+      BallPacket<Floats> packet(*this, own);
       uint32_t last = kNoFace;
       const auto offer = [&](uint32_t wall) ASDFVK_ALWAYS_INLINE {
         if (wall != kNoFace && wall != last) packet.offer(walls_[wallOf_[wall]]);
         last = wall;
       };
-      for (const BallQuery& query : queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)))
+      for (const BallQuery& query : own)
         for (const uint32_t wall : query.hints) offer(wall);
       if (begin > 0) {
         for (const BallQuery& before : queries.subspan(begin - kLaneCount<Floats>, kLaneCount<Floats>))

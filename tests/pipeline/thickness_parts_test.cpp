@@ -150,6 +150,26 @@ TEST_CASE("the thickness at sharp edges and tips is 0; narrow ones are walls, ot
   }
 }
 
+TEST_CASE("a search for the next wall that ends early finds the same wall or none") {
+  size_t foundCount = 0;
+  for (const std::string_view name : thicknessPartNames()) {
+    CAPTURE(name);
+    const Mesh mesh = makeThicknessPart(name).solid.surface();
+    for (const double limit : {0.05, 0.5}) {
+      Options options = limitedTo(limit);
+      const ThicknessReport whole = measure(mesh, options);
+      options.thickness.findsNextWall = false;
+      const ThicknessReport quick = measure(mesh, options);
+      CHECK(quick.verdict == whole.verdict);
+      if (std::isnan(quick.min)) continue;
+      ++foundCount;
+      CHECK(quick.min == whole.min);
+      CHECK(quick.minFace == whole.minFace);
+    }
+  }
+  CHECK(foundCount > thicknessPartNames().size());
+}
+
 TEST_CASE("a pocket of a part with a thin edge is a wall of its own") {
   const ThicknessPart part = makeThicknessPart("blade");
   for (const PartSample& sample : samplesOf(part.solid)) {
