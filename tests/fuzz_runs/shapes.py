@@ -111,6 +111,15 @@ def repeated(mesh: Mesh, rng: random.Random) -> Mesh:
     return Mesh(mesh.vertices, mesh.faces + copies, f"{mesh.what}, faces repeated")
 
 
+def doubled(mesh: Mesh, rng: random.Random) -> Mesh:
+    """Each face twice, the second ones in the same order, with another first corner."""
+    copies = []
+    for face in mesh.faces:
+        first = rng.randrange(len(face))
+        copies.append(face[first:] + face[:first])
+    return Mesh(mesh.vertices, mesh.faces + copies, f"{mesh.what}, each face twice")
+
+
 def collapsed(mesh: Mesh, rng: random.Random) -> Mesh:
     """Faces without an area: corners on a common place, and the same corner twice."""
     vertices, faces = list(mesh.vertices), list(mesh.faces)
