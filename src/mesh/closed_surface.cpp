@@ -1,6 +1,9 @@
 #include "mesh/closed_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <span>
 #include <utility>
 
 #include "core/parallel.h"
@@ -103,6 +106,23 @@ void describeWelding(const TriangleMesh& mesh, const Normalization& unit, Surfac
   }
 }
 
+/// Cuts a triangle from a vertex on a side to the opposite corner, and its parts in the same way. onSides: the vertices
+/// on the sides, in the winding of the triangle.
+void addParts(const FacePart& part, const std::array<std::span<const uint32_t>, 3>& onSides,
+              std::vector<FacePart>& parts) {
+  for (size_t k = 0; k < 3; ++k) {
+    if (onSides[k].empty()) continue;
+    const size_t half = onSides[k].size() / 2, next = (k + 1) % 3, opposite = (k + 2) % 3;
+    const Face& corners = part.vertices;
+    const uint32_t cut = onSides[k][half];
+    addParts({{corners[k], cut, corners[opposite]}, part.face}, {onSides[k].first(half), {}, onSides[opposite]}, parts);
+    addParts({{cut, corners[next], corners[opposite]}, part.face}, {onSides[k].subspan(half + 1), onSides[next], {}},
+             parts);
+    return;
+  }
+  parts.push_back(part);
+}
+
 }  // namespace
 
 SurfaceEdges surveySurface(const TriangleMesh& mesh, const Normalization& unit) {
@@ -113,6 +133,26 @@ SurfaceEdges surveySurface(const TriangleMesh& mesh, const Normalization& unit) 
   if (hasOpenEdge(edges.survey)) weldWhereItCloses(mesh, unit, edges);
   describeWelding(mesh, unit, edges);
   return edges;
+}
+
+std::vector<FacePart> conformingFaces(const TriangleMesh& mesh, const Normalization& unit) {
+  EdgeSurvey survey = surveyEdges(mesh);
+  const std::vector<Face> faces =
+      weldedFaces(mesh, weldVertices(mesh, unit, verticesOfOpenEdges(mesh, survey), kWeldDistance));
+  const TriangleMesh welded = withFaces(mesh, faces);
+  if (!faces.empty()) survey = surveyEdges(welded);
+  std::map<uint32_t, std::array<std::vector<uint32_t>, 3>> verticesOnEdges;
+  for (DividedEdge& edge : findDividedEdges(welded, unit, 2 * kWeldDistance, survey))
+    verticesOnEdges[edge.corner / 3][edge.corner % 3] = std::move(edge.vertices);
+  std::vector<FacePart> parts;
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    const auto found = verticesOnEdges.find(face);
+    if (found == verticesOnEdges.end())
+      parts.push_back({welded.faces[face], face});
+    else
+      addParts({welded.faces[face], face}, {found->second[0], found->second[1], found->second[2]}, parts);
+  }
+  return parts;
 }
 
 }  // namespace asdfvk

@@ -32,4 +32,15 @@ struct SurfaceEdges {
 /// surface. A mesh without such edges is only surveyed. Throws the errors of surveyEdges().
 [[nodiscard]] SurfaceEdges surveySurface(const TriangleMesh& mesh, const Normalization& unit);
 
+/// A triangle that is a part of a face, or all of it.
+struct FacePart {
+  Face vertices;
+  uint32_t face = 0;
+};
+
+/// The faces of a surface such that neighbours have whole edges in common: vertices of open edges are welded at
+/// kWeldDistance, and faces are divided at the vertices on their edges. In the order of the faces. Throws the errors of
+/// surveyEdges().
+[[nodiscard]] std::vector<FacePart> conformingFaces(const TriangleMesh& mesh, const Normalization& unit);
+
 }  // namespace asdfvk

@@ -12,12 +12,12 @@
 namespace asdfvk {
 namespace {
 
-/// A corner whose edge is not regular.
-struct OpenCorner {
+/// A corner of a face, for the edge from it to the next corner.
+struct EdgeCorner {
   uint32_t lower = 0, upper = 0;  // Vertices of the edge.
   uint32_t corner = 0;            // 3 f + i
   bool runsUp = false;            // The face traverses the edge from the lower vertex to the upper one.
-  auto operator<=>(const OpenCorner&) const = default;
+  auto operator<=>(const EdgeCorner&) const = default;
 };
 
 /// A part of an edge between two vertices, for one face of the edge.
@@ -102,10 +102,12 @@ class PointTree {
   std::vector<Node> nodes_;
 };
 
-std::vector<OpenCorner> openCornersOf(const TriangleMesh& mesh, const EdgeSurvey& survey) {
-  std::vector<OpenCorner> corners;
+/// The corners whose edge has a given kind, sorted. isWanted: by EdgeKind.
+template <typename IsWanted>
+std::vector<EdgeCorner> cornersOf(const TriangleMesh& mesh, const EdgeSurvey& survey, const IsWanted& isWanted) {
+  std::vector<EdgeCorner> corners;
   for (uint32_t corner = 0; corner < survey.edgeKinds.size(); ++corner) {
-    if (survey.edgeKinds[corner] == EdgeKind::Regular) continue;
+    if (!isWanted(survey.edgeKinds[corner])) continue;
     const Face& face = mesh.faces[corner / 3];
     const uint32_t from = face[corner % 3], to = face[(corner + 1) % 3];
     corners.push_back({std::min(from, to), std::max(from, to), corner, from < to});
@@ -114,9 +116,24 @@ std::vector<OpenCorner> openCornersOf(const TriangleMesh& mesh, const EdgeSurvey
   return corners;
 }
 
+/// The corners whose edge is not regular, sorted.
+std::vector<EdgeCorner> openCornersOf(const TriangleMesh& mesh, const EdgeSurvey& survey) {
+  return cornersOf(mesh, survey, [](EdgeKind kind) { return kind != EdgeKind::Regular; });
+}
+
+PointTree treeOfEnds(const TriangleMesh& mesh, const Normalization& unit, std::span<const EdgeCorner> corners) {
+  std::vector<uint32_t> ends;
+  for (const EdgeCorner& corner : corners) ends.insert(ends.end(), {corner.lower, corner.upper});
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<std::pair<Vec3d, uint32_t>> points;
+  for (const uint32_t vertex : ends) points.emplace_back(unit.toNormalized(mesh.vertices[vertex]), vertex);
+  return PointTree(std::move(points));
+}
+
 /// Divides the edge between two points at the points that lie on it. Returns the vertices from the lower to the upper
 /// vertex of the edge.
-std::vector<uint32_t> verticesOn(const PointTree& tree, const Vec3d& from, const Vec3d& to, const OpenCorner& edge,
+std::vector<uint32_t> verticesOn(const PointTree& tree, const Vec3d& from, const Vec3d& to, const EdgeCorner& edge,
                                  double tolerance) {
   const Vec3d way = to - from;
   const double squared = dot(way, way);
@@ -133,35 +150,41 @@ std::vector<uint32_t> verticesOn(const PointTree& tree, const Vec3d& from, const
   return vertices;
 }
 
+/// An edge, and the vertices that lie on it.
+struct CutEdge {
+  std::span<const EdgeCorner> corners;  // One of each face of the edge.
+  std::vector<uint32_t> vertices;       // From the lower to the upper vertex of the edge.
+};
+
+/// The edges of corners, divided at the points of a tree. corners: sorted.
+std::vector<CutEdge> cutEdges(const TriangleMesh& mesh, const Normalization& unit, double tolerance,
+                              std::span<const EdgeCorner> corners, const PointTree& tree) {
+  std::vector<CutEdge> edges;
+  for (size_t begin = 0, end = 0; begin < corners.size(); begin = end) {
+    const EdgeCorner& first = corners[begin];
+    while (end < corners.size() && corners[end].lower == first.lower && corners[end].upper == first.upper) ++end;
+    edges.push_back({corners.subspan(begin, end - begin), {}});
+  }
+  forEachInParallel(edges.size(), [&](uint32_t edge) {
+    const EdgeCorner& first = edges[edge].corners.front();
+    edges[edge].vertices = verticesOn(tree, unit.toNormalized(mesh.vertices[first.lower]),
+                                      unit.toNormalized(mesh.vertices[first.upper]), first, tolerance);
+  });
+  return edges;
+}
+
 /// The parts of all edges, sorted by their ends.
 std::vector<EdgePart> divide(const TriangleMesh& mesh, const Normalization& unit, double tolerance,
-                             std::span<const OpenCorner> corners) {
-  std::vector<uint32_t> ends;
-  std::vector<uint32_t> firstOfEdge;
-  for (uint32_t i = 0; i < corners.size(); ++i) {
-    ends.insert(ends.end(), {corners[i].lower, corners[i].upper});
-    if (i == 0 || corners[i].lower != corners[i - 1].lower || corners[i].upper != corners[i - 1].upper)
-      firstOfEdge.push_back(i);
-  }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  std::vector<std::pair<Vec3d, uint32_t>> points;
-  for (const uint32_t vertex : ends) points.emplace_back(unit.toNormalized(mesh.vertices[vertex]), vertex);
-  const PointTree tree(std::move(points));
-  std::vector<std::vector<uint32_t>> cuts(firstOfEdge.size());
-  forEachInParallel(firstOfEdge.size(), [&](uint32_t edge) {
-    const OpenCorner& first = corners[firstOfEdge[edge]];
-    cuts[edge] = verticesOn(tree, unit.toNormalized(mesh.vertices[first.lower]),
-                            unit.toNormalized(mesh.vertices[first.upper]), first, tolerance);
-  });
+                             std::span<const EdgeCorner> corners) {
+  const std::vector<CutEdge> edges = cutEdges(mesh, unit, tolerance, corners, treeOfEnds(mesh, unit, corners));
   std::vector<EdgePart> parts;
-  for (uint32_t edge = 0; edge < cuts.size(); ++edge) {
-    const size_t end = edge + 1 < cuts.size() ? firstOfEdge[edge + 1] : corners.size();
-    for (size_t i = firstOfEdge[edge]; i < end; ++i)
-      for (size_t k = 0; k + 1 < cuts[edge].size(); ++k) {
-        const uint32_t from = cuts[edge][k], to = cuts[edge][k + 1];
-        parts.push_back(
-            {std::min(from, to), std::max(from, to), edge, static_cast<uint32_t>(i), corners[i].runsUp == (from < to)});
+  for (uint32_t edge = 0; edge < edges.size(); ++edge) {
+    const std::vector<uint32_t>& vertices = edges[edge].vertices;
+    for (const EdgeCorner& corner : edges[edge].corners)
+      for (size_t k = 0; k + 1 < vertices.size(); ++k) {
+        const uint32_t from = vertices[k], to = vertices[k + 1];
+        parts.push_back({std::min(from, to), std::max(from, to), edge, static_cast<uint32_t>(&corner - corners.data()),
+                         corner.runsUp == (from < to)});
       }
   }
   sortInParallel(parts.begin(), parts.end());
@@ -175,7 +198,7 @@ int sumOf(std::span<const EdgePart> group) {
 }
 
 /// Joins the faces of parts with the same ends. Faces with the same edge were joined before.
-void joinGroup(std::span<const OpenCorner> corners, std::span<const EdgePart> group, int sum,
+void joinGroup(std::span<const EdgeCorner> corners, std::span<const EdgePart> group, int sum,
                std::vector<TJunction>& junctions) {
   const auto join = [&](const EdgePart& a, const EdgePart& b) {
     if (a.edge != b.edge)
@@ -228,7 +251,7 @@ void addArcs(std::span<const TJunction> junctions, DualGraph& graph) {
 std::vector<TJunction> sumAsChain(const TriangleMesh& mesh, const Normalization& unit, double tolerance,
                                   EdgeSurvey& survey) {
   std::vector<TJunction> junctions;
-  const std::vector<OpenCorner> corners = openCornersOf(mesh, survey);
+  const std::vector<EdgeCorner> corners = openCornersOf(mesh, survey);
   if (corners.empty()) return junctions;
   const std::vector<EdgePart> parts = divide(mesh, unit, tolerance, corners);
   // The least closed kind of the parts of each edge, and the middle of the first such part.
@@ -272,6 +295,23 @@ std::vector<TJunction> sumAsChain(const TriangleMesh& mesh, const Normalization&
   }
   addArcs(junctions, survey.graph);
   return junctions;
+}
+
+std::vector<DividedEdge> findDividedEdges(const TriangleMesh& mesh, const Normalization& unit, double tolerance,
+                                          const EdgeSurvey& survey) {
+  std::vector<DividedEdge> divided;
+  const std::vector<EdgeCorner> open = openCornersOf(mesh, survey);
+  if (open.empty()) return divided;
+  const std::vector<EdgeCorner> corners = cornersOf(mesh, survey, [](EdgeKind) { return true; });
+  for (const CutEdge& edge : cutEdges(mesh, unit, tolerance, corners, treeOfEnds(mesh, unit, open))) {
+    if (edge.vertices.size() <= 2) continue;
+    std::vector<uint32_t> inside(edge.vertices.begin() + 1, edge.vertices.end() - 1);
+    for (const EdgeCorner& corner : edge.corners) {
+      divided.push_back({corner.corner, inside});
+      if (!corner.runsUp) std::reverse(divided.back().vertices.begin(), divided.back().vertices.end());
+    }
+  }
+  return divided;
 }
 
 }  // namespace asdfvk

@@ -22,4 +22,15 @@ struct TJunction {
 std::vector<TJunction> sumAsChain(const TriangleMesh& mesh, const Normalization& unit, double tolerance,
                                   EdgeSurvey& survey);
 
+/// The vertices on an edge of a face, without the ends of the edge.
+struct DividedEdge {
+  uint32_t corner = 0;             ///< 3 f + i; see EdgeSurvey::edgeKinds.
+  std::vector<uint32_t> vertices;  ///< In the direction in which the face traverses the edge.
+};
+
+/// Finds the edges that have ends of edges that are not regular on them, up to `tolerance` (normalised). An edge of
+/// several faces is listed for each of them.
+[[nodiscard]] std::vector<DividedEdge> findDividedEdges(const TriangleMesh& mesh, const Normalization& unit,
+                                                        double tolerance, const EdgeSurvey& survey);
+
 }  // namespace asdfvk

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "mesh/closed_surface.h"
 #include "mesh/coincident_faces.h"
 
 namespace asdfvk {
@@ -19,18 +20,30 @@ class SurfaceBuilder {
     storage_.vertices.assign(vertices.begin(), vertices.end());
   }
 
-  void add(uint32_t triangle) { add(triangle, prepared_.mesh.faces[triangle]); }
+  void add(uint32_t triangle, FaceKind kind) { add({prepared_.mesh.faces[triangle], triangle}, kind); }
 
   void add(uint32_t triangle, const FacePiece& piece) {
     std::vector<uint32_t> corners;
     for (const Vec3d& corner : piece.corners) corners.push_back(vertexAt(triangle, corner));
     for (size_t k = 1; k + 1 < corners.size(); ++k) {
       const Face face{corners[0], corners[k], corners[k + 1]};
-      if (hasDistinctVertices(face)) add(triangle, face);
+      if (hasDistinctVertices(face)) add({face, triangle}, piece.kind);
     }
   }
 
+  /// Divides the triangles such that neighbours have whole edges in common: where a face begins to cross others, its
+  /// pieces end inside of the edges of its neighbours.
+  void makeConforming() {
+    SurfaceBuilder divided(prepared_, unit_);
+    for (const FacePart& part : conformingFaces(storage_, unit_))
+      divided.add({part.vertices, triangles_[part.face]}, kinds_[part.face]);
+    storage_.faces = std::move(divided.storage_.faces);
+    triangles_ = std::move(divided.triangles_);
+    kinds_ = std::move(divided.kinds_);
+  }
+
   [[nodiscard]] const std::vector<uint32_t>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<FaceKind>& kinds() const { return kinds_; }
 
   /// The mesh with its geometry, without hierarchy.
   PreparedMesh finish() {
@@ -65,9 +78,10 @@ class SurfaceBuilder {
   }
 
  private:
-  void add(uint32_t triangle, const Face& face) {
-    storage_.faces.push_back(face);
-    triangles_.push_back(triangle);
+  void add(const FacePart& part, FaceKind kind) {
+    storage_.faces.push_back(part.vertices);
+    triangles_.push_back(part.face);
+    kinds_.push_back(kind);
   }
 
   /// A corner of the triangle, or a new vertex.
@@ -85,6 +99,7 @@ class SurfaceBuilder {
   const Normalization& unit_;
   Mesh storage_;
   std::vector<uint32_t> triangles_;
+  std::vector<FaceKind> kinds_;
   std::map<std::array<double, 3>, uint32_t> vertices_;
 };
 
@@ -131,19 +146,17 @@ void JudgedSurface::divide(const Material& material) {
         count(face, lastInside, insideCount_);
         continue;
       }
-      builder.add(face);
-      kinds_.push_back(kind);
+      builder.add(face, kind);
       continue;
     }
     count(face, lastCrossed, crossedCount_);
     if (std::any_of(ofFace.begin(), ofFace.end(), isOf(FaceKind::Inside))) count(face, lastInside, insideCount_);
-    for (const FacePiece& piece : ofFace) {
-      if (piece.kind == FaceKind::Inside) continue;
-      builder.add(face, piece);
-      kinds_.resize(builder.triangles().size(), piece.kind);
-    }
+    for (const FacePiece& piece : ofFace)
+      if (piece.kind != FaceKind::Inside) builder.add(face, piece);
   }
+  builder.makeConforming();
   triangles_ = builder.triangles();
+  kinds_ = builder.kinds();
   std::vector<uint32_t> solidOf;
   for (const uint32_t triangle : triangles_) solidOf.push_back(solids_.solidOf[triangle]);
   solids_.solidOf = std::move(solidOf);
