@@ -194,41 +194,59 @@ std::optional<Contradiction> DiscCheck::contradictionInClipped(uint32_t index, c
 /// Looks for a rim: an edge at which the surface turns to the other side of the wall.
 std::optional<Contradiction> DiscCheck::rimNear(uint32_t face, const SurfacePointDisc& disc) const {
   const TraceScene& scene = pieces_.tree().scene();
-  const PointFans& fans = pieces_.fans();
-  const PlaneTriangle triangle = triangleOf(scene, face);
   const Vec3d& normal = pieces_.normal(disc.face);
   for (size_t k = 0; k < 3; ++k) {
-    const Vec3d &a = triangle.corners[k], edge = triangle.corners[(k + 1) % 3] - a;
-    const double square = dot(edge, edge);
-    if (square == 0) continue;
-    const Vec3d nearest = a + std::clamp(dot(disc.point - a, edge) / square, 0.0, 1.0) * edge;
-    if (length(nearest - disc.point) > kTaperReach * disc.limit) continue;
-    const uint32_t end = fans.pointOf(scene.mesh.faces[face][(k + 1) % 3]);
+    const std::optional<Vec3d> nearest = nearestOnEdge(face, k, disc);
+    if (!nearest) continue;
     bool goesOn = false, turns = false;
-    for (const uint32_t corner : fans.cornersAt(fans.pointOf(scene.mesh.faces[face][k]))) {
-      const uint32_t other = corner / 3;
-      const auto isEnd = [&](uint32_t vertex) { return fans.pointOf(vertex) == end; };
-      const Face& vertices = scene.mesh.faces[other];
-      if (other == face || std::none_of(vertices.begin(), vertices.end(), isEnd)) continue;
+    forEachFaceAtEdge(face, k, [&](uint32_t other) {
       const bool isSameSide =
           scene.geometry.isDegenerate(other) || dot(normal, pieces_.normal(other)) > kSameSideCosine;
       (isSameSide ? goesOn : turns) = true;
-    }
-    if (turns && !goesOn) return Contradiction{nearest, face, 0, true};
+    });
+    if (turns && !goesOn) return Contradiction{*nearest, face, 0, true};
   }
   return {};
 }
 
-/// Visits the faces connected to the face of the disc that are in reach and on the same side, near ones first.
+/// The point of an edge that is nearest to the middle of the disc; unset if it is out of reach, or the edge has no
+/// length.
+std::optional<Vec3d> DiscCheck::nearestOnEdge(uint32_t face, size_t k, const SurfacePointDisc& disc) const {
+  const std::array<Vec3d, 3> corners = triangleOf(pieces_.tree().scene(), face).corners;
+  const Vec3d edge = corners[(k + 1) % 3] - corners[k];
+  const double square = dot(edge, edge);
+  if (square == 0) return {};
+  const Vec3d nearest = corners[k] + std::clamp(dot(disc.point - corners[k], edge) / square, 0.0, 1.0) * edge;
+  if (length(nearest - disc.point) > kTaperReach * disc.limit) return {};
+  return nearest;
+}
+
+/// Visits the other faces at the edge from corner k to the next corner.
+void DiscCheck::forEachFaceAtEdge(uint32_t face, size_t k, FunctionRef<void(uint32_t)> visit) const {
+  const TriangleMesh& mesh = pieces_.tree().scene().mesh;
+  const PointFans& fans = pieces_.fans();
+  const uint32_t end = fans.pointOf(mesh.faces[face][(k + 1) % 3]);
+  for (const uint32_t corner : fans.cornersAt(fans.pointOf(mesh.faces[face][k]))) {
+    const Face& vertices = mesh.faces[corner / 3];
+    const auto isEnd = [&](uint32_t vertex) { return fans.pointOf(vertex) == end; };
+    if (corner / 3 != face && std::any_of(vertices.begin(), vertices.end(), isEnd)) visit(corner / 3);
+  }
+}
+
+/// Visits the faces on the same side that are connected to the face of the disc by points in reach, near ones first.
 /// visit(face, nearest point, distance) returns whether the walk goes on.
 void DiscCheck::forEachFaceAround(const SurfacePointDisc& disc,
                                   FunctionRef<bool(uint32_t, const Vec3d&, double)> visit) {
   const TraceScene& scene = pieces_.tree().scene();
   const PointFans& fans = pieces_.fans();
   const Vec3d& normal = pieces_.normal(disc.face);
+  const double reach = kTaperReach * disc.limit;
   ++walkCount_;
   queue_.assign(1, disc.face);
   visits_[disc.face] = walkCount_;
+  const auto add = [&](uint32_t face) {
+    if (std::exchange(visits_[face], walkCount_) != walkCount_) queue_.push_back(face);
+  };
   for (size_t i = 0; i < queue_.size(); ++i) {
     ++work_;
     const uint32_t face = queue_[i];
@@ -236,12 +254,18 @@ void DiscCheck::forEachFaceAround(const SurfacePointDisc& disc,
       if (!(dot(normal, pieces_.normal(face)) > kSameSideCosine)) continue;
       const Vec3d nearest = nearestPoint(triangleOf(scene, face), disc.point);
       const double distance = length(nearest - disc.point);
-      if (distance > kTaperReach * disc.limit) continue;
+      if (distance > reach) continue;
       if (!visit(face, nearest, distance)) return;
     }
-    for (const uint32_t vertex : scene.mesh.faces[face])
-      for (const uint32_t corner : fans.cornersAt(fans.pointOf(vertex)))
-        if (std::exchange(visits_[corner / 3], walkCount_) != walkCount_) queue_.push_back(corner / 3);
+    // The part of a triangle within a ball is convex. Thus the walk reaches all parts that are connected.
+    const std::array<Vec3d, 3> corners = triangleOf(scene, face).corners;
+    for (size_t k = 0; k < 3; ++k) {
+      if (length(corners[k] - disc.point) <= reach) {
+        for (const uint32_t corner : fans.cornersAt(fans.pointOf(scene.mesh.faces[face][k]))) add(corner / 3);
+      } else if (nearestOnEdge(face, k, disc)) {
+        forEachFaceAtEdge(face, k, add);
+      }
+    }
   }
 }
 

@@ -46,6 +46,8 @@ class DiscCheck {
   [[nodiscard]] std::optional<Contradiction> hiddenContradictionIn(uint32_t piece, const SurfacePointDisc& disc);
   [[nodiscard]] std::optional<Contradiction> contradictionInClipped(uint32_t piece, const SurfacePointDisc& disc) const;
   [[nodiscard]] std::optional<Contradiction> rimNear(uint32_t face, const SurfacePointDisc& disc) const;
+  [[nodiscard]] std::optional<Vec3d> nearestOnEdge(uint32_t face, size_t k, const SurfacePointDisc& disc) const;
+  void forEachFaceAtEdge(uint32_t face, size_t k, FunctionRef<void(uint32_t)> visit) const;
   void forEachFaceAround(const SurfacePointDisc& disc, FunctionRef<bool(uint32_t, const Vec3d&, double)> visit);
 
   ThinPieces& pieces_;

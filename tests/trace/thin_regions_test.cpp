@@ -253,6 +253,25 @@ TEST_CASE("a blade of 5 degrees is a wall beside its pocket, sharp teeth of 45 d
   CHECK(ThinMesh(makeThicknessPart("spike").solid.surface(), 1, 0.25).regions.size() == 1);  // A tip.
 }
 
+TEST_CASE("the surface around a point is connected to it within reach, at any triangulation") {
+  // A plate from below z = 0.36 to a rib on it. Its underside ends at x = 0.6, where the rib ends above: there, the
+  // part is 0.36 thick. The side of the rib turns to the other side of the plate within reach of the underside. It is
+  // connected to the underside at the ends of the rib only, beyond reach.
+  BlockSolid solid;
+  addDraftedLattice(solid, {{-2}, {0}, {0.6}, {3}}, {{0}, {0.7}}, {-1.5, 0, 0.36, 1.1},
+                    [](uint32_t i, uint32_t, uint32_t k) { return k == 1 || (k == 0) == (i != 1); });
+  for (const double limit : {0.96, 1.0, 1.04})
+    for (const double longestEdge : {1e9, 0.3, 0.1}) {
+      CAPTURE(limit);
+      CAPTURE(longestEdge);
+      const ThinMesh thin(solid.surface({.longestEdge = longestEdge}), limit, limit / 4);
+      double least = 1e9;
+      for (const ConnectedThinParts& region : thin.regions)
+        if (region.kind == ThinKind::Wall) least = std::min(least, region.place.ball.ball.diameter / thin.unit);
+      CHECK(least == doctest::Approx(0.36).epsilon(0.05));
+    }
+}
+
 TEST_CASE("a stop request ends the division") {
   std::stop_source stop;
   stop.request_stop();
