@@ -154,7 +154,7 @@ class Measurement {
     const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
     const LeastLimit next = findNextWall(
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
-        computation_.options.thickness.findsNextWall ? kFullNextWall : kQuickNextWall, control);
+        computation_.options.thickness.findsNextWall ? kFullNextWall : quickNextWall(mesh_.faceCount()), control);
     thickness_.nextWall = next.wall;
     const bool isFound = thinnest->bound <= kSectionAccuracy * thinnest->diameter;
     if (next.isKnown && !next.wall && isFound) thickness_.nextWall = placeOf(*thinnest);

@@ -12,6 +12,8 @@ namespace {
 
 /// Number of points per part. If a point is not a wall, the next point is farther from the contradiction.
 constexpr int kPointsPerPart = 3;
+/// Number of parts that are halved at a time, so that their halves fill the lanes of one traversal of the hierarchy.
+constexpr size_t kPartsPerQuery = 8;
 /// Number of limits per point at which a wall is looked for.
 constexpr int kLimitsPerPoint = 8;
 /// Each limit is at least this factor of the limit before, except for the greatest limit.
@@ -117,15 +119,20 @@ void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, Fu
       queue.push({piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter,
                   longestSideOf(piece.corners).second, piece.face});
   }
-  while (!queue.empty()) {
+  std::vector<Part> longParts;
+  while (true) {
+    if (longParts.size() == kPartsPerQuery || queue.empty() || isDone(queue.top().least)) {
+      if (longParts.empty()) break;
+      for (const Part& half : measuredHalvesOf(longParts))
+        if (half.least < kThinShare * scale_) queue.push(half);
+      longParts.clear();
+      continue;
+    }
     const Part part = queue.top();
     queue.pop();
-    if (isDone(part.least)) break;
     if (isExcluded(part, floor)) continue;
     testPoints(part, floor, visit);
-    if (isShort(part) || isDone(part.least) || isExcluded(part, floor)) continue;
-    for (const Part& half : measuredHalvesOf(part))
-      if (half.least < kThinShare * scale_) queue.push(half);
+    if (!isShort(part) && !isDone(part.least) && !isExcluded(part, floor)) longParts.push_back(part);
   }
 }
 
@@ -151,18 +158,20 @@ void WallSearch::testPoints(const Part& part, double floor, FunctionRef<void(con
   }
 }
 
-std::array<WallSearch::Part, 2> WallSearch::measuredHalvesOf(const Part& part) const {
-  const std::array<std::array<Vec3d, 3>, 2> halves = halvesOf(part.corners, longestSideOf(part.corners).first);
-  std::array<BallQuery, 2> queries;
-  for (size_t i = 0; i < 2; ++i)
-    queries[i] =
-        pieces_.queryAt(part.face, halves[i], middleOf(halves[i]), pieces_.limit(), {part.atMiddle.wall, kNoFace});
+std::vector<WallSearch::Part> WallSearch::measuredHalvesOf(std::span<const Part> parts) const {
+  std::vector<BallQuery> queries;
+  for (const Part& part : parts)
+    for (const std::array<Vec3d, 3>& half : halvesOf(part.corners, longestSideOf(part.corners).first))
+      queries.push_back(
+          pieces_.queryAt(part.face, half, middleOf(half), pieces_.limit(), {part.atMiddle.wall, kNoFace}));
   pieces_.tree().shrink(queries);
-  const auto partOf = [&](size_t i) {
-    return Part{halves[i], queries[i].atPoint, queries[i].least.ball.diameter, longestSideOf(halves[i]).second,
-                part.face};
-  };
-  return {partOf(0), partOf(1)};
+  std::vector<Part> halves;
+  for (const BallQuery& query : queries) {
+    const std::array<Vec3d, 3>& corners = query.triangle.corners;
+    halves.push_back({corners, query.atPoint, query.least.ball.diameter, longestSideOf(corners).second,
+                      parts[halves.size() / 2].face});
+  }
+  return halves;
 }
 
 /// Sets disc.limit to the least limit from `floor` to scale_ at which the point is a wall. If there is none, returns a

@@ -57,7 +57,7 @@ class WallSearch {
   void forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(double)> isDone,
                     FunctionRef<void(const SurfacePointDisc&)> visit);
   void testPoints(const Part& part, double floor, FunctionRef<void(const SurfacePointDisc&)> visit);
-  [[nodiscard]] std::array<Part, 2> measuredHalvesOf(const Part& part) const;
+  [[nodiscard]] std::vector<Part> measuredHalvesOf(std::span<const Part> parts) const;
   [[nodiscard]] std::optional<Contradiction> contradictionFrom(SurfacePointDisc& disc, double floor);
   [[nodiscard]] bool excludes(const Contradiction& contradiction, const Part& part, double floor) const;
   [[nodiscard]] bool isExcluded(const Part& part, double floor) const;
