@@ -7,14 +7,13 @@ namespace asdfvk {
 
 Solids findSolids(const TriangleMesh& mesh, const Components& components) {
   const size_t count = components.components.size();
-  Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count), std::vector<uint8_t>(count)};
+  Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count)};
   const Nesting nesting = findCavities(mesh, components);
   for (uint32_t c = 0; c < count; ++c) {
     const Component& component = components.components[c];
     const bool isCavity = nesting.isCavity[c] != 0;
     const double outwards = isCavity ? -component.signedVolume : component.signedVolume;
     solids.isClosed[c] = component.isClosed && component.isConsistentlyWound && outwards > 0 && !isCavity ? 1 : 0;
-    solids.isMisoriented[c] = component.isClosed && (!component.isConsistentlyWound || outwards < 0) ? 1 : 0;
   }
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
     const uint32_t component = components.componentOf[face], body = nesting.bodyOf[component];

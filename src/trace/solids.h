@@ -18,8 +18,6 @@ struct Solids {
   std::vector<uint32_t> solidOf;  ///< #F
   /// For each component: whether it is an outer surface, closed and wound consistently outwards.
   std::vector<uint8_t> isClosed;
-  /// For each component: whether it is closed, but wound inconsistently or to the wrong side.
-  std::vector<uint8_t> isMisoriented;
 
   /// The solid of the face if this solid is closed, else kNoBody.
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return isClosed[solidOf[face]] != 0 ? solidOf[face] : kNoBody; }

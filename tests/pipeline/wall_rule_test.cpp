@@ -73,16 +73,18 @@ struct Case {
   bool isWall;
 };
 
+/// Within 5 % of the thresholds of docs/thickness.md.
 std::vector<Case> thresholdCases() {
-  return {{"rib .6 high", ribbed(0.6), false},
-          {"rib .75 high", ribbed(0.75), true},
-          {"wedge of 18.5 degrees", wedge(18.5), false},
-          {"wedge of 16 degrees", wedge(16), true},
-          {"cut wedge of 18.5 degrees", wedge(18.5, 0.125), false},
-          {"cut wedge of 16 degrees", wedge(16, 0.125), true},
+  return {{"rib .64 high", ribbed(0.64), false},
+          {"rib .7 high", ribbed(0.7), true},
+          {"wedge of 17.8 degrees", wedge(17.8), false},
+          {"wedge of 16.2 degrees", wedge(16.2), true},
+          {"cut wedge of 17.8 degrees", wedge(17.8, 0.125), false},
+          {"cut wedge of 16.2 degrees", wedge(16.2, 0.125), true},
           {"run-out of radius 5", runOut(5), false},
-          {"run-out of radius 25", runOut(25), true},
-          {"ligament .97", notched(0.97), false},
+          {"run-out of radius 18.6", runOut(18.6), false},
+          {"run-out of radius 20.4", runOut(20.4), true},
+          {"ligament .96", notched(0.96), false},
           {"ligament .88", notched(0.88), true}};
 }
 
@@ -182,7 +184,7 @@ TEST_CASE("a limit that finds a wall or a detail finds one at each greater limit
   for (const Case& each : thresholdCases()) {
     if (each.isWall) continue;  // The shapes on the other sides of the thresholds differ little.
     // The search for details looks at a limited number of points. It may miss the detail of a shape that tapers.
-    if (each.name == "cut wedge of 18.5 degrees" || each.name == "run-out of radius 5") continue;
+    if (each.name == "cut wedge of 17.8 degrees" || each.name.starts_with("run-out")) continue;
     CAPTURE(each.name);
     const Mesh mesh = shapes::extruded(each.outline, kDepth);
     bool isFound = false;

@@ -40,7 +40,6 @@ TEST_CASE("a cavity belongs to its outer component, in any order") {
     CHECK(solidOfComponents(mesh) == Indices{outer, outer});
     CHECK(solids.isClosed[outer] == 1);
     CHECK(solids.isClosed[1 - outer] == 0);
-    CHECK(solids.isMisoriented == Flags{0, 0});
   }
 }
 
@@ -52,7 +51,6 @@ TEST_CASE("a cavity of nested solids belongs to the smallest one around it") {
   mesh = shapes::joined(std::move(mesh), cavity(1), {30.5, 0, 0});
   CHECK(solidOfComponents(mesh) == Indices{0, 0, 2, 2, 4, 4});
   CHECK(solidsOf(mesh).isClosed == Flags{1, 0, 1, 0, 1, 0});
-  CHECK(solidsOf(mesh).isMisoriented == Flags{0, 0, 0, 0, 0, 0});
 }
 
 TEST_CASE("one body, bodies beside each other and bodies through each other are solids of their own") {
@@ -62,35 +60,29 @@ TEST_CASE("one body, bodies beside each other and bodies through each other are 
     const Mesh two = shapes::joined(ball(1), ball(1), {distance, 0.1, 0});
     CHECK(solidOfComponents(two) == Indices{0, 1});
     CHECK(solidsOf(two).isClosed == Flags{1, 1});
-    CHECK(solidsOf(two).isMisoriented == Flags{0, 0});
   }
 }
 
-TEST_CASE("components wound inwards, inconsistently, or outwards in a cavity are misoriented") {
-  CHECK(solidsOf(cavity(1)).isMisoriented == Flags{1});
+TEST_CASE("components wound inwards, inconsistently, or outwards in a cavity are not closed solids") {
   CHECK(solidsOf(cavity(1)).isClosed == Flags{0});
   Mesh mixed = ball(1);
   std::swap(mixed.faces[7][0], mixed.faces[7][1]);
-  CHECK(solidsOf(mixed).isMisoriented == Flags{1});
   CHECK(solidsOf(mixed).isClosed == Flags{0});
   // The inner ball is a cavity that faces the wrong way.
   const Mesh nested = shapes::joined(ball(2), ball(1));
-  CHECK(solidsOf(nested).isMisoriented == Flags{0, 1});
   CHECK(solidsOf(nested).isClosed == Flags{1, 0});
   CHECK(solidOfComponents(nested) == Indices{0, 0});
   // The outer one does: the cavity has no closed solid.
   const Mesh wrong = shapes::joined(cavity(2), cavity(1));
-  CHECK(solidsOf(wrong).isMisoriented == Flags{1, 0});
   CHECK(solidsOf(wrong).isClosed == Flags{0, 0});
   CHECK(solidOfComponents(wrong) == Indices{0, 1});
 }
 
-TEST_CASE("open components are neither closed nor misoriented, and have no cavities") {
+TEST_CASE("open components are not closed solids, and have no cavities") {
   for (const Mesh& open : {shapes::grid(3), shapes::openBox({4, 4, 4}, 2), shapes::inverted(shapes::grid(2))}) {
     const Mesh mesh = shapes::joined(open, ball(1));
     const Solids solids = solidsOf(mesh);
     CHECK(solids.isClosed == Flags{0, 1});
-    CHECK(solids.isMisoriented == Flags{0, 0});
     CHECK(solidOfComponents(mesh) == Indices{0, 1});
   }
 }
