@@ -47,6 +47,12 @@ std::vector<Face> weldedFaces(const TriangleMesh& mesh, const std::vector<uint32
   return faces;
 }
 
+void closeTJunctions(const TriangleMesh& mesh, const Normalization& unit, double distance, SurfaceEdges& edges) {
+  if (!edges.survey.isChainClosed() &&
+      !sumAsChain(withFaces(mesh, edges.faces), unit, 2 * distance, edges.survey).empty())
+    edges.hasTJunctions = true;
+}
+
 /// Welds the vertices of open edges that are at most `distance` apart, and closes T-junctions.
 void weld(const TriangleMesh& mesh, const Normalization& unit, double distance, SurfaceEdges& edges) {
   const TriangleMesh before = withFaces(mesh, edges.faces);
@@ -56,7 +62,7 @@ void weld(const TriangleMesh& mesh, const Normalization& unit, double distance, 
     edges.faces = std::move(faces);
     edges.survey = surveyEdges(withFaces(mesh, edges.faces));
   }
-  if (!edges.survey.isChainClosed()) sumAsChain(withFaces(mesh, edges.faces), unit, 2 * distance, edges.survey);
+  closeTJunctions(mesh, unit, distance, edges);
 }
 
 /// Welds at the distance of CAD programs, but only the faces of components that this closes.
@@ -84,8 +90,7 @@ void weldWhereItCloses(const TriangleMesh& mesh, const Normalization& unit, Surf
     for (uint32_t face = 0; face < mesh.faceCount(); ++face)
       if (!isClosed(face)) welded.faces[face] = before.faces[face];
     welded.survey = surveyEdges(withFaces(mesh, welded.faces));
-    if (!welded.survey.isChainClosed())
-      sumAsChain(withFaces(mesh, welded.faces), unit, 2 * kWeldDistance, welded.survey);
+    closeTJunctions(mesh, unit, kWeldDistance, welded);
   }
   edges = std::move(welded);
 }

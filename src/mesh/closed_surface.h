@@ -24,6 +24,7 @@ struct SurfaceEdges {
   /// #V: the vertex that replaces each vertex in `faces`; empty if no vertex was welded.
   std::vector<uint32_t> vertexOf;
   uint64_t weldedVertexCount = 0;  ///< Vertices that were replaced.
+  bool hasTJunctions = false;      ///< An edge lies on several others, see conformingFaces().
   double weldDistance = 0;         ///< The greatest distance between a vertex and its replacement, normalised.
 };
 

@@ -131,29 +131,28 @@ PointTree treeOfEnds(const TriangleMesh& mesh, const Normalization& unit, std::s
   return PointTree(std::move(points));
 }
 
-/// Divides the edge between two points at the points that lie on it. Returns the vertices from the lower to the upper
-/// vertex of the edge.
+/// The points that lie on the edge between two points, from its lower to its upper vertex, without these.
 std::vector<uint32_t> verticesOn(const PointTree& tree, const Vec3d& from, const Vec3d& to, const EdgeCorner& edge,
                                  double tolerance) {
   const Vec3d way = to - from;
   const double squared = dot(way, way);
   std::vector<std::pair<double, uint32_t>> cuts;
+  if (!(squared > 0 && std::isfinite(squared))) return {};
   tree.forEachNear(from, to, tolerance, [&](const Vec3d& point, uint32_t vertex) {
     if (vertex == edge.lower || vertex == edge.upper) return;
     const double t = dot(point - from, way) / squared;
     if (t > 0 && t < 1 && length(point - (from + t * way)) <= tolerance) cuts.emplace_back(t, vertex);
   });
   std::sort(cuts.begin(), cuts.end());
-  std::vector<uint32_t> vertices{edge.lower};
+  std::vector<uint32_t> vertices;
   for (const auto& [t, vertex] : cuts) vertices.push_back(vertex);
-  vertices.push_back(edge.upper);
   return vertices;
 }
 
 /// An edge, and the vertices that lie on it.
 struct CutEdge {
   std::span<const EdgeCorner> corners;  // One of each face of the edge.
-  std::vector<uint32_t> vertices;       // From the lower to the upper vertex of the edge.
+  std::vector<uint32_t> vertices;       // From the lower to the upper vertex of the edge, without these.
 };
 
 /// The edges of corners, divided at the points of a tree. corners: sorted.
@@ -179,7 +178,9 @@ std::vector<EdgePart> divide(const TriangleMesh& mesh, const Normalization& unit
   const std::vector<CutEdge> edges = cutEdges(mesh, unit, tolerance, corners, treeOfEnds(mesh, unit, corners));
   std::vector<EdgePart> parts;
   for (uint32_t edge = 0; edge < edges.size(); ++edge) {
-    const std::vector<uint32_t>& vertices = edges[edge].vertices;
+    std::vector<uint32_t> vertices{edges[edge].corners.front().lower};
+    vertices.insert(vertices.end(), edges[edge].vertices.begin(), edges[edge].vertices.end());
+    vertices.push_back(edges[edge].corners.front().upper);
     for (const EdgeCorner& corner : edges[edge].corners)
       for (size_t k = 0; k + 1 < vertices.size(); ++k) {
         const uint32_t from = vertices[k], to = vertices[k + 1];
@@ -304,10 +305,9 @@ std::vector<DividedEdge> findDividedEdges(const TriangleMesh& mesh, const Normal
   if (open.empty()) return divided;
   const std::vector<EdgeCorner> corners = cornersOf(mesh, survey, [](EdgeKind) { return true; });
   for (const CutEdge& edge : cutEdges(mesh, unit, tolerance, corners, treeOfEnds(mesh, unit, open))) {
-    if (edge.vertices.size() <= 2) continue;
-    std::vector<uint32_t> inside(edge.vertices.begin() + 1, edge.vertices.end() - 1);
+    if (edge.vertices.empty()) continue;
     for (const EdgeCorner& corner : edge.corners) {
-      divided.push_back({corner.corner, inside});
+      divided.push_back({corner.corner, edge.vertices});
       if (!corner.runsUp) std::reverse(divided.back().vertices.begin(), divided.back().vertices.end());
     }
   }

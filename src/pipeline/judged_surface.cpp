@@ -20,26 +20,27 @@ class SurfaceBuilder {
     storage_.vertices.assign(vertices.begin(), vertices.end());
   }
 
-  void add(uint32_t triangle, FaceKind kind) { add({prepared_.mesh.faces[triangle], triangle}, kind); }
+  void add(uint32_t triangle, FaceKind kind) { add(triangle, prepared_.mesh.faces[triangle], kind); }
 
   void add(uint32_t triangle, const FacePiece& piece) {
     std::vector<uint32_t> corners;
     for (const Vec3d& corner : piece.corners) corners.push_back(vertexAt(triangle, corner));
     for (size_t k = 1; k + 1 < corners.size(); ++k) {
       const Face face{corners[0], corners[k], corners[k + 1]};
-      if (hasDistinctVertices(face)) add({face, triangle}, piece.kind);
+      if (hasDistinctVertices(face)) add(triangle, face, piece.kind);
     }
   }
 
   /// Divides the triangles such that neighbours have whole edges in common: where a face begins to cross others, its
   /// pieces end inside of the edges of its neighbours.
   void makeConforming() {
-    SurfaceBuilder divided(prepared_, unit_);
-    for (const FacePart& part : conformingFaces(storage_, unit_))
-      divided.add({part.vertices, triangles_[part.face]}, kinds_[part.face]);
-    storage_.faces = std::move(divided.storage_.faces);
-    triangles_ = std::move(divided.triangles_);
-    kinds_ = std::move(divided.kinds_);
+    const std::vector<FacePart> parts = conformingFaces(storage_, unit_);
+    storage_.faces.clear();
+    const std::vector<uint32_t> triangles = std::exchange(triangles_, {});
+    const std::vector<FaceKind> kinds = std::exchange(kinds_, {});
+    for (const FacePart& part : parts)
+      if (hasDistinctVertices(part.vertices) || prepared_.geometry.isDegenerate(triangles[part.face]))
+        add(triangles[part.face], part.vertices, kinds[part.face]);
   }
 
   [[nodiscard]] const std::vector<uint32_t>& triangles() const { return triangles_; }
@@ -65,7 +66,8 @@ class SurfaceBuilder {
     result.components.components = prepared_.components.components;
     for (uint32_t face = 0; face < triangles_.size(); ++face) {
       result.components.componentOf.push_back(prepared_.components.componentOf[triangles_[face]]);
-      // The normal of a narrow piece would be inexact.
+      // The normal of a narrow piece would be inexact. A part of a face without a normal has none.
+      if (prepared_.geometry.isDegenerate(triangles_[face])) result.geometry.areas[face] = 0;
       if (!result.geometry.isDegenerate(face))
         result.geometry.normals[face] = prepared_.geometry.normals[triangles_[face]];
     }
@@ -78,9 +80,9 @@ class SurfaceBuilder {
   }
 
  private:
-  void add(const FacePart& part, FaceKind kind) {
-    storage_.faces.push_back(part.vertices);
-    triangles_.push_back(part.face);
+  void add(uint32_t triangle, const Face& face, FaceKind kind) {
+    storage_.faces.push_back(face);
+    triangles_.push_back(triangle);
     kinds_.push_back(kind);
   }
 
@@ -109,7 +111,7 @@ JudgedSurface::JudgedSurface(const PreparedScene& scene, bool isFlipped, const R
     : original_(scene), solids_(findSolids(scene.prepared.mesh, scene.prepared.components)) {
   const Material material(scene.view(), scene.prepared.graph, scene.prepared.components, isFlipped, control);
   joinSolids(scene.prepared.components, material.meetingComponents(), solids_);
-  if (material.hasCuts() || material.hasKind(FaceKind::Inside))
+  if (material.hasCuts() || material.hasKind(FaceKind::Inside) || scene.prepared.hasTJunctions)
     divide(material);
   else
     adopt(material);

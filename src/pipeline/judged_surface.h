@@ -10,9 +10,10 @@
 
 namespace asdfvk {
 
-/// The surface of the material (material.h): the faces on which a thickness is defined. If no face meets another one,
-/// it is the surface of the mesh. Otherwise faces inside of the material are left out, and faces that others cross are
-/// divided into triangles. These triangles belong to the same input face.
+/// The surface of the material (material.h): the faces on which a thickness is defined. If no face meets another one
+/// or has vertices of others on its edges, it is the surface of the mesh. Otherwise faces inside of the material are
+/// left out, and faces that others cross and their neighbours are divided into triangles. These triangles belong to the
+/// same input face.
 class JudgedSurface {
  public:
   /// scene: with a hierarchy. Must outlive this object. Throws Error{Cancelled}.
@@ -28,7 +29,7 @@ class JudgedSurface {
   [[nodiscard]] FaceKind kindOf(uint32_t face) const { return kinds_.empty() ? commonKind_ : kinds_[face]; }
   /// The triangle of the mesh that a face of the surface is a part of.
   [[nodiscard]] uint32_t triangleOf(uint32_t face) const { return triangles_.empty() ? face : triangles_[face]; }
-  [[nodiscard]] uint64_t crossedCount() const { return crossedCount_; }  ///< Input faces that are divided.
+  [[nodiscard]] uint64_t crossedCount() const { return crossedCount_; }  ///< Input faces that others cross.
   [[nodiscard]] uint64_t insideCount() const {
     return insideCount_;
   }  ///< Input faces with a part inside of the material.

@@ -73,7 +73,7 @@ void Judgement::addReason(UnjudgedFaces& unjudged, UnjudgedCause cause, const Ho
                                                                : EdgeKind::Regular;
   if (const EdgesOfKind& edges = prepared.openEdges[static_cast<size_t>(kind)]; edges.count > 0) {
     reason.edgeCount = edges.count;
-    reason.face = prepared.mesh.inputFaceOf(edges.firstCorner / 3);
+    reason.face = surface_.original().prepared.mesh.inputFaceOf(edges.firstCorner / 3);
     reason.place = edges.place;
   }
   reason.isRepairable = cause == UnjudgedCause::Inverted ||

@@ -113,6 +113,7 @@ SurfaceEdges closeSurface(PreparedMesh& prepared, Orientation orientation) {
       edges = surveySurface(prepared.mesh, unit);
     }
   }
+  prepared.hasTJunctions = edges.hasTJunctions;
   if (edges.faces.empty()) return edges;
   prepared.storage.faces = std::move(edges.faces);
   prepared.mesh.faces = prepared.storage.faces;

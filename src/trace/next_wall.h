@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -12,7 +14,9 @@ namespace asdfvk {
 /// The work of a search to the end, see WallSearch::leastLimit().
 inline constexpr size_t kFullNextWall = std::numeric_limits<size_t>::max();
 /// Work per limit that takes about as long as the check for a limit.
-[[nodiscard]] constexpr size_t quickNextWall(size_t faceCount) { return 100'000 + 50 * faceCount; }
+[[nodiscard]] constexpr size_t quickNextWall(size_t faceCount) {
+  return std::min<size_t>(500'000, 100'000 + 50 * faceCount);
+}
 
 /// The wall at the least limit from `first` to `last` at which the surface has a wall. least: #F, the least thickness
 /// of each face (normalised); NaN for a face that is not judged or that no wall opposes. ballsOf(face): its balls.

@@ -259,11 +259,21 @@ void DiscCheck::forEachFaceAround(const SurfacePointDisc& disc,
     }
     // The part of a triangle within a ball is convex. Thus the walk reaches all parts that are connected.
     const std::array<Vec3d, 3> corners = triangleOf(scene, face).corners;
+    const auto addFan = [&](size_t k) {
+      for (const uint32_t corner : fans.cornersAt(fans.pointOf(scene.mesh.faces[face][k]))) add(corner / 3);
+    };
     for (size_t k = 0; k < 3; ++k) {
       if (length(corners[k] - disc.point) <= reach) {
-        for (const uint32_t corner : fans.cornersAt(fans.pointOf(scene.mesh.faces[face][k]))) add(corner / 3);
+        addFan(k);
       } else if (nearestOnEdge(face, k, disc)) {
-        forEachFaceAtEdge(face, k, add);
+        bool isShared = false;
+        forEachFaceAtEdge(face, k, [&](uint32_t other) {
+          isShared = true;
+          add(other);
+        });
+        if (isShared) continue;
+        addFan(k);  // At a T-junction, the faces behind the edge have its ends in common with others.
+        addFan((k + 1) % 3);
       }
     }
   }

@@ -122,7 +122,7 @@ void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, Fu
   std::vector<Part> longParts;
   while (true) {
     if (longParts.size() == kPartsPerQuery || queue.empty() || isDone(queue.top().least)) {
-      if (longParts.empty()) break;
+      if (longParts.empty() || isDone(longParts.front().least)) break;
       for (const Part& half : measuredHalvesOf(longParts))
         if (half.least < kThinShare * scale_) queue.push(half);
       longParts.clear();

@@ -113,15 +113,14 @@ def assembly(case: Case) -> None:
     arguments = ["assembly", "--rng-seed", str(rng.randrange(10**6))]
     arguments += ["--interpenetrate"] if crosses else []
     together = shapes.by_generator(case.program, arguments, case.folder)
-    distance = str(round(rng.uniform(0.5, 5), 2))
-    apart = shapes.by_generator(case.program, [*arguments, "--apart", distance], case.folder)
-    if rng.random() < 0.3:
-        factor = 10 ** rng.uniform(-6, 6)
-        together, apart = shapes.scaled(together, factor), shapes.scaled(apart, factor)
+    factor = 10 ** rng.uniform(-6, 6) if rng.random() < 0.3 else 1
+    together = shapes.scaled(together, factor)
     names = [case.write(together, "together.off")]
     field = "least_thickness" if crosses else rng.choice(("sdf", "least_thickness"))
     if field == "sdf":
-        names.append(case.write(apart, "apart.off"))
+        arguments += ["--apart", str(round(rng.uniform(0.5, 5), 2))]
+        apart = shapes.by_generator(case.program, arguments, case.folder)
+        names.append(case.write(shapes.scaled(apart, factor), "apart.off"))
     else:  # The material is the union of the parts, so that it is the same with a second copy of each.
         names.append(case.write(shapes.doubled(together, rng), "doubled.off"))
     backend = rng.choice(BACKENDS)

@@ -207,3 +207,35 @@ TEST_CASE("a Moebius strip is not turned") {
   CHECK(findTurnedFaces(mesh, unitOf(mesh), edges) == std::vector<uint8_t>(mesh.faces.size(), 0));
   CHECK_FALSE(canBeTurned(mesh, unitOf(mesh)));
 }
+
+TEST_CASE("conforming faces have whole edges in common, and cover the faces") {
+  // A triangle with two vertices of others on its first side and one on its second side.
+  const Mesh shared{{{0, 0, 0}, {3, 0, 0}, {1.5, 2, 0}, {1, 0, 0}, {2, 0, 0}, {1.5, -2, 0}, {2.25, 1, 0}, {4, 2, 0}},
+                    {{0, 1, 2}, {3, 0, 5}, {4, 3, 5}, {1, 4, 5}, {6, 1, 7}, {2, 6, 7}},
+                    {}};
+  for (const Mesh& mesh : {shared, split(shared, 1e-8)}) {
+    const std::vector<FacePart> parts = conformingFaces(mesh, unitOf(mesh));
+    REQUIRE(parts.size() == 9);
+    CHECK(std::is_sorted(parts.begin(), parts.end(),
+                         [](const FacePart& a, const FacePart& b) { return a.face < b.face; }));
+    Mesh conforming{mesh.vertices, {}, {}};
+    std::vector<double> areas(mesh.faces.size());
+    for (const FacePart& part : parts) {
+      const auto& [a, b, c] = part.vertices;
+      const Vec3d normal = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+      CHECK(normal.z > 0.1);
+      areas[part.face] += normal.z / 2;
+      conforming.faces.push_back(part.vertices);
+    }
+    const FaceGeometry geometry = computeFaceGeometry(mesh);
+    for (size_t f = 0; f < areas.size(); ++f) CHECK(areas[f] == doctest::Approx(geometry.areas[f]).epsilon(1e-6));
+    const EdgeSurvey survey = surveyEdges(conforming);
+    CHECK(survey.countOf(EdgeKind::Boundary) == 5);  // The outline.
+    CHECK(survey.countOf(EdgeKind::Inconsistent) == 0);
+  }
+  CHECK(conformingFaces(Mesh{}, {}).empty());
+  const Mesh cube = shapes::cube();
+  const std::vector<FacePart> same = conformingFaces(cube, unitOf(cube));
+  REQUIRE(same.size() == cube.faces.size());
+  for (uint32_t f = 0; f < same.size(); ++f) CHECK((same[f].face == f && same[f].vertices == cube.faces[f]));
+}

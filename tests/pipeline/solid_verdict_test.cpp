@@ -186,7 +186,6 @@ TEST_CASE("half of a bow tie is inverted") {
 
 TEST_CASE("boxes that touch or overlap have the least thickness of their union" * doctest::test_suite("slow")) {
   constexpr uint32_t kCount = 3;
-  int differingCount = 0;  // There are 240 checks.
   for (uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -231,13 +230,9 @@ TEST_CASE("boxes that touch or overlap have the least thickness of their union" 
       const ThicknessReport expected = check(whole, limit), united = check(parts, limit);
       CHECK(united.verdict == expected.verdict);
       const bool isFailure = expected.verdict == ThicknessVerdict::Failed;
-      if (!isFailure || std::abs(united.min - expected.min) < 0.02 * expected.min) continue;
-      MESSAGE("seed ", seed, ", limit ", limit, ": ", united.min, " instead of ", expected.min);
-      ++differingCount;
+      if (isFailure) CHECK(united.min == doctest::Approx(expected.min).epsilon(0.05));
     }
   }
-  // Beside an edge, the thickness changes fast, and a wall is found at points of the surface that depend on its pieces.
-  CHECK(differingCount <= 1);
 }
 
 TEST_CASE("a part around a cavity that crosses it is judged") {

@@ -88,6 +88,22 @@ std::vector<Case> thresholdCases() {
           {"ligament .88", notched(0.88), true}};
 }
 
+/// The faces whose normals are along y are refined, so that their edges lie on whole edges of the other faces.
+Mesh withTJunctions(const Mesh& coarse) {
+  const Mesh fine = shapes::refined(coarse, 1.5);
+  Mesh mixed;
+  for (const bool isAlongY : {false, true}) {
+    const Mesh& mesh = isAlongY ? fine : coarse;
+    const FaceGeometry geometry = computeFaceGeometry(mesh);
+    const auto first = static_cast<uint32_t>(mixed.vertices.size());
+    mixed.vertices.insert(mixed.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (size_t f = 0; f < mesh.faces.size(); ++f)
+      if (const auto& [a, b, c] = mesh.faces[f]; (std::abs(geometry.normals[f].y) > 0.5) == isAlongY)
+        mixed.faces.push_back({first + a, first + b, first + c});
+  }
+  return mixed;
+}
+
 Mesh scaled(const Mesh& mesh, double factor) { return shapes::scaledAndShifted(mesh, factor); }
 
 struct Pocket {
@@ -171,13 +187,15 @@ TEST_CASE("n pockets are n walls with their own thickness and place") {
 }
 
 TEST_CASE("a rib lower than 2/3 of the limit is a detail, and a wall at a smaller limit") {
-  const Mesh mesh = shapes::extruded(ribbed(0.6), kDepth);
-  const ThicknessReport low = judge(mesh, 1);
-  CHECK(low.verdict == ThicknessVerdict::Passed);
-  CHECK(countOf(low, ThinKind::Detail) == 1);
-  const ThicknessReport high = judge(mesh, 0.6);
-  CHECK(high.verdict == ThicknessVerdict::Failed);
-  CHECK(high.min == doctest::Approx(0.5).epsilon(1e-6));
+  const Mesh coarse = shapes::extruded(ribbed(0.6), kDepth);
+  for (const Mesh& mesh : {coarse, withTJunctions(coarse)}) {
+    const ThicknessReport low = judge(mesh, 1);
+    CHECK(low.verdict == ThicknessVerdict::Passed);
+    CHECK(countOf(low, ThinKind::Detail) == 1);
+    const ThicknessReport high = judge(mesh, 0.6);
+    CHECK(high.verdict == ThicknessVerdict::Failed);
+    CHECK(high.min == doctest::Approx(0.5).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("a limit that finds a wall or a detail finds one at each greater limit" * doctest::test_suite("slow")) {
