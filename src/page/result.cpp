@@ -42,7 +42,7 @@ void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fiel
     const ThicknessReport& thickness = *result.report.thickness;
     texts.thin = {.limit = *thickness.thinnerThan,
                   .verdict = nameOf(*thickness.verdict),
-                  .sentence = thickness.sentence,
+                  .sentence = verdictSentence(thickness),
                   .countsDetails = thickness.counts(ThinKind::Detail),
                   .countsEdges = thickness.countsEdges,
                   .regions = thickness.regions,
