@@ -29,7 +29,7 @@ double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
 /// bits.
 double withRounding(double diameter) { return diameter * (1 + 1e-9); }
 
-/// A diameter counts as equal to the least depth of the wall up to this relative rounding error.
+/// A diameter is taken as the least depth of the wall if it is larger by less than this share.
 constexpr double kDepthRounding = 1e-14;
 
 /// The part of a triangle that is deeper than minDepth: up to four corners with their depths.
@@ -97,7 +97,7 @@ class LeastBall {
   LeastBall(const PlaneTriangle& wall, const Vec3d& axis, const DeepPart& part, double limit)
       : wall_(wall), axis_(axis), part_(part), limit_(withRounding(limit)), leastDepth_(part.leastDepth()) {}
 
-  /// Whether the diameter is the least depth of the wall. Then no other ball is smaller.
+  /// Whether the diameter is equal to the least depth of the wall. No ball is smaller than this depth.
   [[nodiscard]] bool isLeast() const { return best_.diameter == leastDepth_; }
   [[nodiscard]] bool mayImprove(double bound) const { return !(bound > limit_); }
 

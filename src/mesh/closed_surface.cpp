@@ -53,15 +53,18 @@ void closeTJunctions(const TriangleMesh& mesh, const Normalization& unit, double
     edges.hasTJunctions = true;
 }
 
-/// Welds the vertices of open edges that are at most `distance` apart, and closes T-junctions.
-void weld(const TriangleMesh& mesh, const Normalization& unit, double distance, SurfaceEdges& edges) {
+/// Welds the vertices of open edges that are at most `distance` apart.
+void weldOpenEdges(const TriangleMesh& mesh, const Normalization& unit, double distance, SurfaceEdges& edges) {
   const TriangleMesh before = withFaces(mesh, edges.faces);
   std::vector<Face> faces =
       weldedFaces(before, weldVertices(before, unit, verticesOfOpenEdges(before, edges.survey), distance));
-  if (!faces.empty()) {
-    edges.faces = std::move(faces);
-    edges.survey = surveyEdges(withFaces(mesh, edges.faces));
-  }
+  if (faces.empty()) return;
+  edges.faces = std::move(faces);
+  edges.survey = surveyEdges(withFaces(mesh, edges.faces));
+}
+
+void weld(const TriangleMesh& mesh, const Normalization& unit, double distance, SurfaceEdges& edges) {
+  weldOpenEdges(mesh, unit, distance, edges);
   closeTJunctions(mesh, unit, distance, edges);
 }
 
@@ -141,13 +144,12 @@ SurfaceEdges surveySurface(const TriangleMesh& mesh, const Normalization& unit) 
 }
 
 std::vector<FacePart> conformingFaces(const TriangleMesh& mesh, const Normalization& unit) {
-  EdgeSurvey survey = surveyEdges(mesh);
-  const std::vector<Face> faces =
-      weldedFaces(mesh, weldVertices(mesh, unit, verticesOfOpenEdges(mesh, survey), kWeldDistance));
-  const TriangleMesh welded = withFaces(mesh, faces);
-  if (!faces.empty()) survey = surveyEdges(welded);
+  SurfaceEdges edges;
+  edges.survey = surveyEdges(mesh);
+  weldOpenEdges(mesh, unit, kWeldDistance, edges);
+  const TriangleMesh welded = withFaces(mesh, edges.faces);
   std::map<uint32_t, std::array<std::vector<uint32_t>, 3>> verticesOnEdges;
-  for (DividedEdge& edge : findDividedEdges(welded, unit, 2 * kWeldDistance, survey))
+  for (DividedEdge& edge : findDividedEdges(welded, unit, 2 * kWeldDistance, edges.survey))
     verticesOnEdges[edge.corner / 3][edge.corner % 3] = std::move(edge.vertices);
   std::vector<FacePart> parts;
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) {

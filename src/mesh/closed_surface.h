@@ -24,7 +24,7 @@ struct SurfaceEdges {
   /// #V: the vertex that replaces each vertex in `faces`; empty if no vertex was welded.
   std::vector<uint32_t> vertexOf;
   uint64_t weldedVertexCount = 0;  ///< Vertices that were replaced.
-  bool hasTJunctions = false;      ///< An edge lies on several others, see conformingFaces().
+  bool hasTJunctions = false;      ///< An end of an edge lies inside of another edge.
   double weldDistance = 0;         ///< The greatest distance between a vertex and its replacement, normalised.
 };
 

@@ -28,8 +28,8 @@ struct DividedEdge {
   std::vector<uint32_t> vertices;  ///< In the direction in which the face traverses the edge.
 };
 
-/// Finds the edges that have ends of edges that are not regular on them, up to `tolerance` (normalised). An edge of
-/// several faces is listed for each of them.
+/// Finds the edges on which an end of an open edge lies, up to `tolerance` (normalised). An edge is open if its kind is
+/// not Regular. An edge of several faces is listed for each of them.
 [[nodiscard]] std::vector<DividedEdge> findDividedEdges(const TriangleMesh& mesh, const Normalization& unit,
                                                         double tolerance, const EdgeSurvey& survey);
 

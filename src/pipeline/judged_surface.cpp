@@ -66,7 +66,8 @@ class SurfaceBuilder {
     result.components.components = prepared_.components.components;
     for (uint32_t face = 0; face < triangles_.size(); ++face) {
       result.components.componentOf.push_back(prepared_.components.componentOf[triangles_[face]]);
-      // The normal of a narrow piece would be inexact. A part of a face without a normal has none.
+      // Pieces take the normals of their faces, because the normal of a narrow piece would be inexact. The pieces of a
+      // degenerate face are degenerate.
       if (prepared_.geometry.isDegenerate(triangles_[face])) result.geometry.areas[face] = 0;
       if (!result.geometry.isDegenerate(face))
         result.geometry.normals[face] = prepared_.geometry.normals[triangles_[face]];

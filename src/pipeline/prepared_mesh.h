@@ -24,7 +24,7 @@ struct PreparedMesh {
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   /// #V: the vertex that replaces each vertex in `mesh` (closed_surface.h). Empty if no vertex was welded.
   std::vector<uint32_t> vertexOf;
-  bool hasTJunctions = false;  ///< SurfaceEdges::hasTJunctions
+  bool hasTJunctions = false;  ///< See SurfaceEdges::hasTJunctions.
   DualGraph graph;
   std::array<EdgesOfKind, kEdgeKindCount> openEdges;  ///< EdgeSurvey::edges
   Components components;

@@ -12,11 +12,6 @@ namespace {
 /// Because of rounding, distances that differ by at most this number count as equal.
 constexpr double kEqualDistance = 1e-12;
 
-Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
-  const Vec3d edge = b - a;
-  return a + std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0) * edge;
-}
-
 void offer(const TraceScene& scene, uint32_t face, const Vec3d& p, SurfacePoint& best) {
   const PlaneTriangle triangle = triangleOf(scene, face);
   const Vec3d& normal = triangle.normal;
@@ -30,6 +25,11 @@ void offer(const TraceScene& scene, uint32_t face, const Vec3d& p, SurfacePoint&
 }
 
 }  // namespace
+
+Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
+  const Vec3d edge = b - a;
+  return a + std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0) * edge;
+}
 
 Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p) {
   const auto& [a, b, c] = triangle.corners;

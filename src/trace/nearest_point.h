@@ -17,6 +17,8 @@ struct SurfacePoint {
   double side = 0;  ///< Cosine of the angle between the normal and the direction to the query point; above 0 outside.
 };
 
+/// Precondition: a != b.
+[[nodiscard]] Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p);
 [[nodiscard]] Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p);
 
 /// The point of the surface nearest to p. faceOf(primitive face): the face that replaces the primitive face, or kNoFace

@@ -213,15 +213,14 @@ std::optional<Contradiction> DiscCheck::rimNear(uint32_t face, const SurfacePoin
 /// length.
 std::optional<Vec3d> DiscCheck::nearestOnEdge(uint32_t face, size_t k, const SurfacePointDisc& disc) const {
   const std::array<Vec3d, 3> corners = triangleOf(pieces_.tree().scene(), face).corners;
-  const Vec3d edge = corners[(k + 1) % 3] - corners[k];
-  const double square = dot(edge, edge);
-  if (square == 0) return {};
-  const Vec3d nearest = corners[k] + std::clamp(dot(disc.point - corners[k], edge) / square, 0.0, 1.0) * edge;
+  const Vec3d &from = corners[k], &to = corners[(k + 1) % 3];
+  if (from == to) return {};
+  const Vec3d nearest = nearestOnSegment(from, to, disc.point);
   if (length(nearest - disc.point) > kTaperReach * disc.limit) return {};
   return nearest;
 }
 
-/// Visits the other faces at the edge from corner k to the next corner.
+/// Visits the other faces that have the edge from corner k to the next corner.
 void DiscCheck::forEachFaceAtEdge(uint32_t face, size_t k, FunctionRef<void(uint32_t)> visit) const {
   const TriangleMesh& mesh = pieces_.tree().scene().mesh;
   const PointFans& fans = pieces_.fans();
@@ -233,8 +232,9 @@ void DiscCheck::forEachFaceAtEdge(uint32_t face, size_t k, FunctionRef<void(uint
   }
 }
 
-/// Visits the faces on the same side that are connected to the face of the disc by points in reach, near ones first.
-/// visit(face, nearest point, distance) returns whether the walk goes on.
+/// Walks over the surface from the face of the disc. The walk does not leave the ball of radius kTaperReach * limit,
+/// and does not go to the other side of the wall. It visits near faces first. visit(face, nearest point, distance)
+/// returns whether the walk goes on.
 void DiscCheck::forEachFaceAround(const SurfacePointDisc& disc,
                                   FunctionRef<bool(uint32_t, const Vec3d&, double)> visit) {
   const TraceScene& scene = pieces_.tree().scene();
@@ -257,7 +257,7 @@ void DiscCheck::forEachFaceAround(const SurfacePointDisc& disc,
       if (distance > reach) continue;
       if (!visit(face, nearest, distance)) return;
     }
-    // The part of a triangle within a ball is convex. Thus the walk reaches all parts that are connected.
+    // The part of a triangle in the ball is convex. So it is enough to cross edges and vertices in the ball.
     const std::array<Vec3d, 3> corners = triangleOf(scene, face).corners;
     const auto addFan = [&](size_t k) {
       for (const uint32_t corner : fans.cornersAt(fans.pointOf(scene.mesh.faces[face][k]))) add(corner / 3);

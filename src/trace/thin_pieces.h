@@ -17,8 +17,8 @@ inline constexpr uint32_t kNoPiece = 0xffffffff;
 /// Diameters at the corners of pieces are at most this factor of the limit, so that they show how the thickness varies
 /// near the limit.
 inline constexpr double kCornerRange = 2;
-/// Thin regions need pieces whose sides are at most as long as the larger of limit / kPiecesPerLimit and
-/// kMinPieceLength (normalised).
+/// The pieces of thin regions have sides of at most limit / kPiecesPerLimit, or of kMinPieceLength if this is longer
+/// (normalised).
 inline constexpr double kPiecesPerLimit = 4, kMinPieceLength = 0x1p-10;
 
 [[nodiscard]] inline Vec3d middleOf(const std::array<Vec3d, 3>& corners) {

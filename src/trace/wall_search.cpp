@@ -14,7 +14,7 @@ namespace {
 constexpr int kPointsPerPart = 3;
 /// Number of parts that are halved at a time, so that their halves fill the lanes of one traversal of the hierarchy.
 constexpr size_t kPartsPerQuery = 8;
-/// Number of limits per point at which a wall is looked for.
+/// Largest number of limits that are tried at a point.
 constexpr int kLimitsPerPoint = 8;
 /// Each limit is at least this factor of the limit before, except for the greatest limit.
 constexpr double kLimitStep = 1 + 1.0 / 32;

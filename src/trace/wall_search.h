@@ -38,8 +38,9 @@ class WallSearch {
 
   /// The least wall among the given pieces; unset if none is a wall.
   [[nodiscard]] std::optional<WallPlace> leastWall(std::span<const uint32_t> pieces);
-  /// The wall at the least limit from `floor` to the limit L. The search gives up when its work exceeds `maxWork`, a
-  /// number of visited faces (DiscCheck::work(), and a share for each tested point). Throws Error{Cancelled}.
+  /// The wall at the least limit from `floor` to the limit L. The search ends without a result if its work exceeds
+  /// `maxWork`. Work is a number of visited faces (DiscCheck::work()), and a share for each tested point. Throws
+  /// Error{Cancelled}.
   [[nodiscard]] LeastLimit leastLimit(std::span<const uint32_t> pieces, double floor, size_t maxWork,
                                       const RunControl& control);
   /// A detail among the pieces that have no wall.
