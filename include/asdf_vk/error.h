@@ -36,6 +36,7 @@ enum class ErrorCode {
   MeshTooLarge,     ///< The mesh has more vertices, faces or connections between faces than 32 bits can index.
   FarFromOrigin,    ///< The coordinates are so large that double precision does not resolve the mesh.
   InputTooLarge,    ///< The mesh does not fit into memory.
+  TooManyFaces,     ///< The file has more faces than the reader allows (ReadOptions::maxFaces).
   NoValues,         ///< No face has a value.
   TooFewValues,     ///< There are fewer distinct values than clusters.
   ValueOutOfRange,  ///< A value per face from the caller is out of range, or a result does not fit into float32.

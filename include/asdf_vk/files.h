@@ -13,14 +13,22 @@
 
 namespace asdfvk {
 
-/// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF or 3MF. path: "-" is standard input. The content decides the
-/// format. If the content is ambiguous, the extension decides (OBJ and binary STL have no magic number). Files that the
-/// mesh file refers to are not opened. Throws Error{UnreadableInput}, whose message has the file, the line or byte, and
-/// the reason; Error{MeshTooLarge}; Error{InputTooLarge}.
-[[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
+struct ReadOptions {
+  /// Greatest number of faces of the mesh. 0: 100 per byte of the file, and at least 100,000. Small files can describe
+  /// many faces by instances.
+  uint64_t maxFaces = 0;
+};
 
-/// Reads a mesh from the bytes of a mesh file, as readMesh() does. extension: "ply", ".OBJ" or empty.
-[[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
+/// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF or 3MF. path: "-" is standard input. The content decides the
+/// format. If the content is ambiguous, the extension decides (OBJ and binary STL have no magic number). Throws
+/// Error{UnreadableInput}, whose message has the file, the line or byte, and the reason; Error{TooManyFaces} beyond
+/// ReadOptions::maxFaces; Error{MeshTooLarge}; Error{InputTooLarge}.
+[[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Reads a mesh from the bytes of a mesh file, as readMesh() does, but opens no other file. extension: "ply", ".OBJ" or
+/// empty.
+[[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {},
+                                        const ReadOptions& options = {});
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
 /// The extensions are in lower case and without the dot.

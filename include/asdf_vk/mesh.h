@@ -54,6 +54,9 @@ struct Mesh {
   uint32_t statedPartCount = 0;
   /// Contents of the file that are not part of the surface and were left out, for example "12 points".
   std::vector<std::string> skipped = {};
+  /// Number of negative volumes of a 3MF file, which its program subtracts from the other parts. They are not part of
+  /// the mesh, so that the thickness of its walls is not known.
+  uint32_t negativeVolumeCount = 0;
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
   /// #I: the number of faces in the file.

@@ -80,11 +80,11 @@ py::tuple stateOf(const Mesh& mesh) {
   const Polygons& polygons = mesh.polygons;
   return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
                         bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf), mesh.unit, mesh.statedPartCount,
-                        mesh.skipped);
+                        mesh.skipped, mesh.negativeVolumeCount);
 }
 
 Mesh meshOf(const py::tuple& state) {
-  if (state.size() != 8) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have eight members");
+  if (state.size() != 9) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have nine members");
   Mesh mesh;
   readBytes(state[0], mesh.vertices);
   readBytes(state[1], mesh.faces);
@@ -94,6 +94,7 @@ Mesh meshOf(const py::tuple& state) {
   mesh.unit = state[5].cast<std::string>();
   mesh.statedPartCount = state[6].cast<uint32_t>();
   mesh.skipped = state[7].cast<std::vector<std::string>>();
+  mesh.negativeVolumeCount = state[8].cast<uint32_t>();
   return mesh;
 }
 

@@ -152,9 +152,11 @@ JobResult MeshComputer::compute(const Job& job, const Job* next) {
   const Stopwatch watch;
   resetPeakMemory();
   const Deadline deadline(settings_.timeoutSeconds, stop_);
-  LoadedMesh loaded = ahead_.valid() ? ahead_.get() : loadMesh(job.input, settings_.isOfBatch, deadline.token());
+  LoadedMesh loaded =
+      ahead_.valid() ? ahead_.get() : loadMesh(job.input, settings_.reading, settings_.isOfBatch, deadline.token());
   if (next != nullptr && isReadAhead(*next))
-    ahead_ = std::async(std::launch::async, [this, next] { return loadMesh(next->input, settings_.isOfBatch, stop_); });
+    ahead_ = std::async(std::launch::async,
+                        [this, next] { return loadMesh(next->input, settings_.reading, settings_.isOfBatch, stop_); });
   record.inputHash = loaded.hash;
   std::optional<SharedPage> page;
   if (page_ != nullptr) page.emplace(SharedPage{*page_, nameInSharedPage(job)});

@@ -95,11 +95,11 @@ std::string valueOptionsOf(const Options& options) {
   return isSegmented ? "--postprocess and --segment" : "--postprocess";
 }
 
-LoadedMesh loadNow(const std::string& path, bool computesHash) {
+LoadedMesh loadNow(const std::string& path, const ReadOptions& options, bool computesHash) {
   LoadedMesh loaded;
   const Stopwatch watch;
   try {
-    loaded.mesh = readMesh(path, [&](std::span<const char> bytes) {
+    loaded.mesh = readMesh(path, options, [&](std::span<const char> bytes) {
       if (computesHash) loaded.hash = contentHash(bytes);
     });
   } catch (...) {
@@ -194,10 +194,12 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
 
 }  // namespace
 
-LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop) {
-  if (!mayWait(path)) return loadNow(path, computesHash);
+LoadedMesh loadMesh(const std::string& path, const ReadOptions& options, bool computesHash,
+                    const std::stop_token& stop) {
+  if (!mayWait(path)) return loadNow(path, options, computesHash);
   try {
-    std::packaged_task<LoadedMesh()> task([path, computesHash] { return loadNow(path, computesHash); });
+    std::packaged_task<LoadedMesh()> task(
+        [path, options, computesHash] { return loadNow(path, options, computesHash); });
     std::future<LoadedMesh> loaded = task.get_future();
     std::thread(std::move(task)).detach();  // The thread may be blocked in a system call until the process ends.
     while (loaded.wait_for(kStopPollTime) != std::future_status::ready)
@@ -278,7 +280,7 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
   LoadedMesh loaded;
   // Reads the mesh while the device is opened. If opening fails, the program ends when the mesh has been read.
   std::optional<BackgroundTask> reading;
-  if (!mayWait(input)) reading.emplace([&] { loaded = loadNow(input, false); });
+  if (!mayWait(input)) reading.emplace([&] { loaded = loadNow(input, settings.reading, false); });
   std::optional<Session> session;
   try {
     session.emplace(settings.session);
@@ -293,7 +295,7 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
   if (reading)
     reading->wait();
   else
-    loaded = loadMesh(input, false, deadline.token());
+    loaded = loadMesh(input, settings.reading, false, deadline.token());
   const MeshRun run =
       computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
   writeStandardError(run.text);

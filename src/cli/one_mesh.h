@@ -18,6 +18,7 @@ namespace asdfvk {
 struct MeshSettings {
   SessionSettings session;
   ComputationSettings computation;
+  ReadOptions reading;
   Outputs outputs;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
   bool makesFolders = false;  ///< Whether a missing folder of the result is created.
@@ -45,7 +46,8 @@ struct LoadedMesh {
 };
 
 /// Reads a mesh. A stop request ends the wait for a FIFO or for standard input with the failure Error{Cancelled}.
-[[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop);
+[[nodiscard]] LoadedMesh loadMesh(const std::string& path, const ReadOptions& options, bool computesHash,
+                                  const std::stop_token& stop);
 
 /// Outcome of a mesh. `json` and `text` are empty or consist of complete lines.
 struct MeshRun {

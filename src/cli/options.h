@@ -17,6 +17,7 @@ struct CommandLine {
   std::vector<std::string> meshes;
   SessionSettings session;
   ComputationSettings computation;
+  ReadOptions reading;
   Outputs outputs;
   BatchOptions batch;
   bool listDevices = false;
@@ -31,6 +32,7 @@ struct OptionTable {
 
 /// All options of the program, in the order of the help.
 [[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
+[[nodiscard]] OptionRows readingRows();
 [[nodiscard]] OptionRows outputRows();
 
 /// Makes the parser of the program. The options of the parser set `line`.

@@ -43,6 +43,7 @@ std::string optionsHash(const ComputationSettings& computation, const SessionSet
 Json toJson(const MeshSettings& settings) {
   return {{"computation", valuesOf(computationRows(), &settings.computation)},
           {"session", valuesOf(sessionRows(), &settings.session)},
+          {"reading", valuesOf(readingRows(), &settings.reading)},
           {"outputs", valuesOf(outputRows(), &settings.outputs)},
           {"keepsScene", settings.computation.options.keepsScene},
           {"timeoutSeconds", settings.timeoutSeconds},
@@ -54,6 +55,7 @@ MeshSettings settingsOf(const Json& json) {
   MeshSettings settings;
   setValues(computationRows(), &settings.computation, json.at("computation"));
   setValues(sessionRows(), &settings.session, json.at("session"));
+  setValues(readingRows(), &settings.reading, json.at("reading"));
   setValues(outputRows(), &settings.outputs, json.at("outputs"));
   settings.computation.options.keepsScene = json.at("keepsScene");
   settings.timeoutSeconds = json.at("timeoutSeconds");

@@ -35,6 +35,7 @@ ExitCode printDevices(bool requireGpu, bool asJson) {
 MeshSettings settingsOf(const CommandLine& line) {
   return {.session = line.session,
           .computation = line.computation,
+          .reading = line.reading,
           .outputs = line.outputs,
           .timeoutSeconds = line.batch.timeoutSeconds,
           .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),

@@ -13,9 +13,10 @@
 namespace asdfvk {
 namespace {
 
+constexpr const char* kInputGroup = "Input";
 constexpr const char* kPictureGroup = "Picture";
 constexpr const char* kBatchGroup = "Many meshes";
-constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024;
+constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024, kMaxFaceCount = 4294967295;
 
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
@@ -198,6 +199,16 @@ const std::array kOutputRows{
               .needs = "picture"},
 };
 
+const std::array kReadingRows{
+    OptionRow{.name = "max-faces",
+              .group = kInputGroup,
+              .access = ASDFVK_MEMBER(ReadOptions, maxFaces),
+              .range = fromTo(0, kMaxFaceCount),
+              .text = "Refuse a file with more faces. A small file can describe many faces by instances",
+              .placeholder = "N",
+              .defaultText = "100 per byte of the file, and at least 100,000"},
+};
+
 const std::array kBatchRows{
     OptionRow{.name = "recursive",
               .group = kBatchGroup,
@@ -270,6 +281,8 @@ const std::array kDeviceRows{
 
 }  // namespace
 
+OptionRows readingRows() { return kReadingRows; }
+
 OptionRows outputRows() {
   static const auto rows = withGroups(kOutputRows);
   return rows;
@@ -278,11 +291,9 @@ OptionRows outputRows() {
 std::vector<OptionTable> optionTables(CommandLine& line) {
   static const auto batchRows = withGroups(kBatchRows);
   static const auto deviceRows = withGroups(kDeviceRows);
-  return {{computationRows(), &line.computation},
-          {outputRows(), &line.outputs},
-          {batchRows, &line.batch},
-          {sessionRows(), &line.session},
-          {deviceRows, &line}};
+  return {{computationRows(), &line.computation}, {readingRows(), &line.reading},
+          {outputRows(), &line.outputs},          {batchRows, &line.batch},
+          {sessionRows(), &line.session},         {deviceRows, &line}};
 }
 
 std::optional<uint64_t> parseByteCount(const std::string& text) {

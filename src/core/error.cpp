@@ -29,6 +29,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     ErrorRow{ErrorCode::FarFromOrigin, ErrorKind::Input, "farFromOrigin"},
     ErrorRow{ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
+    ErrorRow{ErrorCode::TooManyFaces, ErrorKind::Input, "tooManyFaces"},
     ErrorRow{ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     ErrorRow{ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
     ErrorRow{ErrorCode::ValueOutOfRange, ErrorKind::Input, "valueOutOfRange"},

@@ -22,10 +22,11 @@ Placement Placement::after(const Placement& inner) const {
           point(inner.translation)};
 }
 
-AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize) {
+AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, const MeshSource& source) {
+  requireFaceCount(faceCount, source);
   // Dividing the limits avoids an overflow of the product of two counts in a hostile file.
   constexpr uint64_t kMaxBytesPerByte = 64;
-  const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * fileSize);
+  const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * source.bytes.size());
   if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||
       vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit)
     throw Error(

@@ -7,6 +7,7 @@
 
 #include "asdf_vk/mesh.h"
 #include "core/vec3.h"
+#include "io/formats.h"
 
 namespace asdfvk {
 
@@ -36,9 +37,10 @@ inline constexpr uint64_t kMaxInstanceBytes = uint64_t{1} << 30;
 /// Joins the placed parts of a file into one mesh. Parts share no vertices, so that each part is a separate component.
 class AssembledMesh {
  public:
-  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{MeshTooLarge} if 32-bit indices
-  /// do not suffice, Error{InputTooLarge} if instances exceed the memory limit.
-  AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize);
+  /// vertexCount, faceCount: at least the numbers that add() will receive. Throws Error{TooManyFaces} as
+  /// requireFaceCount(), Error{MeshTooLarge} if 32-bit indices do not suffice, Error{InputTooLarge} if instances exceed
+  /// the memory limit.
+  AssembledMesh(uint64_t vertexCount, uint64_t faceCount, const MeshSource& source);
 
   /// Reverses the faces of a mirrored part, so that its outside stays outside.
   void add(const PartMesh& part, const Placement& placement);

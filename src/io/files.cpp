@@ -93,33 +93,42 @@ const FileFormat& findResultFormat(const std::filesystem::path& path, const std:
   throw Error(ErrorCode::UnknownFormat, fmt::format("{}; results are written as {}", reason, listOf(isResultFormat)));
 }
 
-}  // namespace
-
-Mesh parseMesh(std::span<const char> bytes, std::string_view extension) {
-  if (bytes.empty()) failInput("is empty");
-  const FileFormat* const format = detectFormat(bytes, extension);
+/// extension: decides the format of an ambiguous content.
+Mesh parse(const MeshSource& source, std::string_view extension) {
+  if (source.bytes.empty()) failInput("is empty");
+  const FileFormat* const format = detectFormat(source.bytes, extension);
   if (format == nullptr || !isMeshFormat(*format))
     failInput(fmt::format("has {}; meshes are read from {}",
                           format == nullptr ? "an unknown format" : fmt::format("the format {}", format->name),
                           listOf(isMeshFormat)));
-  return format->parseMesh(bytes);
+  Mesh mesh = format->parseMesh(source);
+  requireFaceCount(mesh.inputFaceCount(), source);
+  return mesh;
 }
 
-Mesh readMesh(const std::filesystem::path& path, const std::function<void(std::span<const char>)>& inspect) {
+}  // namespace
+
+Mesh parseMesh(std::span<const char> bytes, std::string_view extension, const ReadOptions& options) {
+  return parse({.bytes = bytes, .options = options}, extension);
+}
+
+Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
+              const std::function<void(std::span<const char>)>& inspect) {
   const std::string name = path == "-" ? "standard input" : path.string();
   try {
     const UnsetVector<char> bytes = bytesOf(path);
     inspect(bytes);
-    return parseMesh(bytes, path.extension().string());
+    return parse({.bytes = bytes, .path = path == "-" ? std::filesystem::path() : path, .options = options},
+                 path.extension().string());
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", name, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", name, error.what()), error.details());
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::InputTooLarge, fmt::format("{}: does not fit into memory", name));
   }
 }
 
-Mesh readMesh(const std::filesystem::path& path) {
-  return readMesh(path, [](std::span<const char>) {});
+Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options) {
+  return readMesh(path, options, [](std::span<const char>) {});
 }
 
 std::filesystem::path besidePathOf(const std::filesystem::path& path) { return path.string() + ".mtl"; }

@@ -1,7 +1,10 @@
 #include "io/formats.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
+#include "asdf_vk/error.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -16,6 +19,21 @@ constexpr std::array<const FileFormat*, 10> kFormats{&kStlFormat, &kPlyFormat, &
                                                      &k3mfFormat, &kVtuFormat, &kNpyFormat, &kNpzFormat, &kCsvFormat};
 
 }  // namespace
+
+uint64_t MeshSource::maxFaceCount() const {
+  constexpr uint64_t kFacesPerByte = 100, kSmallestLimit = 100'000;
+  return options.maxFaces != 0 ? options.maxFaces : std::max(kSmallestLimit, kFacesPerByte * bytes.size());
+}
+
+void requireFaceCount(uint64_t faceCount, const MeshSource& source) {
+  const uint64_t limit = source.maxFaceCount();
+  if (faceCount <= limit) return;
+  const std::string which =
+      source.options.maxFaces != 0 ? "" : fmt::format(" for a file of {}", counted(source.bytes.size(), "byte"));
+  throw Error(ErrorCode::TooManyFaces,
+              fmt::format("has {}; the limit{} is {}", counted(faceCount, "face"), which, groupDigits(limit)),
+              {{"limit", std::to_string(limit)}});
+}
 
 std::span<const FileFormat* const> fileFormats() { return kFormats; }
 

@@ -7,12 +7,26 @@
 #include <vector>
 
 #include "asdf_vk/field.h"
+#include "asdf_vk/files.h"
 #include "asdf_vk/mesh.h"
 
 namespace asdfvk {
 
 class AtomicFile;
 class ResultView;
+
+/// The bytes of a mesh file, and what its reader may use.
+struct MeshSource {
+  std::span<const char> bytes;
+  std::filesystem::path path = {};  ///< Empty for standard input and for bytes in memory: there are no files beside.
+  ReadOptions options = {};
+
+  /// The greatest number of faces that the reader may return.
+  [[nodiscard]] uint64_t maxFaceCount() const;
+};
+
+/// Throws Error{TooManyFaces} if faceCount is greater than source.maxFaceCount().
+void requireFaceCount(uint64_t faceCount, const MeshSource& source);
 
 /// How certainly the content has a format. The extension overrides Match::Possible; Match::Certain overrides the
 /// extension.
@@ -29,8 +43,9 @@ struct FileFormat {
   /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Polygons are triangulated and
   /// stored in Mesh::polygons (mesh/input_faces.h). Memory: at most 64 times the size of the input, plus a few MB.
   /// Throws Error{UnreadableInput} for a file that is truncated, has further bytes after its end, has an index out of
-  /// range, or has no face with three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h.
-  Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
+  /// range, or has no face with three corners; Error{MeshTooLarge} for a mesh beyond the limits of mesh/mesh.h. A
+  /// format in which a small file can have many faces calls requireFaceCount() before it makes them.
+  Mesh (*parseMesh)(const MeshSource& source) = nullptr;
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;

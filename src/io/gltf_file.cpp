@@ -163,7 +163,8 @@ uint32_t GltfAccessor::indexAt(uint64_t i) const {
   return wholeAt({elementAt(i), 0, base_.componentType}, 0);
 }
 
-GltfFile::GltfFile(std::span<const char> bytes) : size_(bytes.size()) {
+GltfFile::GltfFile(const MeshSource& source) : source_(source) {
+  const std::span<const char> bytes = source.bytes;
   if (std::string_view(bytes.data(), bytes.size()).starts_with("glTF"))
     readBinary(bytes);
   else
@@ -336,7 +337,8 @@ GltfAccessor GltfFile::open(uint64_t index, const char* type, uint32_t component
         elementsOf(json, accessor.count_, static_cast<uint32_t>(component), componentCount, !isIndex, where);
   } else {
     // Elements that are not sparse are 0. The limit prevents large meshes from small files.
-    if (accessor.count_ > size_) failGltf(where, "has more elements without a buffer view than the file has bytes");
+    if (accessor.count_ > source_.bytes.size())
+      failGltf(where, "has more elements without a buffer view than the file has bytes");
     accessor.base_.componentType = static_cast<uint32_t>(component);
   }
   if (sparse == nullptr) return accessor;

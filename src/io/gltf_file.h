@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/vec3.h"
+#include "io/formats.h"
 
 /// Access to a glTF 2.0 document, in a .glb file or in a .gltf file with embedded data. All offsets and counts are
 /// checked against the size of the file. All functions throw Error{UnreadableInput}; the message begins with `where`,
@@ -55,11 +56,10 @@ class GltfAccessor {
 
 class GltfFile {
  public:
-  /// `bytes` must outlive this object.
-  explicit GltfFile(std::span<const char> bytes);
+  /// `source` must outlive this object.
+  explicit GltfFile(const MeshSource& source);
 
   [[nodiscard]] const GltfJson& document() const { return document_; }
-  [[nodiscard]] uint64_t size() const { return size_; }
   [[nodiscard]] uint64_t countOf(const char* array) const;
   /// Returns an item of an array of the document, for example of "nodes".
   [[nodiscard]] const GltfJson& item(const char* array, uint64_t index, std::string_view where) const;
@@ -79,7 +79,7 @@ class GltfFile {
                                                   std::string_view where) const;
   [[nodiscard]] GltfAccessor open(uint64_t accessor, const char* type, uint32_t componentCount, bool isIndex) const;
 
-  uint64_t size_;
+  const MeshSource& source_;
   GltfJson document_;
   std::span<const char> binary_;  ///< The BIN chunk; empty if the file has none.
   bool hasBinary_ = false;

@@ -45,7 +45,7 @@ struct GltfVisit {
 
 class GltfReader {
  public:
-  explicit GltfReader(std::span<const char> bytes) : file_(bytes) {}
+  explicit GltfReader(const MeshSource& source) : source_(source), file_(source) {}
 
   Mesh read() {
     const uint64_t meshCount = file_.countOf("meshes");
@@ -64,7 +64,7 @@ class GltfReader {
       faceCount = std::min(faceCount + product(faces, useCounts[mesh]), kTooMany);
     }
     if (faceCount == 0) failWithoutFaces(meshCount);
-    AssembledMesh assembled(vertexCount, faceCount, file_.size());
+    AssembledMesh assembled(vertexCount, faceCount, source_);
     std::vector<std::optional<PartMesh>> parts(meshCount);  // Parts that later nodes may use again.
     forEachInstance([&](uint64_t mesh, const Placement& placement) {
       if (!parts[mesh]) parts[mesh] = partOf(mesh);
@@ -272,6 +272,7 @@ class GltfReader {
     return texts;
   }
 
+  const MeshSource& source_;
   GltfFile file_;
   bool isFirstPass_ = true;
   uint64_t pointCount_ = 0, lineCount_ = 0, skinCount_ = 0, morphCount_ = 0;
@@ -283,7 +284,7 @@ Match detectGltf(std::span<const char> bytes) {
   return firstWord(bytes).starts_with('{') ? Match::Possible : Match::None;
 }
 
-Mesh parseGltf(std::span<const char> bytes) { return GltfReader(bytes).read(); }
+Mesh parseGltf(const MeshSource& source) { return GltfReader(source).read(); }
 
 }  // namespace
 

@@ -4,12 +4,13 @@
 #include <functional>
 #include <span>
 
+#include "asdf_vk/files.h"
 #include "asdf_vk/mesh.h"
 
 namespace asdfvk {
 
-/// Like readMesh(path), but calls `inspect` with the bytes of the file before they are parsed.
-[[nodiscard]] Mesh readMesh(const std::filesystem::path& path,
+/// Like readMesh(path, options), but calls `inspect` with the bytes of the file before they are parsed.
+[[nodiscard]] Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
                             const std::function<void(std::span<const char>)>& inspect);
 
 }  // namespace asdfvk

@@ -127,7 +127,7 @@ Match detectObj(std::span<const char> bytes) {
   return isKeyword(firstWord(bytes, '#')) ? Match::Possible : Match::None;
 }
 
-Mesh parseObj(std::span<const char> bytes) { return ObjReader(bytes).read(); }
+Mesh parseObj(const MeshSource& source) { return ObjReader(source.bytes).read(); }
 
 }  // namespace
 

@@ -130,8 +130,8 @@ Match detectOff(std::span<const char> bytes) {
   return parseKeyword(firstWord(bytes, '#')) ? Match::Certain : Match::None;
 }
 
-Mesh parseOff(std::span<const char> bytes) {
-  TextScanner text(bytes, {.comment = '#'});
+Mesh parseOff(const MeshSource& source) {
+  TextScanner text(source.bytes, {.comment = '#'});
   const OffHeader header = readHeader(text);
   const uint64_t vertexCount = readCount(text, "the vertex count");
   const uint64_t faceCount = readCount(text, "the face count");

@@ -140,7 +140,8 @@ class PlyBody {
 
 Match detectPly(std::span<const char> bytes) { return firstWord(bytes) == "ply" ? Match::Certain : Match::None; }
 
-Mesh parsePly(std::span<const char> bytes) {
+Mesh parsePly(const MeshSource& source) {
+  const std::span<const char> bytes = source.bytes;
   constexpr bool kIsHostLittle = std::endian::native == std::endian::little;
   const PlyHeader header = parsePlyHeader(bytes);
   if (header.encoding == PlyEncoding::Ascii) return PlyBody<PlyAsciiSource>(bytes, header).read();

@@ -123,7 +123,8 @@ Match detectStl(std::span<const char> bytes) {
   return hasBinarySize(bytes) || beginsWithSolid(bytes) ? Match::Certain : Match::None;
 }
 
-Mesh parseStl(std::span<const char> bytes) {
+Mesh parseStl(const MeshSource& source) {
+  const std::span<const char> bytes = source.bytes;
   // Binary files may also begin with "solid", but have a zero byte; a text has none.
   const std::string_view beginning(bytes.data(), std::min<size_t>(bytes.size(), 1024));
   const bool hasZeroByte = beginning.find('\0') != std::string_view::npos;

@@ -38,7 +38,8 @@ uint64_t memoryLimit(size_t archiveBytes) {
 
 class ThreeMfReader {
  public:
-  explicit ThreeMfReader(std::span<const char> bytes) : archive_(bytes), models_(memoryLimit(bytes.size())) {}
+  explicit ThreeMfReader(const MeshSource& source)
+      : source_(source), archive_(source.bytes), models_(memoryLimit(source.bytes.size())) {}
 
   Mesh read();
 
@@ -52,6 +53,7 @@ class ThreeMfReader {
     return fmt::format("object {} of {}", use.object, printable(models_.model(use.model).path));
   }
 
+  const MeshSource& source_;
   ZipArchive archive_;
   ModelList models_;
   std::map<std::pair<size_t, uint64_t>, ObjectCounts> counts_;
@@ -147,7 +149,7 @@ Mesh ThreeMfReader::read() {
     failInput(model.items.empty() ? "builds nothing: it has no build item"
                                   : fmt::format("has {} and no triangle: nothing to compute on",
                                                 skipped.empty() ? "build items" : joined(skipped, " and ")));
-  AssembledMesh assembled(all.vertices, all.faces, archive_.bytes().size());
+  AssembledMesh assembled(all.vertices, all.faces, source_);
   for (const ObjectUse& item : model.items) place(item, {}, micrometresOf(*model.unit), assembled);
   Mesh mesh = assembled.finish();
   mesh.unit = model.unit->unit;
@@ -159,7 +161,7 @@ Match detect3mf(std::span<const char> bytes) {
   return std::string_view(bytes.data(), bytes.size()).starts_with("PK\x03\x04") ? Match::Possible : Match::None;
 }
 
-Mesh parse3mf(std::span<const char> bytes) { return ThreeMfReader(bytes).read(); }
+Mesh parse3mf(const MeshSource& source) { return ThreeMfReader(source).read(); }
 
 }  // namespace
 

@@ -32,6 +32,7 @@ const std::vector<Row> kRows{
     {ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     {ErrorCode::FarFromOrigin, ErrorKind::Input, "farFromOrigin"},
     {ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
+    {ErrorCode::TooManyFaces, ErrorKind::Input, "tooManyFaces"},
     {ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     {ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
     {ErrorCode::ValueOutOfRange, ErrorKind::Input, "valueOutOfRange"},

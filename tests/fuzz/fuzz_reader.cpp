@@ -73,7 +73,7 @@ int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
   try {
     const std::span bytes(reinterpret_cast<const char*>(data), size);
     static_cast<void>(detectFormat(bytes, ""));
-    const Mesh mesh = format.parseMesh(bytes);
+    const Mesh mesh = format.parseMesh({.bytes = bytes});
     isCounting = false;
     requireSound(mesh);
   } catch (const Error& error) {

@@ -16,7 +16,7 @@ namespace asdfvk::test {
 
 /// The mesh that the reader of the format makes of the text.
 inline Mesh parse(std::string_view format, std::string_view text) {
-  return formatOfExtension(format)->parseMesh(std::span(text.data(), text.size()));
+  return formatOfExtension(format)->parseMesh({.bytes = std::span(text.data(), text.size())});
 }
 
 /// The message of the Error{UnreadableInput} that parsing throws; "no error" without one.
