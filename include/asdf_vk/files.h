@@ -17,6 +17,8 @@ struct ReadOptions {
   /// Greatest number of faces of the mesh. 0: 100 per byte of the file, and at least 100,000. Small files can describe
   /// many faces by instances.
   uint64_t maxFaces = 0;
+  /// Decides the format of an ambiguous content: "stl", ".OBJ". Empty: the extension of the path.
+  std::string format = {};
 };
 
 /// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF or 3MF. path: "-" is standard input. The content decides the
@@ -25,10 +27,8 @@ struct ReadOptions {
 /// ReadOptions::maxFaces; Error{MeshTooLarge}; Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Reads a mesh from the bytes of a mesh file, as readMesh() does, but opens no other file. extension: "ply", ".OBJ" or
-/// empty.
-[[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {},
-                                        const ReadOptions& options = {});
+/// Reads a mesh from the bytes of a mesh file, as readMesh() does, but opens no other file.
+[[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, const ReadOptions& options = {});
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
 /// The extensions are in lower case and without the dot.

@@ -80,6 +80,8 @@ enum class WarningCode {
   PartCountDiffers,     ///< The number of parts differs from the requested number.
   OnlySmallComponents,  ///< No component has 1 % of the area, so that each component is a part.
   SkippedContent,       ///< Contents of the file other than the surface were left out.
+  NegativeVolumes,      ///< Negative volumes of the file were not subtracted from the surface. Details: count.
+  CoarseCoordinates,    ///< The coordinates are float32 values far from the origin. Details: step.
   UncertainParts,  ///< The parts depend on the number of patches, which are the small regions that are merged to parts.
   CoarseParts,     ///< The faces are too large for exact boundaries of parts.
 };
@@ -234,14 +236,19 @@ enum class ThicknessVerdict {
 
 /// Why faces cannot be compared with a limit.
 enum class UnjudgedCause {
-  Border,        ///< The surface is open: edges with one face. A thin wall may be missing there.
-  Branching,     ///< Edges with three faces or another odd number: inside and outside are not defined.
-  WoundAgainst,  ///< Edges whose faces are wound against each other.
-  Inverted,      ///< Bodies wound inwards.
-  DoubleSided,   ///< Each face has a copy that is wound the other way: there is no material.
+  Border,             ///< The surface is open: edges with one face. A thin wall may be missing there.
+  Branching,          ///< Edges with three faces or another odd number: inside and outside are not defined.
+  WoundAgainst,       ///< Edges whose faces are wound against each other.
+  Inverted,           ///< Bodies wound inwards.
+  DoubleSided,        ///< Each face has a copy that is wound the other way: there is no material.
+  NegativeVolumes,    ///< The file has negative volumes, which were not subtracted from the bodies.
+  CoarseCoordinates,  ///< The steps of the coordinates, which are float32 values, exceed a quarter of the limit.
 };
 /// The name of an enumerator with a small first letter, for example "woundAgainst".
 [[nodiscard]] ASDFVK_API const char* nameOf(UnjudgedCause cause);
+/// Whether the cause makes the whole surface uncertain. A thin wall may then be no wall of the shape: the verdict is
+/// NotJudged in any case.
+[[nodiscard]] ASDFVK_API bool concernsWholeMesh(UnjudgedCause cause);
 
 /// A cause for which faces cannot be judged, and where.
 struct UnjudgedReason {
@@ -251,6 +258,8 @@ struct UnjudgedReason {
   uint64_t face = 0;                            ///< The first input face with this cause.
   Vec3d place;                                  ///< A point of this face, on the edge if the cause is at an edge.
   bool isRepairable = false;                    ///< The orientation "auto" removes the cause.
+  /// Number of negative volumes, or the step of the coordinates in the unit of the mesh. 0 for the other causes.
+  double amount = 0;
 };
 
 /// Input faces for which the comparison with a limit is impossible or uncertain.

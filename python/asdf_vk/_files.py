@@ -1,7 +1,8 @@
 from __future__ import annotations
 
+import operator
 import os
-from typing import Any, Mapping, Sequence
+from typing import Any, BinaryIO, Mapping, Sequence
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -14,15 +15,42 @@ from ._session import flag_of
 Mesh = _core.Mesh
 
 
-def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+def read_mesh(
+    source: str | os.PathLike[str] | bytes | bytearray | memoryview | BinaryIO,
+    *,
+    format: str | None = "",
+    max_faces: int | None = None,
+) -> Mesh:
     """Reads a PLY, OFF, OBJ, STL, GLB, glTF or 3MF file. Keeps all faces, in the order of the file.
+
+    source: a path; or the mesh file as bytes, or a binary file object, which is read to its end. Bytes are never a path.
+    format: "ply", "off", "obj", "stl", "glb", "gltf" or "3mf", if the content is ambiguous (OBJ, binary STL). Empty:
+        the extension of the path.
+    max_faces: refuse a mesh with more faces. None: 100 per byte of the file, and at least 100,000.
 
     The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. If a face of the file is
     not a triangle, `faces` has the triangles into which the faces are cut. `face_of_triangle` (m,) then has the index
     of the file's face for each triangle, and functions return a value per face of the file (`face_count` values).
     Raises InputError.
     """
-    return _core.read_mesh(_path(path))
+    name = "" if format is None else format
+    if not isinstance(name, str) or (name and name.lower() not in _core.mesh_extensions()):
+        known = ", ".join(_core.mesh_extensions())
+        raise error_of("unknownFormat", f"format={format!r} is not one of {known}")
+    limit = 0 if max_faces is None else _face_limit(max_faces)
+    if not isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)):
+        read = getattr(source, "read", None)
+        if not callable(read):
+            raise error_of("optionOutOfRange", f"{type(source).__name__} is not a path, bytes or a binary file object")
+        source = read()
+        if not isinstance(source, (bytes, bytearray, memoryview)):
+            raise error_of("optionOutOfRange", "the file object returns text; open it in binary mode")
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return _core.parse_mesh(bytes(source) if isinstance(source, memoryview) else source, name, limit)
+    if isinstance(source, str) and (len(source) > 1000 or "\n" in source) and not os.path.exists(source):
+        start = source.lstrip()[:20]
+        raise error_of("unreadableInput", f"{start!r}... is not the path of a file; give a mesh in memory as bytes")
+    return _core.read_mesh(_path(source), name, limit)
 
 
 def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: ArrayLike) -> Mesh:
@@ -97,6 +125,16 @@ def write(
     if vertex_fields is None and isinstance(fields, Info):
         per_vertex = _arrays_of(fields.vertex_fields)
     _core.write(target, argument, per_face, per_vertex, format, bool(ascii))
+
+
+def _face_limit(value: Any) -> int:
+    try:
+        count = operator.index(value)
+    except TypeError:
+        count = 0
+    if isinstance(value, bool) or not 1 <= count < 2**32:
+        raise error_of("optionOutOfRange", f"max_faces={value!r} is not a whole number from 1 to 4294967295")
+    return count
 
 
 def _report_of(result: Any) -> _core.ShownReport | None:

@@ -20,10 +20,20 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-Mesh readWithoutGil(const std::filesystem::path& path) {
+Mesh readWithoutGil(const std::filesystem::path& path, const std::string& format, uint64_t maxFaces) {
   requireSameProcess();
   const GilRelease released;
-  return readMesh(path);
+  return readMesh(path, {.maxFaces = maxFaces, .format = format});
+}
+
+/// bytes: a contiguous buffer.
+Mesh parseWithoutGil(const py::buffer& bytes, const std::string& format, uint64_t maxFaces) {
+  requireSameProcess();
+  const py::buffer_info info = bytes.request();
+  const std::span<const char> contents(static_cast<const char*>(info.ptr),
+                                       static_cast<size_t>(info.size * info.itemsize));
+  const GilRelease released;
+  return parseMesh(contents, {.maxFaces = maxFaces, .format = format});
 }
 
 py::array verticesOf(const py::object& self) {
@@ -120,6 +130,8 @@ void bindFiles(py::module_& module) {
       .def(py::pickle([](const Mesh& mesh) { return stateOf(mesh); },
                       [](const py::tuple& state) { return meshOf(state); }));
   module.def("read_mesh", readWithoutGil);
+  module.def("parse_mesh", parseWithoutGil);
+  module.def("mesh_extensions", meshExtensions);
   module.def("mesh_of_polygons", meshOfPolygons);
   module.def("write", write);
   module.def("write_points", writePointsOf);

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import base64
 import copy
+import io
 import pickle
 import xml.etree.ElementTree
 from pathlib import Path
@@ -24,6 +25,44 @@ def test_a_mesh_survives_a_file(tmp_path: Path) -> None:
         np.testing.assert_array_equal(mesh.faces, faces)
         assert mesh.face_count == len(faces) and mesh.face_of_triangle is None
         assert not mesh.vertices.flags.writeable
+
+
+def test_a_mesh_is_read_from_bytes_and_from_binary_files(tmp_path: Path) -> None:
+    vertices, faces = cube()
+    asdf_vk.write(tmp_path / "mesh.ply", (vertices, faces))
+    data = (tmp_path / "mesh.ply").read_bytes()
+    with open(tmp_path / "mesh.ply", "rb") as file:
+        for source in (data, bytearray(data), memoryview(data), memoryview(data + data)[: len(data)], io.BytesIO(data),
+                       file):
+            np.testing.assert_array_equal(asdf_vk.read_mesh(source).faces, faces)
+    corners = vertices[faces].astype("<f4")
+    facets = np.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    facets["corners"] = corners
+    binary = bytes(80) + len(faces).to_bytes(4, "little") + facets.tobytes()
+    assert asdf_vk.read_mesh(binary).face_count == len(faces)
+    ambiguous = b"# no keyword\n" + b"".join(b"v %g %g %g\n" % tuple(p) for p in vertices) + b"f 1 2 3\n"
+    assert asdf_vk.read_mesh(ambiguous, format="obj").face_count == 1
+    (tmp_path / "nameless").write_bytes(ambiguous)
+    assert asdf_vk.read_mesh(tmp_path / "nameless", format="OBJ", max_faces=1).face_count == 1
+    with pytest.raises(asdf_vk.InputError, match="12 faces; the limit is 11"):
+        asdf_vk.read_mesh(data, max_faces=11)
+
+
+def test_what_is_no_mesh_file_is_refused_with_a_short_message(tmp_path: Path) -> None:
+    text = "solid x\n" + "facet normal 0 0 1\n" * 1000
+    for source, message in (
+        (text, "is not the path of a file; give a mesh in memory as bytes"),
+        (tmp_path / "absent.stl", "absent.stl: cannot be opened: No such file"),
+        (b"", "is empty"),
+        (io.StringIO(text), "open it in binary mode"),
+        (3, "int is not a path, bytes or a binary file object"),
+    ):
+        with pytest.raises(asdf_vk.Error) as failure:
+            asdf_vk.read_mesh(source)  # type: ignore[arg-type]
+        assert message in str(failure.value) and len(str(failure.value)) < 300
+    for options in ({"format": "vtu"}, {"format": 3}, {"max_faces": 0}, {"max_faces": True}, {"max_faces": 1.5}):
+        with pytest.raises(asdf_vk.UsageError):
+            asdf_vk.read_mesh(b"", **options)  # type: ignore[arg-type]
 
 
 def _vtu_fields(path: Path, element: str) -> dict[str, Any]:

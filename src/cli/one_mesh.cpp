@@ -16,9 +16,11 @@
 #include "batch/output_record.h"
 #include "cli/outputs.h"
 #include "cli/report.h"
+#include "core/atomic_file.h"
 #include "core/background_task.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "io/grouped_files.h"
 #include "io/inspected_mesh.h"
 #include "mesh/orientation.h"
 #include "process/browser.h"
@@ -142,27 +144,33 @@ class MeshFiles {
   }
 
   /// Writes nothing if the output is empty. Precondition: the output is not a page.
-  void writeResult(Mesh& mesh, const Options& options, const Result& result) const {
+  void writeResult(AtomicFiles& files, Mesh& mesh, const Options& options, const Result& result) const {
     if (output_.empty()) return;
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
     flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has its own copy of the faces.
     const AwaitedReader reader(output_, stop_);
-    asdfvk::writeResult(output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
+    asdfvk::writeResult(files, output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
   }
 
-  void writePoints(const Result& result) const {
+  void writePage(AtomicFiles& files, const Page& page) const {
+    const AwaitedReader reader(output_, stop_);
+    asdfvk::writePage(files, output_, page);
+  }
+
+  void writePoints(AtomicFiles& files, const Result& result) const {
     if (settings_.outputs.points.empty()) return;
     const AwaitedReader reader(settings_.outputs.points, stop_);
-    asdfvk::writePoints(settings_.outputs.points, result.fields, {stop_, {}, {}});
+    asdfvk::writePoints(files, settings_.outputs.points, result.fields, {stop_, {}, {}});
   }
 
   /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.
-  void writePicture(const Result& result, const Field* field) const {
+  void writePicture(AtomicFiles& files, const Result& result, const Field* field) const {
     const Outputs& outputs = settings_.outputs;
     const AwaitedReader reader(outputs.picture, stop_);
     const View view = viewOf(outputs.pictureView, input_, result, field == nullptr && !outputs.choosesView);
-    withProgress(
-        [&](const RunControl& control) { writePng(outputs.picture, pictureOf(result, field, view, {}, control)); });
+    withProgress([&](const RunControl& control) {
+      writePng(files, outputs.picture, pictureOf(result, field, view, {}, control));
+    });
   }
 
  private:
@@ -238,15 +246,18 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     const MeshOutcome outcome{input, output, settings.computation, settings.session, settings.outputs, result};
     const Stopwatch watch;
     removeOutputRecord(output);
+    AtomicFiles written;
     if (page == nullptr) {
-      files.writeResult(loaded.mesh, settings.computation.options, result);
+      files.writeResult(written, loaded.mesh, settings.computation.options, result);
     } else {
       files.withProgress([&](const RunControl& control) { addToPage(*page, outcome, shown, control); });
-      if (ownPage) finishPage(*ownPage, output, settings.outputs.opensPage, deadline.token());
+      if (ownPage) files.writePage(written, *ownPage);
     }
-    files.writePoints(result);
+    files.writePoints(written, result);
     seconds[Stage::Write] = watch.seconds();
-    if (hasPicture) files.writePicture(result, pictureField);
+    if (hasPicture) files.writePicture(written, result, pictureField);
+    written.commit();
+    if (ownPage && settings.outputs.opensPage) openInBrowser(output);
     addReport(outcome, settings.isOfBatch, run);
   };
 

@@ -211,15 +211,18 @@ void AtomicFile::commit() {
   temporary_.clear();
 }
 
-void AtomicFile::commitBoth(AtomicFile& first, AtomicFile& second) {
-  first.close();
-  second.close();
-  const bool isNew = !std::filesystem::exists(first.target_);
-  first.commit();
+void AtomicFiles::finish(AtomicFile& file) { file.temporary_.empty() ? file.close() : file.flush(); }
+
+void AtomicFiles::commit() {
+  for (const auto& file : files_) file->close();
+  std::vector<std::filesystem::path> made;
   try {
-    second.commit();
+    for (const auto& file : files_) {
+      if (!file->temporary_.empty() && !std::filesystem::exists(file->target_)) made.push_back(file->target_);
+      file->commit();
+    }
   } catch (...) {
-    if (isNew) ::unlink(first.target_.c_str());
+    for (const std::filesystem::path& path : made) ::unlink(path.c_str());
     throw;
   }
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace asdfvk {
 
@@ -52,13 +53,10 @@ class AtomicFile {
 
   void commit();
 
-  /// Commits two files. Both temporary files are complete before the first is renamed. If the second cannot be renamed,
-  /// the target of the first is removed; a target that replaced a file remains.
-  static void commitBoth(AtomicFile& first, AtomicFile& second);
-
   static constexpr size_t kMaxReserve = size_t{1} << 16;
 
  private:
+  friend class AtomicFiles;
   static constexpr size_t kBufferSize = size_t{1} << 20;
 
   void openTemporary();
@@ -76,6 +74,25 @@ class AtomicFile {
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
+};
+
+/// Files that appear together or not at all. All temporary files are complete before commit() renames the first. If a
+/// file cannot be renamed, the targets of the files before it are removed; a target that replaced a file remains.
+class AtomicFiles {
+ public:
+  /// Calls write(file) for a new file. Targets that have no temporary file are complete on return.
+  template <typename Write>
+  void write(const std::filesystem::path& target, const Write& write) {
+    AtomicFile& file = *files_.emplace_back(std::make_unique<AtomicFile>(target));
+    write(file);
+    finish(file);
+  }
+  void commit();
+
+ private:
+  static void finish(AtomicFile& file);
+
+  std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
 /// Resolves the symbolic links at the end of the path. The file itself need not exist.

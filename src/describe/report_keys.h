@@ -15,11 +15,12 @@ inline constexpr std::array kStageNames{"read", "geometry", "graph", "bvh", "enc
     "thickness", "predict", "solve", "estimate", "smooth", "postprocess", "segment", "write"};
 inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "facesReversed",
     "missingValues", "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged",
-    "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts",
-    "coarseParts"};
+    "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "negativeVolumes",
+    "coarseCoordinates", "uncertainParts", "coarseParts"};
 inline constexpr std::array kThinKindNames{"wall", "detail", "edge"};
 inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
-inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided"};
+inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided",
+    "negativeVolumes", "coarseCoordinates"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
 template <typename Visit, typename... Members>
@@ -45,7 +46,7 @@ ASDFVK_KEYS(SolverReport, name, iterations, relativeResidual, converged, finishe
 ASDFVK_KEYS(ValueRange, min, percentile1, median, percentile99, max)
 ASDFVK_KEYS(PostprocessReport, min, max)
 ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShares)
-ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable)
+ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable, amount)
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
 ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, least, angleDegrees, width, faceCount, area, areaShare)

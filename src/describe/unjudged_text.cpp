@@ -12,6 +12,8 @@ namespace {
 
 constexpr size_t kShortTextSize = 88;  // A line of the short report has at most 100 columns.
 
+uint64_t negativeCountOf(const UnjudgedReason& reason) { return static_cast<uint64_t>(reason.amount); }
+
 /// "24 faces of open components: 8 edges have one face, the first at (1, 2, 3), face 4; close the mesh".
 std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
   const std::string faces = counted(reason.faceCount, "face"), edges = counted(reason.edgeCount, "edge");
@@ -43,6 +45,18 @@ std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
           "{} have a copy that is wound the other way, the first {}: a double-sided surface bounds no "
           "material; remove the copies",
           faces, place);
+      break;
+    case UnjudgedCause::NegativeVolumes:
+      text = fmt::format(
+          "{}: {} of the file {} not subtracted; subtract {} in the program that wrote the file, and export the result",
+          faces, counted(negativeCountOf(reason), "negative volume"), negativeCountOf(reason) == 1 ? "was" : "were",
+          negativeCountOf(reason) == 1 ? "it" : "them");
+      break;
+    case UnjudgedCause::CoarseCoordinates:
+      text = fmt::format(
+          "{}: the coordinates have steps of {:.3g}, more than a quarter of the limit, because they are float32 values "
+          "far from the origin; move the mesh to the origin before it is written",
+          faces, reason.amount);
       break;
   }
   return withSpelledOptions(computationRows(), text, spelling);
@@ -85,8 +99,16 @@ ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spell
     case UnjudgedCause::DoubleSided:
       text = counted(reason.faceCount, "double-sided face");
       break;
+    case UnjudgedCause::NegativeVolumes:
+      text = counted(negativeCountOf(reason), "negative volume") + " not subtracted";
+      remedy = "; subtract before the export";
+      break;
+    case UnjudgedCause::CoarseCoordinates:
+      text = fmt::format("coordinates have steps of {:.3g}", reason.amount);
+      remedy = "; move the mesh to the origin";
+      break;
   }
-  text += ", first " + placeText(reason.place, reason.face);
+  if (!concernsWholeMesh(reason.cause)) text += ", first " + placeText(reason.place, reason.face);
   remedy = withSpelledOptions(computationRows(), remedy, spelling);
   if (text.size() + remedy.size() <= kShortTextSize) text += remedy;
   if (const std::string more = fmt::format("; {} more", unjudged.reasons.size() - 1);

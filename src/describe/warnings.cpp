@@ -30,6 +30,9 @@ const char* nameOf(Stage stage) { return kStageNames[static_cast<size_t>(stage)]
 const char* nameOf(ThinKind kind) { return kThinKindNames[static_cast<size_t>(kind)]; }
 const char* nameOf(ThicknessVerdict verdict) { return kThicknessVerdictNames[static_cast<size_t>(verdict)]; }
 const char* nameOf(UnjudgedCause cause) { return kUnjudgedCauseNames[static_cast<size_t>(cause)]; }
+bool concernsWholeMesh(UnjudgedCause cause) {
+  return cause == UnjudgedCause::NegativeVolumes || cause == UnjudgedCause::CoarseCoordinates;
+}
 const char* nameOf(WarningCode code) { return kWarningCodeNames[static_cast<size_t>(code)]; }
 
 std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
@@ -167,6 +170,22 @@ Warning skippedContent(const std::vector<std::string>& skipped) {
   return {WarningCode::SkippedContent,
           fmt::format("the file also has {}, which was left out", joined(skipped, ", ")),
           {{"skipped", joined(skipped, ", ")}}};
+}
+
+Warning negativeVolumes(uint32_t count) {
+  return {WarningCode::NegativeVolumes,
+          fmt::format("{} of the file {} not subtracted: values there are those of the uncut bodies",
+                      counted(count, "negative volume"), count == 1 ? "was" : "were"),
+          {{"count", std::to_string(count)}}};
+}
+
+Warning coarseCoordinates(double step, double share) {
+  return {
+      WarningCode::CoarseCoordinates,
+      fmt::format("the coordinates are float32 values far from the origin: they have steps of {:.3g}, {:.2g} % of "
+                  "the size of the mesh, and thin walls are wrong; move the mesh to the origin before it is written",
+                  step, 100 * share),
+      {{"step", numberText(step)}}};
 }
 
 Warning uncertainParts(double agreement) {

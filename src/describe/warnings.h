@@ -41,6 +41,9 @@ struct MissingValues {
 [[nodiscard]] Warning thinShell(double clearShare);
 [[nodiscard]] Warning partCountDiffers(uint32_t requested, uint32_t found);
 [[nodiscard]] Warning skippedContent(const std::vector<std::string>& skipped);
+[[nodiscard]] Warning negativeVolumes(uint32_t count);
+/// step: the distance of neighbouring coordinates. share: the step divided by the diagonal of the bounding box.
+[[nodiscard]] Warning coarseCoordinates(double step, double share);
 
 [[nodiscard]] Warning uncertainParts(double agreement);
 

@@ -9,13 +9,13 @@
 #include <cerrno>
 #include <cstring>
 #include <new>
-#include <optional>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
 #include "core/unset_vector.h"
 #include "io/formats.h"
+#include "io/grouped_files.h"
 #include "io/input_failure.h"
 #include "io/inspected_mesh.h"
 #include "io/stored_fields.h"
@@ -93,10 +93,10 @@ const FileFormat& findResultFormat(const std::filesystem::path& path, const std:
   throw Error(ErrorCode::UnknownFormat, fmt::format("{}; results are written as {}", reason, listOf(isResultFormat)));
 }
 
-/// extension: decides the format of an ambiguous content.
-Mesh parse(const MeshSource& source, std::string_view extension) {
+Mesh parse(const MeshSource& source) {
   if (source.bytes.empty()) failInput("is empty");
-  const FileFormat* const format = detectFormat(source.bytes, extension);
+  const FileFormat* const format = detectFormat(
+      source.bytes, source.options.format.empty() ? source.path.extension().string() : source.options.format);
   if (format == nullptr || !isMeshFormat(*format))
     failInput(fmt::format("has {}; meshes are read from {}",
                           format == nullptr ? "an unknown format" : fmt::format("the format {}", format->name),
@@ -108,8 +108,8 @@ Mesh parse(const MeshSource& source, std::string_view extension) {
 
 }  // namespace
 
-Mesh parseMesh(std::span<const char> bytes, std::string_view extension, const ReadOptions& options) {
-  return parse({.bytes = bytes, .options = options}, extension);
+Mesh parseMesh(std::span<const char> bytes, const ReadOptions& options) {
+  return parse({.bytes = bytes, .options = options});
 }
 
 Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
@@ -118,8 +118,7 @@ Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
   try {
     const UnsetVector<char> bytes = bytesOf(path);
     inspect(bytes);
-    return parse({.bytes = bytes, .path = path == "-" ? std::filesystem::path() : path, .options = options},
-                 path.extension().string());
+    return parse({.bytes = bytes, .path = path == "-" ? std::filesystem::path() : path, .options = options});
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", name, error.what()), error.details());
   } catch (const std::bad_alloc&) {
@@ -149,6 +148,13 @@ std::string resultFormatOf(const std::filesystem::path& path, const WriteOptions
 
 void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                  const WriteOptions& options) {
+  AtomicFiles files;
+  writeResult(files, path, mesh, fields, options);
+  files.commit();
+}
+
+void writeResult(AtomicFiles& files, const std::filesystem::path& path, const MeshView& mesh,
+                 std::span<const Field> fields, const WriteOptions& options) {
   const FileFormat& format = findResultFormat(path, options.format);
   ResultView result(mesh, fields, options.fields, {options.ascii, options.colourOf, options.coloursVertices});
   if (!format.writesDoubles)
@@ -157,17 +163,12 @@ void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::s
   std::error_code ignored;
   const bool isNamed =
       path != "-" && (std::filesystem::is_regular_file(path, ignored) || !std::filesystem::exists(path, ignored));
-  std::optional<AtomicFile> beside;
   if (format.needsBeside != nullptr && isNamed && format.needsBeside(result)) {
     const std::filesystem::path besidePath = besidePathOf(path);
     result.setBesideName(besidePath.filename().string());
-    beside.emplace(besidePath);
-    format.writeBeside(*beside, result);
+    files.write(besidePath, [&](AtomicFile& file) { format.writeBeside(file, result); });
   }
-  AtomicFile file(path);
-  format.write(file, result);
-  if (!beside) return file.commit();
-  AtomicFile::commitBoth(*beside, file);  // `file` refers to `beside`.
+  files.write(path, [&](AtomicFile& file) { format.write(file, result); });
 }
 
 }  // namespace asdfvk

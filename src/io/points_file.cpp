@@ -131,6 +131,13 @@ void writeSwc(AtomicFile& file, std::vector<SkeletonPoint> points, const Field* 
 }  // namespace
 
 void writePoints(const std::filesystem::path& path, std::span<const Field> fields, const RunControl& control) {
+  AtomicFiles files;
+  writePoints(files, path, fields, control);
+  files.commit();
+}
+
+void writePoints(AtomicFiles& files, const std::filesystem::path& path, std::span<const Field> fields,
+                 const RunControl& control) {
   const Field &centre = requireField(fields, "centre"), &sdf = requireField(fields, "sdf");
   const auto optional = [&](const char* name) { return findField(fields, name, FieldLocation::PerFace); };
   const Field *const segment = optional("segment"), *const component = optional("component");
@@ -145,13 +152,13 @@ void writePoints(const std::filesystem::path& path, std::span<const Field> field
     throw Error(ErrorCode::OptionConflict, "the field component has real numbers; give integers");
   if (sdf.reals() != nullptr) requireSingles(*sdf.reals(), "'sdf'");
   const std::vector<SkeletonPoint> points = skeletonPointsOf(centre, sdf);
-  AtomicFile file(path);
-  if (lowerCase(path.extension().string()) == ".swc") {
-    writeSwc(file, points, component, control.withoutProgress());
-  } else {
-    writePly(file, points, segment);
-  }
-  file.commit();
+  files.write(path, [&](AtomicFile& file) {
+    if (lowerCase(path.extension().string()) == ".swc") {
+      writeSwc(file, points, component, control.withoutProgress());
+    } else {
+      writePly(file, points, segment);
+    }
+  });
 }
 
 }  // namespace asdfvk

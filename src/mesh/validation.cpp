@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
@@ -130,6 +131,21 @@ MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
   defects.unreferencedVertexCount = countUnreferencedVertices(mesh);
   defects.shortPolygonCount = countShortPolygons(mesh.polygons);
   return defects;
+}
+
+double float32StepOf(const TriangleMesh& mesh, const Box3d& bounds) {
+  const auto isFloat = [](double x) { return !(static_cast<double>(static_cast<float>(x)) != x) || !std::isfinite(x); };
+  if (countInParallel(mesh.vertices.size(), [&](uint32_t vertex) {
+        const Vec3d& p = mesh.vertices[vertex];
+        return !isFloat(p.x) || !isFloat(p.y) || !isFloat(p.z);
+      }) > 0)
+    return 0;
+  double largest = 0;
+  for (size_t axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
+  if (!std::isfinite(largest)) return 0;
+  const auto coordinate = static_cast<float>(largest);
+  return static_cast<double>(coordinate) - static_cast<double>(std::nextafter(coordinate, 0.0f));
 }
 
 }  // namespace asdfvk

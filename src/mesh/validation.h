@@ -24,4 +24,8 @@ void requireValidArrays(const MeshView& view);
 [[nodiscard]] MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                       std::span<const uint32_t> representatives, const EdgeSurvey& edges);
 
+/// The greatest distance of neighbouring float32 values at the coordinates, if all finite coordinates are float32
+/// values, as in binary STL; else 0. bounds: the bounding box of the mesh.
+[[nodiscard]] double float32StepOf(const TriangleMesh& mesh, const Box3d& bounds);
+
 }  // namespace asdfvk

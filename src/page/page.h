@@ -21,6 +21,7 @@
 namespace asdfvk {
 
 class AtomicFile;
+class AtomicFiles;
 struct View;
 
 using FieldSpan = std::span<const std::reference_wrapper<const Field>>;
@@ -91,6 +92,8 @@ void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fiel
 
 /// Writes the page atomically. Throws Error{OutputNotWritable}.
 void writePage(const std::filesystem::path& path, const Page& page);
+/// The file appears when the caller commits the group.
+void writePage(AtomicFiles& files, const std::filesystem::path& path, const Page& page);
 
 /// Returns the segments, ascending by label. areas, barycentres: #F. labels, values: #I. Leaves out kNoSegment.
 [[nodiscard]] std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const double> areas,

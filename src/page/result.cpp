@@ -31,9 +31,13 @@ std::vector<PageSegment> segmentsOf(const Result& result, FieldSpan shown) {
 Page emptyPage() { return Page(std::string("asdf-vk ") + ASDFVK_VERSION + " (" + ASDFVK_COMMIT + ")"); }
 
 void writePage(const std::filesystem::path& path, const Page& page) {
-  AtomicFile file(path);
-  page.write(file);
-  file.commit();
+  AtomicFiles files;
+  writePage(files, path, page);
+  files.commit();
+}
+
+void writePage(AtomicFiles& files, const std::filesystem::path& path, const Page& page) {
+  files.write(path, [&](AtomicFile& file) { page.write(file); });
 }
 
 void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,

@@ -5,6 +5,12 @@
 #include "mesh/winding.h"
 
 namespace asdfvk {
+namespace {
+
+// Coordinates with greater steps do not resolve the limit.
+constexpr double kMaxStepShareOfLimit = 0.25;
+
+}  // namespace
 
 Judgement::Judgement(const Computation& computation, const JudgedSurface& surface)
     : computation_(computation), surface_(surface) {
@@ -54,7 +60,19 @@ UnjudgedFaces Judgement::unjudged() const {
   addReason(unjudged, UnjudgedCause::WoundAgainst, [&](uint32_t face) { return isWoundAgainst(face); });
   addReason(unjudged, UnjudgedCause::Inverted, [&](uint32_t face) { return isInverted(face); });
   addReason(unjudged, UnjudgedCause::DoubleSided, [&](uint32_t face) { return isDoubleSided(face); });
+  const PreparedMesh& prepared = surface_.original().prepared;
+  if (prepared.negativeVolumeCount > 0)
+    addReasonOfMesh(unjudged, UnjudgedCause::NegativeVolumes, prepared.negativeVolumeCount);
+  const std::optional<double>& limit = computation_.options.thickness.thinnerThan;
+  if (limit && prepared.float32Step > kMaxStepShareOfLimit * *limit)
+    addReasonOfMesh(unjudged, UnjudgedCause::CoarseCoordinates, prepared.float32Step);
   return unjudged;
+}
+
+/// Adds a cause that is not at certain faces.
+void Judgement::addReasonOfMesh(UnjudgedFaces& unjudged, UnjudgedCause cause, double amount) const {
+  const uint64_t faceCount = countInputFaces([](uint32_t) { return true; });
+  unjudged.reasons.push_back({.cause = cause, .faceCount = faceCount, .amount = amount});
 }
 
 /// Adds the cause with the first face of the domain for which holds(face) is true, if there is one.

@@ -67,6 +67,9 @@ namespace {
 // rounding error of barycentres; the backends agree within ten times this error.
 constexpr double kMaxSpacing = kAgreementTolerance / 10;
 
+// The greatest step of float32 coordinates without a warning, in bounding-box diagonals.
+constexpr double kMaxFloat32StepShare = 1e-5;
+
 /// Copies arrays of the caller, so that faces can be reversed.
 void ownArrays(PreparedMesh& prepared) {
   const TriangleMesh mesh = prepared.mesh;
@@ -185,7 +188,12 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
     prepared.unit = source->unit;
     prepared.statedPartCount = source->statedPartCount;
     if (!source->skipped.empty()) prepared.warnings.push_back(skippedContent(source->skipped));
+    prepared.negativeVolumeCount = source->negativeVolumeCount;
+    if (prepared.negativeVolumeCount > 0) prepared.warnings.push_back(negativeVolumes(prepared.negativeVolumeCount));
   }
+  prepared.float32Step = float32StepOf(mesh, prepared.geometry.bounds);
+  if (const double share = prepared.float32Step / prepared.geometry.bounds.diagonal(); share > kMaxFloat32StepShare)
+    prepared.warnings.push_back(coarseCoordinates(prepared.float32Step, share));
   control.checkpoint(0);
   orient(prepared, orientation);
   prepared.traceableFaces =

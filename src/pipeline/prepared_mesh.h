@@ -31,8 +31,10 @@ struct PreparedMesh {
   std::vector<uint32_t> invertedComponents;  ///< Inverted components that were left unchanged. Ascending.
   std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.
   MeshDefects defects;
-  std::string unit;              ///< Mesh::unit.
-  uint32_t statedPartCount = 0;  ///< Mesh::statedPartCount.
+  std::string unit;                  ///< Mesh::unit.
+  uint32_t statedPartCount = 0;      ///< Mesh::statedPartCount.
+  uint32_t negativeVolumeCount = 0;  ///< Mesh::negativeVolumeCount.
+  double float32Step = 0;            ///< See float32StepOf().
   std::vector<Warning> warnings;
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };

@@ -40,7 +40,7 @@ class Description {
     describeLeast();
     if (!report_.thinnerThan) return std::move(report_);
     report_.verdict = verdict();
-    ASDFVK_CHECK(report_.verdict == ThicknessVerdict::Failed || !(report_.min < kThinShare * *report_.thinnerThan));
+    ASDFVK_CHECK(report_.verdict != ThicknessVerdict::Passed || !(report_.min < kThinShare * *report_.thinnerThan));
     return std::move(report_);
   }
 
@@ -166,6 +166,8 @@ class Description {
   }
 
   [[nodiscard]] ThicknessVerdict verdict() const {
+    for (const UnjudgedReason& reason : report_.unjudged.reasons)
+      if (concernsWholeMesh(reason.cause)) return ThicknessVerdict::NotJudged;
     for (const ThinRegion& region : report_.regions)
       if (report_.counts(region.kind)) return ThicknessVerdict::Failed;
     const bool hasValue =

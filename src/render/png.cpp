@@ -28,10 +28,14 @@ std::vector<char> encodePng(const Image& image) {
 }
 
 void writePng(const std::filesystem::path& path, const Image& image) {
+  AtomicFiles files;
+  writePng(files, path, image);
+  files.commit();
+}
+
+void writePng(AtomicFiles& files, const std::filesystem::path& path, const Image& image) {
   const std::vector<char> bytes = encodePng(image);
-  AtomicFile file(path);
-  file.write(bytes.data(), bytes.size());
-  file.commit();
+  files.write(path, [&](AtomicFile& file) { file.write(bytes.data(), bytes.size()); });
 }
 
 }  // namespace asdfvk

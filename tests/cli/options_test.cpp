@@ -109,6 +109,7 @@ const std::vector<OptionCase>& optionCases() {
       {{"--timeout", "2.5s"}, [](const Line& l) { return l.batch.timeoutSeconds == 2.5; }},
       {{"--memory-limit", "2M"}, [](const Line& l) { return l.batch.memoryBytes == 2u << 20; }},
       {{"--isolate"}, [](const Line& l) { return l.batch.isolates; }},
+      {{"--max-faces", "1000"}, [](const Line& l) { return l.reading.maxFaces == 1000; }},
       {{"--jobs", "3"}, [](const Line& l) { return l.batch.jobCount == 3; }},
       {{"--open"}, [](const Line& l) { return l.outputs.opensPage; }},
       {{"--solver", "jacobi"}, [](const Line& l) { return l.computation.options.solver == "jacobi"; }},
@@ -193,10 +194,10 @@ TEST_CASE("the table of options above is complete") {
 TEST_CASE("every option changes the hash that --skip-existing compares, except those that do not change an output") {
   const std::set<std::string> exceptions{
       "--json",       "--quiet",   "--verbose", "--open",  // Not in the output.
-      "-o",           "--output",  "--points",  "--picture",   "--picture-of",  "--picture-view",
+      "-o",           "--output",  "--points",  "--picture",   "--picture-of",   "--picture-view",
       "--picture-up",  // Other outputs.
-      "--log",        "--shard",   "--null",    "--recursive", "--files-from",  "--skip-existing",
-      "--jobs",       "--threads", "--isolate", "--timeout",   "--memory-limit"};
+      "--log",        "--shard",   "--null",    "--recursive", "--files-from",   "--skip-existing",
+      "--jobs",       "--threads", "--isolate", "--timeout",   "--memory-limit", "--max-faces"};
   const auto hashOf = [](std::vector<std::string> arguments, const std::vector<std::string>& more = {}) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     arguments.emplace_back("a.ply");
@@ -219,7 +220,12 @@ TEST_CASE("a worker gets all settings") {
   const auto settingsFor = [](std::vector<std::string> arguments) {
     arguments.emplace_back("caf\xe9.ply");
     const CommandLine line = parseCommandLine(arguments);
-    return MeshSettings{line.session, line.computation, line.outputs, line.batch.timeoutSeconds, true};
+    return MeshSettings{.session = line.session,
+                        .computation = line.computation,
+                        .reading = line.reading,
+                        .outputs = line.outputs,
+                        .timeoutSeconds = line.batch.timeoutSeconds,
+                        .makesFolders = true};
   };
   std::vector<std::vector<std::string>> calls{{"-o", "caf\xe9"}};
   for (const OptionCase& option : optionCases()) calls.push_back(option.arguments);

@@ -91,6 +91,22 @@ TEST_CASE("the faces that --orient reverses are reversed in the file, in the ord
   CHECK(readMesh(folder / "same.ply").faces == faces);
 }
 
+TEST_CASE("all files of a mesh appear, or none") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(10));
+  std::filesystem::create_symlink("/dev/full", folder / "full.ply");
+  std::filesystem::create_symlink("/dev/full", folder / "full.png");
+  for (const std::vector<std::string>& further :
+       {std::vector<std::string>{"--points", folder / "full.ply"}, {"--picture", folder / "full.png"}})
+    for (const char* const output : {"out.ply", "out.html", "out.obj"}) {
+      std::vector<std::string> arguments{mesh, "-o", folder / output, "--quiet", "--backend", "reference", "--segment"};
+      arguments.insert(arguments.end(), further.begin(), further.end());
+      checkFailure(runAsdf(arguments), 4, "No space left on device");
+      CHECK_EQ(folder.names(), std::vector<std::string>{"full.ply", "full.png", "sphere.off"});
+    }
+}
+
 TEST_CASE("--orient reverses the corners of polygons after the first") {
   const ScratchFolder folder;
   const std::string mesh =

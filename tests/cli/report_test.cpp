@@ -147,6 +147,11 @@ TEST_CASE(
     thickness.unjudged.reasons[0].isRepairable = true;
     CHECK(lines()[1].find(", first at (-123.456, -23.4567, -123.456), face 12345") != std::string::npos);
   }
+  thickness.unjudged.reasons[0].amount = 123;
+  thickness.unjudged.reasons[0].cause = UnjudgedCause::NegativeVolumes;
+  CHECK_EQ(lines()[1], "  unjudged  123 negative volumes not subtracted; subtract before the export; 1 more");
+  thickness.unjudged.reasons[0].cause = UnjudgedCause::CoarseCoordinates;
+  CHECK_EQ(lines()[1], "  unjudged  coordinates have steps of 123; move the mesh to the origin; 1 more");
   thickness.unjudged.reasons[0].cause = UnjudgedCause::Border;
   thickness.unjudged.reasons[0].place = {1, 2, 3};
   thickness.regions.assign(1234, {});

@@ -104,7 +104,9 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
       {.cause = UnjudgedCause::WoundAgainst, .faceCount = 12, .edgeCount = 1, .face = 7, .isRepairable = true},
       {.cause = UnjudgedCause::WoundAgainst, .faceCount = 12, .edgeCount = 3, .face = 7},
       {.cause = UnjudgedCause::Inverted, .faceCount = 1, .isRepairable = true},
-      {.cause = UnjudgedCause::DoubleSided, .faceCount = 2, .face = 5}};
+      {.cause = UnjudgedCause::DoubleSided, .faceCount = 2, .face = 5},
+      {.cause = UnjudgedCause::NegativeVolumes, .faceCount = 12, .amount = 1},
+      {.cause = UnjudgedCause::CoarseCoordinates, .faceCount = 12, .amount = 0.5}};
   const auto checkSentences = [&] {
     const std::string text = textOf(result);
     checkHolds(text,
@@ -120,6 +122,9 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
     checkHolds(text,
                "\n            1 face of components oriented inwards, the first at (0, 0, 0), face 0; --orient auto ");
     checkHolds(text, "\n            2 faces have a copy that is wound the other way, the first at (0, 0, 0), face 5");
+    checkHolds(text,
+               "\n            12 faces: 1 negative volume of the file was not subtracted; subtract it in the program");
+    checkHolds(text, "\n            12 faces: the coordinates have steps of 0.5, more than a quarter of the limit");
     checkHolds(text, "\n            2 degenerate faces left out");
     checkHolds(text, "\n            3 faces crossed by other faces: judged in pieces");
   };

@@ -45,6 +45,7 @@ _VALUES: dict[str, tuple[Values, Values]] = {
     "--log": (("log.jsonl", "absent/log.jsonl"), ("", ".")),
     "--timeout": (("0.01", "100"), ("0", *_ILLEGAL_NUMBERS)),
     "--time-budget": (("0.001", "0.1"), ("0", *_ILLEGAL_NUMBERS)),
+    "--max-faces": (("0", "10", "100000"), _ILLEGAL_NUMBERS),
     "--memory-limit": (("10M", "4G"), ("0", "4X", *_ILLEGAL_NUMBERS)),
     "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", *_ILLEGAL_NUMBERS)),
     "--picture": (("picture.png", "-"), ("", "picture.jpg", "absent/picture.png")),

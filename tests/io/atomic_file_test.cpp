@@ -81,19 +81,22 @@ TEST_CASE("without a commit the old file stays and the temporary goes") {
 TEST_CASE("of two files both are replaced, or none is left half") {
   const Folder folder;
   const auto writeBoth = [&] {
-    AtomicFile first(folder / "out.mtl"), second(folder / "out.obj");
-    first.write("colours");
-    second.write("faces");
-    AtomicFile::commitBoth(first, second);
+    AtomicFiles files;
+    files.write(folder / "out.mtl", [](AtomicFile& file) { file.write("colours"); });
+    files.write(folder / "out.obj", [](AtomicFile& file) { file.write("faces"); });
+    CHECK(!std::filesystem::exists(folder / "out.mtl"));
+    files.commit();
   };
   writeBoth();
   CHECK(contentOf(folder / "out.mtl") == "colours");
   CHECK(contentOf(folder / "out.obj") == "faces");
   for (const std::string& name : folder.names()) std::filesystem::remove(folder / name);
   const auto writeInto = [&] {
-    AtomicFile first(folder / "out.mtl"), second(folder / "out.obj");
+    AtomicFiles files;
+    files.write(folder / "out.mtl", [](AtomicFile&) {});
+    files.write(folder / "out.obj", [](AtomicFile&) {});
     std::filesystem::create_directory(folder / "out.obj");  // No file can be renamed to it.
-    AtomicFile::commitBoth(first, second);
+    files.commit();
   };
   std::string message;
   CHECK(kindOf(writeInto, message) == ErrorKind::Output);

@@ -114,3 +114,18 @@ TEST_CASE("more vertices than 32 bits can index are an error of their own") {
     CHECK(holds(error.what(), "4294967296 vertices; at most 4294967295"));
   }
 }
+
+TEST_CASE("a mesh with more faces than allowed is refused with the limit, the format is given for ambiguous bytes") {
+  std::string text = "# no keyword\n";
+  for (const char* const vertex : {"v 0 0 0\n", "v 1 0 0\n", "v 0 1 0\n"}) text += vertex;
+  for (int i = 0; i < 3; ++i) text += "f 1 2 3\n";
+  CHECK(parseMesh(text, {.maxFaces = 3, .format = "obj"}).faces.size() == 3);
+  CHECK(parseMesh(text, {.format = ".OBJ"}).faces.size() == 3);
+  try {
+    static_cast<void>(parseMesh(text, {.maxFaces = 2, .format = "obj"}));
+    FAIL("no limit");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::TooManyFaces);
+    CHECK(std::string_view(error.what()) == "has 3 faces; the limit is 2");
+  }
+}

@@ -7,9 +7,11 @@
 
 #include "generate/shapes.h"
 #include "support/shared_session.h"
+#include "wall_check.h"
 
 using namespace asdfvk;
 using test::referenceSession;
+using test::reportHas;
 
 namespace {
 
@@ -32,10 +34,6 @@ Options partOptions() {
 std::vector<uint32_t> labelsOfParts(const Mesh& mesh) {
   const Result result = referenceSession().compute(mesh, partOptions());
   return std::get<std::vector<uint32_t>>(result.field("segment")->values);
-}
-
-bool reportHas(const Report& report, WarningCode code) {
-  return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning& w) { return w.code == code; });
 }
 
 }  // namespace

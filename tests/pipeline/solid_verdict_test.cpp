@@ -20,6 +20,7 @@ using namespace asdfvk;
 using test::check;
 using test::limitedTo;
 using test::referenceSession;
+using test::reportHas;
 
 namespace {
 
@@ -251,5 +252,42 @@ TEST_CASE("a part around a cavity that crosses it is judged") {
     CHECK(report.unjudged.invertedCount == 0);
     CHECK((report.unjudged.insideCount > 0) == (distance == 0));
     CHECK(report.min == doctest::Approx(0.5));
+  }
+}
+
+TEST_CASE("a mesh with negative volumes is not judged, whether thin walls are found or not") {
+  Mesh plate = shapes::box({2, 2, 0.25});
+  plate.negativeVolumeCount = 2;
+  for (const double limit : {0.1, 0.5}) {
+    const Result result = referenceSession().compute(plate, limitedTo(limit));
+    const ThicknessReport& thickness = *result.report.thickness;
+    CHECK(thickness.verdict == ThicknessVerdict::NotJudged);
+    REQUIRE(thickness.unjudged.reasons.size() == 1);
+    CHECK(thickness.unjudged.reasons[0].cause == UnjudgedCause::NegativeVolumes);
+    CHECK(thickness.unjudged.reasons[0].amount == 2);
+    CHECK(reportHas(result.report, WarningCode::NegativeVolumes));
+  }
+}
+
+TEST_CASE("float32 coordinates far from the origin are not judged if their steps exceed a quarter of the limit") {
+  // The steps of float32 are 0.5 from 2^22 on, and 1 / 1024 from 2^13 on.
+  struct Case {
+    double offset, limit;
+    ThicknessVerdict verdict;
+    bool warns;
+  };
+  for (const Case& each :
+       {Case{5e6, 1, ThicknessVerdict::NotJudged, true}, Case{5e6, 3, ThicknessVerdict::Passed, true},
+        Case{5e6, 6, ThicknessVerdict::Failed, true}, Case{10000, 1, ThicknessVerdict::Passed, false},
+        Case{10000, 0.003, ThicknessVerdict::NotJudged, false}, Case{0, 0.003, ThicknessVerdict::Passed, false}}) {
+    CAPTURE(each.offset);
+    CAPTURE(each.limit);
+    Mesh plate = shapes::box({200, 200, 4});
+    for (Vec3d& p : plate.vertices) p.x += each.offset;
+    const Result result = referenceSession().compute(plate, limitedTo(each.limit));
+    CHECK(result.report.thickness->verdict == each.verdict);
+    CHECK(reportHas(result.report, WarningCode::CoarseCoordinates) == each.warns);
+    plate.vertices[0].y += 1e-9;  // This coordinate is a double.
+    CHECK(!reportHas(referenceSession().compute(plate, limitedTo(each.limit)).report, WarningCode::CoarseCoordinates));
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "asdf_vk/options.h"
@@ -20,6 +21,10 @@ inline Options limitedTo(std::optional<double> limit, Orientation orientation = 
 inline ThicknessReport check(const Mesh& mesh, std::optional<double> limit,
                              Orientation orientation = Orientation::Keep) {
   return referenceSession().compute(mesh, limitedTo(limit, orientation)).report.thickness.value();
+}
+
+inline bool reportHas(const Report& report, WarningCode code) {
+  return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning& w) { return w.code == code; });
 }
 
 }  // namespace asdfvk::test
