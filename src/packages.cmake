@@ -51,7 +51,7 @@ ${description}This package has the programs asdf-vk and asdf-vk-generate.")
 # Dependencies of asdf-vk-config.cmake. The static library is bound to the symbols of one major version of fmt.
 string(REGEX MATCH "^[0-9]+" fmtMajor "${fmt_VERSION}")
 math(EXPR fmtNext "${fmtMajor} + 1")
-set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev (>= 2021), zlib1g-dev")
+set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev (>= 2021), zlib1g-dev, libexpat1-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libasdf-vk-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 get_target_property(abi asdf-vk-c SOVERSION)

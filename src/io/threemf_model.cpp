@@ -11,68 +11,87 @@
 #include "core/text.h"
 #include "io/corner_welder.h"
 #include "io/input_failure.h"
+#include "io/zip_archive.h"
 #include "mesh/dual_graph.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr std::string_view kCoreNamespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+/// The core namespaces: of the specification, and of the drafts before it.
+bool isCoreSpace(std::string_view space) {
+  return space == "http://schemas.microsoft.com/3dmanufacturing/core/2015/02" ||
+         space == "http://schemas.microsoft.com/3dmanufacturing/2013/01";
+}
+
+bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+
+/// Takes the next word from the text; returns "" at its end.
+std::string_view takeWord(std::string_view& text) {
+  text = withoutBlanks(text);
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+  text.remove_prefix(word.size());
+  return word;
+}
 
 constexpr std::array<ModelUnit, 6> kModelUnits{
     {{"millimeter", "mm"}, {"micron", "um"}, {"centimeter", "cm"}, {"meter", "m"}, {"inch", "in"}, {"foot", "ft"}}};
 
 class ModelReader {
  public:
-  ModelReader(ModelList& models, size_t index, XmlScanner& xml) : models_(models), index_(index), xml_(xml) {}
+  ModelReader(ModelList& models, size_t index, XmlReader& xml) : models_(models), index_(index), xml_(xml) {}
 
   void read() {
-    if (xml_.next() != XmlScanner::Event::Start) xml_.fail("has no model");
-    readNamespaces();
-    if (!isCore("model")) xml_.fail(fmt::format("expected a model of 3MF, found {}", asdfvk::quoted(xml_.name())));
+    if (xml_.next() != XmlReader::Event::Start) xml_.fail("has no model");
+    if (xml_.name() != "model")
+      xml_.fail(fmt::format("expected a model of 3MF, found {}", asdfvk::quoted(xml_.name())));
+    if (!isCore("model"))
+      xml_.fail(fmt::format("is not a model of 3MF: it has the namespace {}", asdfvk::quoted(xml_.space())));
     readUnit();
     requireExtensions();
     forEachChild([&] {
       if (isCore("resources"))
-        forEachChild([&] { isCore("object") ? readObject() : xml_.skipElement(); });
+        forEachChild([&] { isCore("object") ? readObject() : skipResource(); });
       else if (isCore("build"))
-        forEachChild([&] { isCore("item") ? readItem() : xml_.skipElement(); });
-      else
+        forEachChild([&] { isCore("item") ? readItem() : skipUnknown(); });
+      else if (isCore("metadata") || !isCoreSpace(xml_.space()))
         xml_.skipElement();
+      else
+        skipResource();
     });
-    if (xml_.next() != XmlScanner::Event::Finished) xml_.fail("continues after the model");
+    if (xml_.next() != XmlReader::Event::Finished) xml_.fail("continues after the model");
   }
 
  private:
   ModelFile& model() { return models_.model(index_); }
-  /// Whether the current element is `name` of the core specification. Several prefixes may stand for the core
-  /// namespace.
-  [[nodiscard]] bool isCore(std::string_view name) const {
-    const std::string_view found = xml_.name();
-    if (!found.ends_with(name)) return false;
-    const std::string_view prefix = found.substr(0, found.size() - name.size());
-    return std::find(corePrefixes_.begin(), corePrefixes_.end(), prefix) != corePrefixes_.end();
-  }
+  [[nodiscard]] bool isCore(std::string_view name) const { return xml_.name() == name && isCoreSpace(xml_.space()); }
 
   /// Calls work() at the start of each child. work() reads the child to its end.
   template <typename Work>
   void forEachChild(const Work& work) {
-    while (xml_.next() == XmlScanner::Event::Start) work();
+    for (;;) {
+      const XmlReader::Event event = xml_.next();
+      if (!xml_.text().empty()) xml_.fail(fmt::format("text {} between elements", asdfvk::quoted(xml_.text())));
+      if (event != XmlReader::Event::Start) return;
+      work();
+    }
   }
 
-  void readNamespaces() {
-    for (const auto& [name, value] : xml_.attributes()) {
-      if (name == "xmlns" && value == kCoreNamespace) corePrefixes_.emplace_back();
-      if (!name.starts_with("xmlns:")) continue;
-      const std::string prefix(name.substr(6));
-      namespaces_[prefix] = value;
-      if (value == kCoreNamespace) corePrefixes_.push_back(prefix + ":");
-      if (value.find("/production/") != std::string_view::npos) pathAttribute_ = prefix + ":path";
-    }
-    if (corePrefixes_.empty()) xml_.fail("is not a model of 3MF: it does not name the core namespace");
+  /// Skips an element of an extension. The core specification has no further elements here, so that an unknown one may
+  /// be a damaged triangle.
+  void skipUnknown() {
+    if (isCoreSpace(xml_.space())) xml_.fail(fmt::format("unexpected element {}", asdfvk::quoted(xml_.name())));
+    skipResource();
+  }
+
+  void skipResource() {
+    const bool isKnown =
+        isCore("basematerials") || contains(xml_.space(), "/material/") || contains(xml_.space(), "/trianglesets/");
+    if (!isKnown) models_.countSkipped(xml_.name());
+    xml_.skipElement();
   }
 
   void readUnit() {
-    const std::string_view unit = xml_.attribute("unit").value_or(kModelUnits[0].name);
+    const std::string_view unit = withoutBlanks(xml_.attribute("unit").value_or(kModelUnits[0].name));
     const auto row =
         std::find_if(kModelUnits.begin(), kModelUnits.end(), [&](const ModelUnit& r) { return r.name == unit; });
     if (row == kModelUnits.end()) xml_.fail(fmt::format("{} is not a unit of 3MF", asdfvk::quoted(unit)));
@@ -80,11 +99,10 @@ class ModelReader {
   }
 
   void requireExtensions() {
-    for (const std::string& prefix : splitAt(xml_.attribute("requiredextensions").value_or(""), ' ')) {
-      if (prefix.empty()) continue;
-      const std::string& space = namespaces_[prefix];
-      const auto is = [&](std::string_view part) { return space.find(part) != std::string::npos; };
-      if (!is("/production/") && !is("/material/") && !is("/trianglesets/"))
+    std::string_view required = xml_.attribute("requiredextensions").value_or("");
+    for (std::string_view prefix = takeWord(required); !prefix.empty(); prefix = takeWord(required)) {
+      const std::string space = xml_.namespaceOf(std::string(prefix));
+      if (!contains(space, "/production/") && !contains(space, "/material/") && !contains(space, "/trianglesets/"))
         xml_.fail(fmt::format("requires the extension {} {}, which is not supported; export without it",
                               asdfvk::quoted(prefix), asdfvk::quoted(space)));
     }
@@ -93,7 +111,7 @@ class ModelReader {
   std::string_view requiredAttribute(std::string_view name) {
     const auto value = xml_.attribute(name);
     if (!value) xml_.fail(fmt::format("{} has no {}", asdfvk::quoted(xml_.name()), name));
-    return *value;
+    return withoutBlanks(*value);
   }
 
   uint64_t whole(std::string_view name) {
@@ -112,12 +130,12 @@ class ModelReader {
   /// Reads twelve numbers: the images of the axes, then the translation.
   Placement placement() {
     Placement read;
-    const auto text = xml_.attribute("transform");
-    if (!text) return read;
+    const auto transform = xml_.attribute("transform");
+    if (!transform) return read;
+    std::string_view text = *transform;
     std::array<double, 12> numbers{};
     size_t count = 0;
-    for (const std::string& number : splitAt(*text, ' ')) {
-      if (number.empty()) continue;
+    for (std::string_view number = takeWord(text); !number.empty(); number = takeWord(text)) {
       if (count == numbers.size()) xml_.fail("a transform has more than 12 numbers");
       numbers[count++] = real(number, "a number of a transform");
     }
@@ -129,54 +147,111 @@ class ModelReader {
 
   ObjectUse use() {
     ObjectUse read{index_, whole("objectid"), placement()};
-    if (const auto path = pathAttribute_.empty() ? std::nullopt : xml_.attribute(pathAttribute_)) {
-      const std::optional<std::string> decoded = xmlDecoded(*path);
-      if (!decoded) xml_.fail(fmt::format("path {} has an unknown entity", asdfvk::quoted(*path)));
-      read.model = models_.indexAt(*decoded);
-    }
+    for (const XmlReader::Attribute& attribute : xml_.attributes())
+      if (attribute.name == "path" && contains(attribute.space, "/production/"))
+        read.model = models_.indexAt(withoutBlanks(attribute.value));
     models_.charge(sizeof(ObjectUse));
     return read;
   }
 
   void readItem() {
-    const ObjectUse item = use();
-    model().items.push_back(item);
-    xml_.skipElement();
+    const std::string_view printable = withoutBlanks(xml_.attribute("printable").value_or("1"));
+    const ObjectUse item = use();  // May move model().
+    if (printable == "0" || printable == "false")
+      ++model().unprintedCount;
+    else
+      model().items.push_back(item);
+    forEachChild([&] { isCore("metadatagroup") ? xml_.skipElement() : skipUnknown(); });
   }
 
   void readObject() {
     const uint64_t id = whole("id");
-    const std::string type(xml_.attribute("type").value_or("model"));
+    const std::string_view type = withoutBlanks(xml_.attribute("type").value_or("model"));
+    const std::optional<PartRole> role = roleOfObjectType(type);
+    if (!role) xml_.fail(fmt::format("{} is not a type of object", asdfvk::quoted(type)));
     ModelObject object;
-    object.isSupport = type == "support" || type == "solidsupport";
+    object.role = *role;
     models_.charge(sizeof(ModelObject) + 64);
+    std::vector<PartSetting> ranges;
     forEachChild([&] {
       if (isCore("mesh"))
-        readMesh(object.mesh);
+        readMesh(object.mesh, ranges);
       else if (isCore("components"))
         forEachChild([&] {
-          if (isCore("component")) object.components.push_back(use());
-          xml_.skipElement();
+          if (!isCore("component")) return skipUnknown();
+          object.components.push_back(use());
+          forEachChild([&] { skipUnknown(); });
         });
+      else if (isCore("metadatagroup"))
+        forEachChild([&] { readMetadata(object); });
       else
-        xml_.skipElement();
+        skipUnknown();
     });
+    if (!object.components.empty()) {
+      if (!object.mesh.faces.empty()) xml_.fail(fmt::format("object {} has a mesh and components", id));
+      object.role = PartRole::Material;  // The types of the components decide.
+    }
+    if (index_ == 0) applySettings(id, object, ranges);
+    removeRanges(std::move(ranges), object.mesh, object.leftOut);
     weldIfOpen(object.mesh);
     if (!model().objects.emplace(id, std::move(object)).second) xml_.fail(fmt::format("object {} occurs twice", id));
   }
 
-  void readMesh(PartMesh& mesh) {
+  void readMetadata(ModelObject& object) {
+    const std::string name(xml_.attribute("name").value_or(""));
+    while (xml_.next() == XmlReader::Event::Start) xml_.skipElement();
+    if (const PartRole role = roleOfCuraMetadata(name, withoutBlanks(xml_.text())); role != PartRole::Material)
+      object.role = role;
+  }
+
+  /// Applies what a slicer says about the parts of an object of the root model.
+  void applySettings(uint64_t id, ModelObject& object, std::vector<PartSetting>& ranges) {
+    const auto found = models_.settings().find(id);
+    if (found == models_.settings().end()) return;
+    std::vector<PartSetting> parts;
+    for (const PartSetting& setting : found->second) (setting.isRange ? ranges : parts).push_back(setting);
+    models_.settings().erase(found);
+    std::map<uint64_t, size_t> firstOf;  // By the id of the part.
+    for (size_t i = 0; i < parts.size(); ++i)
+      if (parts[i].id) firstOf.emplace(*parts[i].id, i);
+    std::vector<bool> isFound(parts.size());
+    // Bambu Studio lists the parts in the order of the components, and several may be the same object.
+    const auto roleOf = [&](uint64_t part, size_t position) {
+      const auto first = firstOf.find(part);
+      if (first == firstOf.end()) return PartRole::Material;
+      const size_t i = position < parts.size() && parts[position].id == part ? position : first->second;
+      isFound[i] = true;
+      return parts[i].role;
+    };
+    for (size_t c = 0; c < object.components.size(); ++c)
+      object.components[c].role = roleOf(object.components[c].object, c);
+    if (object.components.empty())
+      if (const PartRole role = roleOf(id, 0); role != PartRole::Material) object.role = role;
+    for (size_t i = 0; i < parts.size(); ++i)
+      if (parts[i].role != PartRole::Material && !isFound[i])
+        xml_.fail(fmt::format("{} is not a part of object {}", parts[i].name(), id));
+  }
+
+  void readMesh(PartMesh& mesh, std::vector<PartSetting>& ranges) {
     if (!mesh.vertices.empty()) xml_.fail("an object has two meshes");
     forEachChild([&] {
-      if (isCore("vertices")) {
-        forEachChild([&] { isCore("vertex") ? readVertex(mesh) : xml_.skipElement(); });
-      } else if (isCore("triangles")) {
-        forEachChild([&] { isCore("triangle") ? readTriangle(mesh) : xml_.skipElement(); });
-      } else {
-        if (xml_.name().ends_with("beamlattice")) models_.countLattice();
-        xml_.skipElement();
-      }
+      if (isCore("vertices"))
+        forEachChild([&] { isCore("vertex") ? readVertex(mesh) : skipUnknown(); });
+      else if (isCore("triangles"))
+        forEachChild([&] { isCore("triangle") ? readTriangle(mesh) : skipUnknown(); });
+      else if (xml_.name() == "volumes" && contains(xml_.space(), "slic3r"))
+        readVolumes(ranges);
+      else
+        skipUnknown();
     });
+  }
+
+  void readVolumes(std::vector<PartSetting>& ranges) {
+    while (xml_.next() == XmlReader::Event::Start) {
+      if (xml_.name() == "volume") ranges.push_back(slic3rVolume(xml_));
+      models_.charge(sizeof(PartSetting));
+      xml_.skipElement();
+    }
   }
 
   void readVertex(PartMesh& mesh) {
@@ -186,7 +261,7 @@ class ModelReader {
     p.y = real(requiredAttribute("y"), "y");
     p.z = real(requiredAttribute("z"), "z");
     mesh.vertices.push_back(p);
-    xml_.skipElement();
+    forEachChild([&] { skipUnknown(); });
   }
 
   void readTriangle(PartMesh& mesh) {
@@ -202,7 +277,7 @@ class ModelReader {
       face[c] = static_cast<uint32_t>(vertex);
     }
     mesh.faces.push_back(face);
-    xml_.skipElement();
+    forEachChild([&] { skipUnknown(); });
   }
 
   /// Joins equal vertices if the mesh is open. Some writers split vertices, which the specification forbids. Faces
@@ -220,10 +295,7 @@ class ModelReader {
 
   ModelList& models_;
   size_t index_;
-  XmlScanner& xml_;
-  std::vector<std::string> corePrefixes_;  ///< Each with its colon; "" for the default namespace.
-  std::string pathAttribute_;
-  std::map<std::string, std::string> namespaces_;
+  XmlReader& xml_;
 };
 
 }  // namespace
@@ -236,7 +308,7 @@ void ModelList::charge(uint64_t bytes) {
 
 size_t ModelList::indexAt(std::string_view path) {
   if (path.starts_with('/')) path.remove_prefix(1);
-  const auto [known, isNew] = indexOf_.emplace(path, models_.size());
+  const auto [known, isNew] = indexOf_.emplace(partName(path), models_.size());
   if (!isNew) return known->second;
   constexpr size_t kMaxModels = 4096;
   if (models_.size() == kMaxModels) failInput(fmt::format("more than {} model files", kMaxModels));
@@ -245,6 +317,24 @@ size_t ModelList::indexAt(std::string_view path) {
   return models_.size() - 1;
 }
 
-void readModel(XmlScanner& xml, ModelList& models, size_t index) { ModelReader(models, index, xml).read(); }
+void ModelList::countSkipped(std::string_view element) {
+  constexpr size_t kMaxNames = 3;
+  if (element == "beamlattice") {
+    ++latticeCount_;
+    return;
+  }
+  ++unknownCount_;
+  if (unknownNames_.size() < kMaxNames) unknownNames_.insert(asdfvk::quoted(element));
+}
+
+std::vector<std::string> ModelList::describeSkipped() const {
+  std::vector<std::string> phrases;
+  if (latticeCount_ > 0) phrases.push_back(counted(latticeCount_, "beam lattice"));
+  if (unknownCount_ > 0)
+    phrases.push_back(fmt::format("{} ({})", counted(unknownCount_, "unknown element"), joined(unknownNames_, ", ")));
+  return phrases;
+}
+
+void readModel(XmlReader& xml, ModelList& models, size_t index) { ModelReader(models, index, xml).read(); }
 
 }  // namespace asdfvk

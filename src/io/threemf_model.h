@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/assembled_mesh.h"
-#include "io/xml_scanner.h"
+#include "io/threemf_roles.h"
+#include "io/xml_reader.h"
 
 /// Model files of a 3MF archive.
 namespace asdfvk {
@@ -23,12 +25,14 @@ struct ObjectUse {
   size_t model = 0;
   uint64_t object = 0;
   Placement placement;
+  PartRole role = PartRole::Material;  ///< By the settings of a slicer.
 };
 
 struct ModelObject {
   PartMesh mesh;
+  PartRole role = PartRole::Material;  ///< By the type of the object, and by slicers.
   std::vector<ObjectUse> components;
-  bool isSupport = false;
+  RoleCounts leftOut{};  ///< Parts that were removed from the mesh.
 };
 
 struct ModelFile {
@@ -36,6 +40,7 @@ struct ModelFile {
   const ModelUnit* unit = nullptr;
   std::map<uint64_t, ModelObject> objects;
   std::vector<ObjectUse> items;
+  uint64_t unprintedCount = 0;  ///< Build items that are not to be printed.
 };
 
 /// The models of an archive, and the memory that they need.
@@ -43,7 +48,7 @@ class ModelList {
  public:
   explicit ModelList(uint64_t limitBytes) : limitBytes_(limitBytes) {}
 
-  /// The index of the model at a path within the archive. A new model is empty.
+  /// The index of the model at a path within the archive. A new model is empty. The first one is the root model.
   size_t indexAt(std::string_view path);
   [[nodiscard]] ModelFile& model(size_t index) { return models_[index]; }
   [[nodiscard]] const ModelFile& model(size_t index) const { return models_[index]; }
@@ -51,16 +56,23 @@ class ModelList {
 
   /// Adds to the memory of all models. Throws Error{InputTooLarge} above the limit.
   void charge(uint64_t bytes);
-  void countLattice() { ++latticeCount_; }
-  [[nodiscard]] uint64_t latticeCount() const { return latticeCount_; }
+  /// Counts an element that was skipped, and that may have geometry.
+  void countSkipped(std::string_view element);
+  /// The skipped elements, as noun phrases.
+  [[nodiscard]] std::vector<std::string> describeSkipped() const;
+
+  [[nodiscard]] PartSettings& settings() { return settings_; }
 
  private:
   std::vector<ModelFile> models_;
-  std::map<std::string, size_t, std::less<>> indexOf_;  ///< By path.
-  uint64_t limitBytes_, chargedBytes_ = 0, latticeCount_ = 0;
+  std::map<std::string, size_t> indexOf_;  ///< By partName().
+  uint64_t limitBytes_, chargedBytes_ = 0, latticeCount_ = 0, unknownCount_ = 0;
+  std::set<std::string> unknownNames_;  ///< At most three.
+  PartSettings settings_;
 };
 
-/// Reads the model `index`, and adds the models that it names to the list. Throws Error as failInput() does.
-void readModel(XmlScanner& xml, ModelList& models, size_t index);
+/// Reads the model `index`, and adds the models that it names to the list. The settings of its objects are removed from
+/// models.settings(). Throws Error as failInput() does.
+void readModel(XmlReader& xml, ModelList& models, size_t index);
 
 }  // namespace asdfvk

@@ -1,7 +1,7 @@
 // 3MF (core specification 1.3, production extension 1.1): reads the objects of the build items, with their components
 // and transforms, in the unit of the file. Each build item and each component is a part. Colours, materials and
-// metadata are ignored. Supports and beam lattices are left out; Mesh::skipped lists them. Only files within the
-// archive are opened.
+// metadata are ignored. What is not material (io/threemf_roles.h), beam lattices, and items that are not to be printed
+// are left out; Mesh::skipped lists them. Only files within the archive are opened.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -9,13 +9,15 @@
 #include <optional>
 #include <utility>
 
+#include "asdf_vk/error.h"
 #include "core/length_unit.h"
 #include "core/text.h"
 #include "io/assembled_mesh.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/threemf_model.h"
-#include "io/xml_scanner.h"
+#include "io/threemf_roles.h"
+#include "io/xml_reader.h"
 #include "io/zip_archive.h"
 
 namespace asdfvk {
@@ -29,11 +31,23 @@ double micrometresOf(const ModelUnit& row) { return findLengthUnit(row.unit)->mi
 struct ObjectCounts {
   uint64_t vertices = 0, faces = 0;
   uint32_t height = 1;  ///< Levels of components, the object included.
+
+  void add(const ObjectCounts& other) {
+    constexpr uint64_t kTooMany = uint64_t{1} << 50;
+    vertices = std::min(vertices + other.vertices, kTooMany);
+    faces = std::min(faces + other.faces, kTooMany);
+  }
 };
 
 uint64_t memoryLimit(size_t archiveBytes) {
   constexpr uint64_t kMaxBytesPerByte = 20;  // A growing array temporarily needs three times its size.
   return std::max(kMaxInstanceBytes, kMaxBytesPerByte * archiveBytes);
+}
+
+/// Markup rarely deflates to less than a tenth.
+uint64_t inflatedLimit(size_t archiveBytes) {
+  constexpr uint64_t kMinLimit = uint64_t{1} << 30, kMaxInflatedBytesPerByte = 100;
+  return std::max(kMinLimit, kMaxInflatedBytesPerByte * archiveBytes);
 }
 
 class ThreeMfReader {
@@ -44,7 +58,10 @@ class ThreeMfReader {
   Mesh read();
 
  private:
+  template <typename Work>
+  void readPart(const ZipEntry& entry, const std::string& path, const Work& work);
   std::string rootPath();
+  void readSettings();
   void readModelAt(size_t index);
   [[nodiscard]] const ModelObject& objectOf(const ObjectUse& use) const;
   ObjectCounts countsOf(const ObjectUse& use, uint32_t depth);
@@ -57,33 +74,60 @@ class ThreeMfReader {
   ZipArchive archive_;
   ModelList models_;
   std::map<std::pair<size_t, uint64_t>, ObjectCounts> counts_;
-  uint64_t supportCount_ = 0;
+  RoleCounts roleCounts_{};
+  uint64_t inflatedBytes_ = 0;
 };
+
+/// Calls work(xml) for a file of the archive.
+template <typename Work>
+void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, const Work& work) {
+  ZipStream stream(archive_, entry);
+  const auto read = [&](char* to, size_t size) {
+    const size_t count = stream.read(to, size);
+    inflatedBytes_ += count;
+    if (const uint64_t limit = inflatedLimit(source_.bytes.size()); inflatedBytes_ > limit)
+      throw Error(ErrorCode::InputTooLarge, fmt::format("its files have more than {} MiB", limit >> 20));
+    return count;
+  };
+  XmlReader xml(read, path);
+  work(xml);
+}
 
 std::string ThreeMfReader::rootPath() {
   constexpr std::string_view kRelationships = "_rels/.rels";
   const ZipEntry* const entry = archive_.find(kRelationships);
   if (entry == nullptr) failInput("is a ZIP archive but not 3MF: it has no _rels/.rels");
-  ZipStream stream(archive_, *entry);
-  XmlScanner xml([&](char* to, size_t size) { return stream.read(to, size); }, std::string(kRelationships));
   std::optional<std::string> path;
-  for (XmlScanner::Event event = xml.next(); event != XmlScanner::Event::Finished; event = xml.next()) {
-    if (event != XmlScanner::Event::Start || xml.attribute("Type") != kModelRelationship) continue;
-    if (path) xml.fail("names two models");
-    path = xmlDecoded(xml.attribute("Target").value_or(""));
-    if (!path) xml.fail("the target of a relationship has an unknown entity");
-  }
+  readPart(*entry, std::string(kRelationships), [&](XmlReader& xml) {
+    for (XmlReader::Event event = xml.next(); event != XmlReader::Event::Finished; event = xml.next()) {
+      if (event != XmlReader::Event::Start || xml.attribute("Type") != kModelRelationship) continue;
+      if (path) xml.fail("names two models");
+      path = xml.attribute("Target").value_or("");
+    }
+  });
   if (!path) failInput("is a ZIP archive but not 3MF: _rels/.rels names no model");
   return *path;
+}
+
+void ThreeMfReader::readSettings() {
+  for (const std::string_view file : kSettingsFiles)
+    if (const ZipEntry* const entry = archive_.find(file))
+      readPart(*entry, std::string(file), [&](XmlReader& xml) {
+        readPartSettings(
+            xml, file, [&](uint64_t bytes) { models_.charge(bytes); }, models_.settings());
+      });
 }
 
 void ThreeMfReader::readModelAt(size_t index) {
   const std::string path = models_.model(index).path;
   const ZipEntry* const entry = archive_.find(path);
   if (entry == nullptr) failInput(fmt::format("the archive has no {}", asdfvk::quoted(path)));
-  ZipStream stream(archive_, *entry);
-  XmlScanner xml([&](char* to, size_t size) { return stream.read(to, size); }, path);
-  readModel(xml, models_, index);
+  readPart(*entry, path, [&](XmlReader& xml) { readModel(xml, models_, index); });
+  if (index > 0) return;
+  for (const auto& [object, parts] : models_.settings())
+    for (const PartSetting& part : parts)
+      if (part.role != PartRole::Material)
+        failInput(fmt::format("{}: the model has no object {}", part.name(), object));
 }
 
 const ModelObject& ThreeMfReader::objectOf(const ObjectUse& use) const {
@@ -100,27 +144,29 @@ ObjectCounts ThreeMfReader::countsOf(const ObjectUse& use, uint32_t depth) {
   };
   requireNesting(depth + 1);
   if (const auto known = counts_.find({use.model, use.object}); known != counts_.end()) return known->second;
-  constexpr uint64_t kTooMany = uint64_t{1} << 50;
   const ModelObject& object = objectOf(use);
+  for (size_t role = 0; role < kPartRoleCount; ++role) roleCounts_[role] += object.leftOut[role];
   ObjectCounts counts;
-  if (object.isSupport) {
-    ++supportCount_;
-  } else {
+  if (object.role == PartRole::Material)
     counts = {object.mesh.vertices.size(), object.mesh.faces.size()};
-    for (const ObjectUse& component : object.components) {
-      const ObjectCounts inner = countsOf(component, depth + 1);
-      counts.vertices = std::min(counts.vertices + inner.vertices, kTooMany);
-      counts.faces = std::min(counts.faces + inner.faces, kTooMany);
-      counts.height = std::max(counts.height, inner.height + 1);
-      requireNesting(counts.height);  // The counts of the components may be known from an earlier use.
+  else
+    ++roleCounts_[static_cast<size_t>(object.role)];
+  for (const ObjectUse& component : object.components) {
+    if (component.role != PartRole::Material) {
+      ++roleCounts_[static_cast<size_t>(component.role)];
+      continue;
     }
+    const ObjectCounts inner = countsOf(component, depth + 1);
+    counts.add(inner);
+    counts.height = std::max(counts.height, inner.height + 1);
+    requireNesting(counts.height);  // The counts of the components may be known from an earlier use.
   }
   counts_[{use.model, use.object}] = counts;
   return counts;
 }
 
 void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double scale, AssembledMesh& assembled) {
-  if (counts_[{use.model, use.object}].faces == 0) return;
+  if (use.role != PartRole::Material || counts_[{use.model, use.object}].faces == 0) return;
   const ModelObject& object = objectOf(use);
   Placement placement = outer.after(use.placement);
   if (!placement.isFinite()) failInput(fmt::format("the transform of {} overflows", nameOf(use)));
@@ -129,31 +175,33 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
     for (Vec3d& column : placement.columns) column = column * (unit / scale);
     if (!placement.isFinite()) failInput(fmt::format("the transform of {} overflows", nameOf(use)));
   }
-  assembled.add(object.mesh, placement);
+  if (object.role == PartRole::Material) assembled.add(object.mesh, placement);
   for (const ObjectUse& component : object.components) place(component, placement, unit, assembled);
 }
 
 Mesh ThreeMfReader::read() {
   const size_t root = models_.indexAt(rootPath());
+  readSettings();
   for (size_t i = 0; i < models_.size(); ++i) readModelAt(i);  // Models name further models.
   const ModelFile& model = models_.model(root);
   ObjectCounts all;
-  for (const ObjectUse& item : model.items) {
-    const ObjectCounts counts = countsOf(item, 0);
-    all = {all.vertices + counts.vertices, all.faces + counts.faces};
-  }
-  std::vector<std::string> skipped;
-  if (supportCount_ > 0) skipped.push_back(counted(supportCount_, "support"));
-  if (models_.latticeCount() > 0) skipped.push_back(counted(models_.latticeCount(), "beam lattice"));
+  for (const ObjectUse& item : model.items) all.add(countsOf(item, 0));
+  std::vector<std::string> skipped = describeRoles(roleCounts_);
+  for (std::string& phrase : models_.describeSkipped()) skipped.push_back(std::move(phrase));
+  if (model.unprintedCount > 0)
+    skipped.push_back(counted(model.unprintedCount, "build item that is not to be printed",
+                              "build items that are not to be printed"));
   if (all.faces == 0)
-    failInput(model.items.empty() ? "builds nothing: it has no build item"
-                                  : fmt::format("has {} and no triangle: nothing to compute on",
-                                                skipped.empty() ? "build items" : joined(skipped, " and ")));
+    failInput(skipped.empty() && model.items.empty()
+                  ? "builds nothing: it has no build item"
+                  : fmt::format("has {} and no triangle: nothing to compute on",
+                                skipped.empty() ? "build items" : enumeration(skipped)));
   AssembledMesh assembled(all.vertices, all.faces, source_);
   for (const ObjectUse& item : model.items) place(item, {}, micrometresOf(*model.unit), assembled);
   Mesh mesh = assembled.finish();
   mesh.unit = model.unit->unit;
   mesh.skipped = std::move(skipped);
+  mesh.negativeVolumeCount = static_cast<uint32_t>(roleCounts_[static_cast<size_t>(PartRole::NegativeVolume)]);
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -85,7 +86,42 @@ void readWideNumbers(std::span<const char> extra, ZipEntry& entry) {
 
 std::string zipName(const ZipEntry& entry) { return asdfvk::quoted(entry.name); }
 
+/// Files that share bytes would let a small archive contain any amount of data.
+void requireDisjoint(std::span<const ZipEntry> entries, uint64_t directoryOffset) {
+  std::vector<const ZipEntry*> byOffset;
+  byOffset.reserve(entries.size());
+  for (const ZipEntry& entry : entries) byOffset.push_back(&entry);
+  std::sort(byOffset.begin(), byOffset.end(),
+            [](const ZipEntry* a, const ZipEntry* b) { return a->headerOffset < b->headerOffset; });
+  for (size_t i = 0; i < byOffset.size(); ++i) {
+    const ZipEntry& entry = *byOffset[i];
+    const uint64_t end = i + 1 < byOffset.size() ? byOffset[i + 1]->headerOffset : directoryOffset;
+    const uint64_t used = kLocalHeaderSize + entry.name.size();
+    if (end < entry.headerOffset || end - entry.headerOffset < used ||
+        end - entry.headerOffset - used < entry.storedSize)
+      failInput(fmt::format("ZIP archive: {} overlaps other content", zipName(entry)));
+  }
+}
+
+std::optional<char> hexByte(std::string_view digits) {
+  uint8_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2) return std::nullopt;
+  return static_cast<char>(value);
+}
+
 }  // namespace
+
+std::string partName(std::string_view name) {
+  std::string decoded;
+  if (name.starts_with('/') || name.starts_with('\\')) name.remove_prefix(1);
+  for (size_t i = 0; i < name.size(); ++i) {
+    const std::optional<char> byte = name[i] == '%' ? hexByte(name.substr(i + 1, 2)) : std::nullopt;
+    decoded += byte ? *byte : name[i] == '\\' ? '/' : name[i];
+    if (byte) i += 2;
+  }
+  return lowerCase(decoded);
+}
 
 ZipArchive::ZipArchive(std::span<const char> bytes) : bytes_(bytes) {
   const ZipDirectory directory = findDirectory(bytes);
@@ -110,14 +146,16 @@ ZipArchive::ZipArchive(std::span<const char> bytes) : bytes_(bytes) {
     const uint64_t size = uint64_t{kDirectoryHeaderSize} + nameLength + extraLength + commentLength;
     rest = rest.subspan(zipPart(rest, 0, size).size());
   }
+  requireDisjoint(entries_, directory.offset);
+  for (const ZipEntry& entry : entries_) ++entriesOf_.try_emplace(partName(entry.name), &entry, 0).first->second.second;
 }
 
 const ZipEntry* ZipArchive::find(std::string_view name) const {
-  const std::string lower = lowerCase(name);
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const ZipEntry& entry) {
-    return entry.name.size() == lower.size() && lowerCase(entry.name) == lower;
-  });
-  return found == entries_.end() ? nullptr : &*found;
+  const auto found = entriesOf_.find(partName(name));
+  if (found == entriesOf_.end()) return nullptr;
+  const auto& [entry, count] = found->second;
+  if (count > 1) failInput(fmt::format("ZIP archive: {} files have the name {}", count, zipName(*entry)));
+  return entry;
 }
 
 struct ZipStream::Inflater {

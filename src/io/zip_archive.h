@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace asdfvk {
@@ -17,20 +20,26 @@ struct ZipEntry {
   uint16_t method = 0;
 };
 
-/// Reads the directory of a ZIP archive (PKWARE APPNOTE 6.3, with ZIP64). Throws Error{UnreadableInput}.
+/// The form in which names of parts (Open Packaging Conventions) are compared: without the first slash, with %HH
+/// decoded, backslashes as slashes, ASCII letters in lower case.
+[[nodiscard]] std::string partName(std::string_view name);
+
+/// Reads the directory of a ZIP archive (PKWARE APPNOTE 6.3, with ZIP64). Throws Error{UnreadableInput}, also if files
+/// overlap.
 class ZipArchive {
  public:
   /// `bytes` must outlive this object.
   explicit ZipArchive(std::span<const char> bytes);
 
-  [[nodiscard]] std::span<const ZipEntry> entries() const { return entries_; }
-  /// Ignores the case of ASCII letters. Returns null if there is no such entry.
+  /// Compares names by partName(). Returns null if there is no such file. Throws Error{UnreadableInput} if there are
+  /// several.
   [[nodiscard]] const ZipEntry* find(std::string_view name) const;
   [[nodiscard]] std::span<const char> bytes() const { return bytes_; }
 
  private:
   std::span<const char> bytes_;
   std::vector<ZipEntry> entries_;
+  std::map<std::string, std::pair<const ZipEntry*, uint32_t>> entriesOf_;  ///< First entry and their number, by name.
 };
 
 /// Reads a file of an archive piece by piece. Verifies size and checksum at the end.
