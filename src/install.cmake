@@ -34,7 +34,7 @@ set(ASDFVK_IS_STATIC OFF)
 set(ASDFVK_PC_PRIVATE "")
 if(libraryType STREQUAL STATIC_LIBRARY)
   set(ASDFVK_IS_STATIC ON)
-  set(ASDFVK_PC_PRIVATE "-lfmt -ltbb -lz -lpthread -ldl")
+  set(ASDFVK_PC_PRIVATE "-lfmt -ltbb -lz -lexpat -lpthread -ldl")
 endif()
 configure_package_config_file(asdf-vk-config.cmake.in ${PROJECT_BINARY_DIR}/asdf-vk-config.cmake
                               INSTALL_DESTINATION ${packageFolder})

@@ -15,17 +15,15 @@ struct RoleNames {
   PartRole role;
   std::string_view noun, plural;
 };
-constexpr std::array<RoleNames, kPartRoleCount - 1> kRoleNames{{{PartRole::Support, "support", ""},
-                                                                {PartRole::Surface, "surface without volume",
-                                                                 "surfaces without volume"},
-                                                                {PartRole::Other, "object of type other",
-                                                                 "objects of type other"},
-                                                                {PartRole::NegativeVolume, "negative volume", ""},
-                                                                {PartRole::Modifier, "modifier", ""},
-                                                                {PartRole::SupportBlocker, "support blocker", ""},
-                                                                {PartRole::SupportEnforcer, "support enforcer", ""},
-                                                                {PartRole::Unknown, "part of an unknown type",
-                                                                 "parts of unknown types"}}};
+constexpr std::array<RoleNames, kPartRoleCount - 1> kRoleNames{
+    {{PartRole::Support, "support", ""},
+     {PartRole::Surface, "surface without volume", "surfaces without volume"},
+     {PartRole::Other, "object of type other", "objects of type other"},
+     {PartRole::NegativeVolume, "negative volume", ""},
+     {PartRole::Modifier, "modifier", ""},
+     {PartRole::SupportBlocker, "support blocker", ""},
+     {PartRole::SupportEnforcer, "support enforcer", ""},
+     {PartRole::Unknown, "part of an unknown type", "parts of unknown types"}}};
 
 /// PrusaSlicer and SuperSlicer write the first names, Bambu Studio and OrcaSlicer the second ones.
 PartRole roleOfSlicer(std::string_view name) {
@@ -41,8 +39,8 @@ uint64_t settingNumber(const XmlReader& xml, std::string_view attribute) {
   const std::string_view text = withoutBlanks(xml.attribute(attribute).value_or(""));
   const std::optional<uint32_t> number = numberIn<uint32_t>(text);
   if (!number)
-    xml.fail(fmt::format("{} {} of {} is not a whole number", attribute, asdfvk::quoted(text),
-                         asdfvk::quoted(xml.name())));
+    xml.fail(
+        fmt::format("{} {} of {} is not a whole number", attribute, asdfvk::quoted(text), asdfvk::quoted(xml.name())));
   return *number;
 }
 

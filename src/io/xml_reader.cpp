@@ -4,9 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <new>
+#include <tuple>
 #include <utility>
 
 #include "io/input_failure.h"
@@ -21,7 +21,12 @@ constexpr size_t kMaxName = 1024, kMaxText = 64;
 // Expat joins namespace and name with this character. A namespace cannot contain it unescaped, and expat refuses it
 // escaped.
 constexpr char kSeparator = '\n';
-constexpr std::string_view kXmlBlanks = " \t\r\n";
+
+bool isXmlBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+void trimStart(std::string_view& text) {
+  while (!text.empty() && isXmlBlank(text.front())) text.remove_prefix(1);
+}
 
 std::pair<std::string_view, std::string_view> splitName(std::string_view name) {
   const size_t end = name.rfind(kSeparator);
@@ -32,8 +37,9 @@ std::pair<std::string_view, std::string_view> splitName(std::string_view name) {
 }  // namespace
 
 std::string_view withoutBlanks(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(kXmlBlanks), text.size()));
-  return text.substr(0, text.find_last_not_of(kXmlBlanks) + 1);
+  trimStart(text);
+  while (!text.empty() && isXmlBlank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 /// The functions that expat calls. An exception must not pass through expat.
@@ -51,21 +57,22 @@ struct XmlReader::Handlers {
   }
   static void start(void* data, const XML_Char* name, const XML_Char** attributes) {
     guarded(data, [&](XmlReader& reader) {
-      if (++reader.depth_ > kMaxXmlDepth) return reader.stop(fmt::format("nested more than {} levels deep", kMaxXmlDepth));
+      if (++reader.depth_ > kMaxXmlDepth)
+        return reader.stop(fmt::format("nested more than {} levels deep", kMaxXmlDepth));
       reader.addTag(Event::Start, name, attributes);
     });
   }
-  static void end(void* data, const XML_Char* name) {
+  static void end(void* data, const XML_Char*) {
     guarded(data, [&](XmlReader& reader) {
       --reader.depth_;
-      reader.addTag(Event::End, name, nullptr);
+      reader.addTag(Event::End, nullptr, nullptr);
     });
   }
   static void text(void* data, const XML_Char* text, int size) {
     guarded(data, [&](XmlReader& reader) {
       std::string& open = reader.openText_;
       std::string_view added(text, static_cast<size_t>(size));
-      if (open.empty()) added.remove_prefix(std::min(added.find_first_not_of(kXmlBlanks), added.size()));
+      if (open.empty()) trimStart(added);
       open += added.substr(0, kMaxText - open.size());
     });
   }
@@ -106,37 +113,43 @@ void XmlReader::stop(std::string reason) {
   XML_StopParser(parser_.get(), XML_FALSE);
 }
 
+void XmlReader::addString(std::string_view text) {
+  strings_ += text;
+  sizes_.push_back(static_cast<uint32_t>(text.size()));
+}
+
+/// name: null for an end tag. Its name is known, because expat matches the tags.
 void XmlReader::addTag(Event event, const char* name, const char** attributes) {
-  const auto add = [&](const char* text) { strings_.append(text, std::strlen(text) + 1); };
-  strings_ += openText_;
-  strings_ += '\0';
-  openText_.clear();
-  const auto requireShort = [&](const char* text) {
-    const size_t size = std::strlen(text);
-    if (size > kMaxName) stop(fmt::format("a name of more than {} bytes", kMaxName));
-    return size <= kMaxName;
-  };
-  if (!requireShort(name)) return;
-  add(name);
+  const uint64_t byte = currentByte();
   uint32_t count = 0;
+  addString(openText_);
+  openText_.clear();
+  const auto addName = [&](std::string_view text) {
+    addString(text);
+    if (text.size() > kMaxName) stop(fmt::format("a name of more than {} bytes", kMaxName));
+    return text.size() <= kMaxName;
+  };
+  if (name != nullptr && !addName(name)) return;
   for (const char** a = attributes; a != nullptr && *a != nullptr; a += 2, ++count) {
     if (count == kMaxAttributes) return stop(fmt::format("more than {} attributes", kMaxAttributes));
-    if (!requireShort(a[0])) return;
-    add(a[0]);
-    add(a[1]);
+    if (!addName(a[0])) return;
+    addString(a[1]);
   }
-  tags_.push_back({event, count, currentByte()});
+  tags_.push_back({event, count, byte});
 }
 
 /// Reads and parses the next piece. Its tags replace those of the last piece.
 void XmlReader::parsePiece() {
   tags_.clear();
   strings_.clear();
-  nextTag_ = nextString_ = 0;
+  sizes_.clear();
+  nextTag_ = nextString_ = nextCharacter_ = 0;
   void* const buffer = XML_GetBuffer(parser_.get(), kPieceSize);
   if (buffer == nullptr) throw std::bad_alloc();
   const size_t count = read_(static_cast<char*>(buffer), kPieceSize);
   isAtEnd_ = count < kPieceSize;
+  const std::string_view begin(static_cast<const char*>(buffer), std::min(count, size_t{2}));
+  if (readBytes_ == 0 && (begin == "\xff\xfe" || begin == "\xfe\xff")) XML_SetEncoding(parser_.get(), "UTF-16");
   readBytes_ += count;
   const XML_Status status = XML_ParseBuffer(parser_.get(), static_cast<int>(count), isAtEnd_ ? XML_TRUE : XML_FALSE);
   if (!failure_.empty() || exception_) return;
@@ -152,8 +165,9 @@ void XmlReader::parsePiece() {
 }
 
 std::string_view XmlReader::takeString() {
-  const std::string_view text(strings_.data() + nextString_);
-  nextString_ += text.size() + 1;
+  const size_t size = sizes_[nextString_++];
+  const std::string_view text(strings_.data() + nextCharacter_, size);
+  nextCharacter_ += size;
   return text;
 }
 
@@ -170,13 +184,14 @@ XmlReader::Event XmlReader::next() {
   const Tag& tag = tags_[nextTag_++];
   tagByte_ = tag.byte;
   text_ = takeString();
-  std::tie(space_, name_) = splitName(takeString());
   attributes_.clear();
+  if (tag.event == Event::End) return Event::End;
+  std::tie(space_, name_) = splitName(takeString());
   for (uint32_t i = 0; i < tag.attributeCount; ++i) {
     const auto [space, name] = splitName(takeString());
     attributes_.push_back({space, name, takeString()});
   }
-  return tag.event;
+  return Event::Start;
 }
 
 void XmlReader::skipElement() {

@@ -15,8 +15,9 @@ struct XML_ParserStruct;
 namespace asdfvk {
 
 /// Reads the tags of an XML document one after another, with resolved namespaces. Expat parses the document in pieces;
-/// it reads UTF-8, UTF-16, ISO 8859-1 and ASCII. Document types are rejected, because they can define entities. Memory:
-/// at most a few MB.
+/// it reads UTF-8, UTF-16, ISO 8859-1 and ASCII. A
+/// byte order mark of UTF-16 overrides the encoding that the document states. Document types are rejected, because they
+/// can define entities. Memory: at most a few MB.
 class XmlReader {
  public:
   /// Reads up to `size` bytes; fewer only at the end of the document.
@@ -39,7 +40,7 @@ class XmlReader {
   /// Reads to the end of the element that has just started.
   void skipElement();
 
-  // Views of the last tag are valid until next(). An end tag has no attributes.
+  // Views of the last start tag are valid until next().
   [[nodiscard]] std::string_view space() const { return space_; }
   [[nodiscard]] std::string_view name() const { return name_; }
   [[nodiscard]] std::span<const Attribute> attributes() const { return attributes_; }
@@ -55,8 +56,8 @@ class XmlReader {
 
  private:
   struct Handlers;
-  /// A tag that expat has found and next() has not returned. Its strings are the next ones in strings_: text, name,
-  /// then name and value of each attribute.
+  /// A tag that expat has found. Its strings are the next ones in strings_: the text before it, and for a start tag its
+  /// name and the names and values of the attributes.
   struct Tag {
     Event event;
     uint32_t attributeCount;
@@ -64,6 +65,7 @@ class XmlReader {
   };
 
   void parsePiece();
+  void addString(std::string_view text);
   void addTag(Event event, const char* name, const char** attributes);
   void stop(std::string reason);
   [[nodiscard]] std::string_view takeString();
@@ -75,12 +77,13 @@ class XmlReader {
   uint64_t readBytes_ = 0;
   bool isAtEnd_ = false;
   uint32_t depth_ = 0;
-  std::map<std::string, std::string> namespaces_;  ///< Of the root element, by prefix.
+  std::map<std::string, std::string> namespaces_;  ///< The bindings of the root element, by prefix.
   std::string openText_;                           ///< Text after the last tag that expat has found.
 
   std::vector<Tag> tags_;
-  std::string strings_;  ///< Each ends with a zero byte.
-  size_t nextTag_ = 0, nextString_ = 0;
+  std::string strings_;
+  std::vector<uint32_t> sizes_;  ///< Sizes of the strings.
+  size_t nextTag_ = 0, nextString_ = 0, nextCharacter_ = 0;
   /// Why parsing stopped, and where. next() throws it after the last tag.
   std::string failure_;
   uint64_t failureByte_ = 0;
