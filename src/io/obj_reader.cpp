@@ -1,5 +1,6 @@
 // Wavefront OBJ: the statements `v` and `f`. The reader ignores the other statements of the format, and opens no file
-// that a statement such as mtllib names. The statement `call` and unknown statements are errors.
+// that a statement such as mtllib names. The statement `call` and unknown statements are errors. A backslash at the end
+// of a line continues a statement of numbers, but not a name, because names may be Windows paths that end with one.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -27,6 +28,13 @@ static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
 
 bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
 
+/// Whether the arguments are names or commands.
+bool hasNames(std::string_view keyword) {
+  constexpr auto kNameKeywords = std::to_array<std::string_view>(
+      {"csh", "g", "maplib", "mtllib", "o", "shadow_obj", "trace_obj", "usemap", "usemtl"});
+  return std::find(kNameKeywords.begin(), kNameKeywords.end(), keyword) != kNameKeywords.end();
+}
+
 class ObjReader {
  public:
   explicit ObjReader(std::span<const char> bytes) : text_(bytes, {.comment = '#', .backslashContinues = true}) {}
@@ -50,10 +58,22 @@ class ObjReader {
       readFace();
     } else if (keyword == "call") {
       failAtLine(text_.line(), "call refers to another file; other files are never opened");
-    } else if (isKeyword(keyword)) {
+    } else if (hasNames(keyword)) {
       text_.skipLine();
+    } else if (isKeyword(keyword)) {
+      skipNumbers();
     } else {
       failAtLine(text_.line(), fmt::format("{} is not an OBJ keyword", quoted(keyword)));
+    }
+  }
+
+  /// Refuses a continuation that begins with a keyword, because the backslash may be there by mistake.
+  void skipNumbers() {
+    for (uint64_t line = text_.line(); !text_.atLineEnd(); line = text_.line()) {
+      const std::string_view word = text_.wordOnLine();
+      if (text_.line() != line && isKeyword(word))
+        failAtLine(line, fmt::format("a backslash joins this line and the statement {} of the next; remove one of them",
+                                     quoted(word)));
     }
   }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string>
 #include <system_error>
 
+#include "core/text.h"
 #include "io/input_failure.h"
 
 namespace asdfvk {
@@ -31,6 +33,20 @@ bool isTiny(std::string_view number) {
   if (firstDigit == std::string_view::npos) return true;
   const size_t point = std::min(mantissa.find('.'), mantissa.size());
   return static_cast<int64_t>(point) - static_cast<int64_t>(firstDigit) + exponent < 0;
+}
+
+/// Whether the text of a number continues as in 1.#QNAN, -1.#IND or 1.#INF, which old C libraries of Windows write.
+bool isUndefinedNumber(std::string_view rest) {
+  return rest.starts_with("#QNAN") || rest.starts_with("#SNAN") || rest.starts_with("#IND") || rest.starts_with("#INF");
+}
+
+/// Whether the word is a number with a comma instead of the decimal point.
+bool hasDecimalComma(std::string word) {
+  const size_t comma = word.find(',');
+  if (comma == std::string::npos) return false;
+  word[comma] = '.';
+  const size_t sign = word.starts_with('+') ? 1 : 0;
+  return numberIn<double>(std::string_view(word).substr(sign)).has_value();
 }
 
 }  // namespace
@@ -66,8 +82,10 @@ double TextScanner::number(std::string_view expected) {
   if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
   double value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
-  if (ec == std::errc::invalid_argument || !endsWord(next))
-    failAtLine(line_, fmt::format("expected {}, found {}", printable(expected), quoted(scanWord())));
+  // In a format with comments, the # of 1.#QNAN would begin a comment.
+  if (ec == std::errc::invalid_argument || !endsWord(next) ||
+      (next != end_ && *next == '#' && isUndefinedNumber({next, static_cast<size_t>(end_ - next)})))
+    failAtNumber(expected);
   if (ec == std::errc::result_out_of_range) {
     const std::string_view text(begin, static_cast<size_t>(next - begin));
     if (!isTiny(text))
@@ -76,6 +94,22 @@ double TextScanner::number(std::string_view expected) {
   }
   at_ = next;
   return value;
+}
+
+void TextScanner::failAtNumber(std::string_view expected) {
+  const char* const begin = at_;
+  const auto isInWord = [this](const char* p) {
+    return !endsWord(p) || (p != end_ && classOf(*p) == CharClass::Comment);
+  };
+  while (isInWord(at_)) ++at_;
+  const std::string_view word(begin, static_cast<size_t>(at_ - begin));
+  const size_t hash = std::min(word.find('#'), word.size());
+  std::string remedy;
+  if (isUndefinedNumber(word.substr(hash)))
+    remedy = ", which is not a number: the program that wrote the file had an undefined value; repair the mesh there";
+  else if (hasDecimalComma(std::string(word)))
+    remedy = ": numbers have a decimal comma; write them with a point";
+  failAtLine(line_, fmt::format("expected {}, found {}{}", printable(expected), quoted(word), remedy));
 }
 
 int64_t TextScanner::integer(std::string_view expected) {
@@ -99,7 +133,7 @@ void TextScanner::requireEnd(std::string_view after) {
 }
 
 void TextScanner::skipLine() {
-  while (!atLineEnd()) static_cast<void>(scanWord());
+  skipToLineBreak();
   if (at_ != end_) skipLineBreak();
 }
 

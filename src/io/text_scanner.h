@@ -9,7 +9,7 @@ namespace asdfvk {
 
 struct TextSyntax {
   char comment = '\0';              ///< Character that starts a comment up to the end of the line; '\0': no comments.
-  bool backslashContinues = false;  ///< A backslash directly before a line break joins the two lines.
+  bool backslashContinues = false;  ///< A backslash at the end of a line, before optional blanks, joins two lines.
 };
 
 /// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Words are views into `bytes`.
@@ -51,6 +51,7 @@ class TextScanner {
   void requireLineEnd(std::string_view after);
   /// after: the preceding item, for the message.
   void requireEnd(std::string_view after);
+  /// Skips the rest of the line with its line break. Here a backslash does not join lines.
   void skipLine();
   /// Precondition: the next byteCount bytes belong to one word.
   void skipBytes(size_t byteCount) { at_ += byteCount; }
@@ -60,7 +61,10 @@ class TextScanner {
 
   [[nodiscard]] CharClass classOf(char c) const { return classes_[static_cast<unsigned char>(c)]; }
   [[nodiscard]] bool isContinuation(const char* p) const {
-    return classOf(*p) == CharClass::Backslash && p + 1 != end_ && classOf(p[1]) == CharClass::LineBreak;
+    if (classOf(*p) != CharClass::Backslash) return false;
+    do ++p;
+    while (p != end_ && classOf(*p) == CharClass::Blank);
+    return p != end_ && classOf(*p) == CharClass::LineBreak;
   }
   [[nodiscard]] bool endsWord(const char* p) const {
     if (p == end_) return true;
@@ -73,14 +77,17 @@ class TextScanner {
       if (c == CharClass::Blank) {
         ++at_;
       } else if (c == CharClass::Comment) {
-        while (at_ != end_ && classOf(*at_) != CharClass::LineBreak) ++at_;
+        skipToLineBreak();
       } else if (c == CharClass::Backslash && isContinuation(at_)) {
-        ++at_;
+        skipToLineBreak();
         skipLineBreak();
       } else {
         return;
       }
     }
+  }
+  void skipToLineBreak() {
+    while (at_ != end_ && classOf(*at_) != CharClass::LineBreak) ++at_;
   }
   void skipLineBreak() {
     at_ += *at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n' ? 2 : 1;
@@ -88,6 +95,7 @@ class TextScanner {
   }
   [[nodiscard]] std::string_view scanWord();
   void requireWord(std::string_view expected);
+  [[noreturn]] void failAtNumber(std::string_view expected);
 
   std::array<CharClass, 256> classes_{};
   const char* at_;

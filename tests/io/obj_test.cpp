@@ -70,3 +70,46 @@ TEST_CASE("errors of an OBJ file name the line and the reason") {
   CHECK(holds(errorOf("obj", kCorners + "call other.obj\n"), "never opened"));
   CHECK(holds(errorOf("obj", kCorners + "f 1 \\\n 2 \\\n x\n"), "line 7: 'x' is not a corner"));
 }
+
+TEST_CASE("a backslash at the end of an OBJ name or comment never joins the next line") {
+  for (const char* lineEnd : {"\n", "\r\n", "\r", " \t\n"})
+    for (const char* statement :
+         {"usemtl wood\\", "usemtl\\", "o C:\\parts\\", "g name\\", "mtllib C:\\parts\\", "usemap a\\", "maplib a\\",
+          "shadow_obj a\\", "trace_obj a\\", "csh -a\\", "# comment\\", "v 0 0 0 # comment\\"}) {
+      CAPTURE(statement);
+      CAPTURE(lineEnd);
+      const Mesh mesh = parse("obj", std::string(statement) + lineEnd + kCorners + statement + lineEnd +
+                                         "f -4 -3 -2\n" + statement + lineEnd + "f -1 -2 -3\n");
+      CHECK(mesh.faces.size() == 2);
+      CHECK(mesh.vertices.size() == (statement[0] == 'v' ? 8 : 4));
+    }
+}
+
+TEST_CASE("a backslash continues OBJ numbers, but joins no second statement in silence") {
+  for (const char* lineEnd : {"\n", "\r\n", "\r", " \t\n"})
+    CHECK(parse("obj", std::string("v 0 0 \\") + lineEnd + "0\nv 1 0 0\nvn 0 0 \\" + lineEnd + "1\nv 0 1 0\nf 1 2 \\" +
+                           lineEnd + "3\n")
+              .faces == std::vector<Face>{{0, 1, 2}});
+  for (const char* statement : {"vn 0 0 1 \\", "vt 0 0\\", "s 1\\", "l 1 2 \\", "p 1\\", "parm u 0 1\\"}) {
+    CAPTURE(statement);
+    CHECK(holds(errorOf("obj", kCorners + "f 1 2 3\n" + statement + "\nf 1 3 4\n"),
+                "line 6: a backslash joins this line and the statement 'f' of the next"));
+  }
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 3 \\\nf 1 3 4\n"), "line 6: 'f' is not a corner"));
+  CHECK(holds(errorOf("obj", "v 0 0 0\\\nv 1 0 0\n"), "line 2: expected a vertex coordinate, found 'v'"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 3\\"), "line 5: '3\\' is not a corner"));
+}
+
+TEST_CASE("an undefined number or a decimal comma in OBJ is an error with its cause") {
+  for (const char* word : {"1.#QNAN", "-1.#IND", "1.#INF00", "1.#SNAN0"})
+    for (const std::string& corner : {std::string(word) + " 0 0", std::string("0 0 ") + word}) {
+      CAPTURE(corner);
+      CHECK(holds(errorOf("obj", kCorners + "v " + corner + "\nf 1 2 3\n"),
+                  "line 5: expected a vertex coordinate, found '" + std::string(word) +
+                      "', which is not a number: the program that wrote the file had an undefined value"));
+    }
+  CHECK(holds(errorOf("obj", "v 0 0 0,5\n"), "found '0,5': numbers have a decimal comma; write them with a point"));
+  CHECK(holds(errorOf("obj", "v 0 0 +1,5e-3\n"), "decimal comma"));
+  CHECK(!holds(errorOf("obj", "v 0 0 1,2,3\n"), "decimal comma"));
+  CHECK(parse("obj", "v 0 0 0#comment\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertices.size() == 3);
+}
