@@ -17,6 +17,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "io/formats.h"
 
 namespace asdfvk {
 namespace {
@@ -33,8 +34,10 @@ uint64_t byteCountOf(const fs::path& path) {
   return error ? 0 : size;
 }
 
-/// Whether the file is a result of this program, such as "horse.asdf.ply".
-bool isResult(const fs::path& name) { return name.stem().extension() == ".asdf"; }
+/// Whether the file is a result of this program, such as "horse.asdf.ply" or "horse.asdf.ply.gz".
+bool isResult(const fs::path& name) {
+  return name.stem().extension() == ".asdf" || name.stem().stem().extension() == ".asdf";
+}
 
 class FolderSearch {
  public:
@@ -69,7 +72,7 @@ class FolderSearch {
   }
 
   [[nodiscard]] bool isMesh(const fs::path& name) const {
-    const std::string extension = lowerCase(name.extension().string());
+    const std::string extension = lowerCase(meshExtension(name));
     return extension.size() > 1 && !isResult(name) &&
            std::count(request_.formats.begin(), request_.formats.end(), extension.substr(1)) > 0;
   }

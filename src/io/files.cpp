@@ -14,10 +14,12 @@
 #include "core/atomic_file.h"
 #include "core/text.h"
 #include "core/unset_vector.h"
+#include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/grouped_files.h"
 #include "io/input_failure.h"
 #include "io/inspected_mesh.h"
+#include "io/mesh_content.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
@@ -93,10 +95,25 @@ const FileFormat& findResultFormat(const std::filesystem::path& path, const std:
   throw Error(ErrorCode::UnknownFormat, fmt::format("{}; results are written as {}", reason, listOf(isResultFormat)));
 }
 
-Mesh parse(const MeshSource& source) {
-  if (source.bytes.empty()) failInput("is empty");
-  const FileFormat* const format = detectFormat(
-      source.bytes, source.options.format.empty() ? source.path.extension().string() : source.options.format);
+/// The extension that decides the format of an ambiguous content.
+std::string extensionFor(const MeshSource& file) {
+  const std::string& format = file.options.format;
+  if (format.empty()) return meshExtension(file.path);
+  return meshExtension("mesh." + format.substr(format.starts_with('.') ? 1 : 0));
+}
+
+Mesh parse(const MeshSource& file) {
+  if (file.bytes.empty()) failInput("is empty");
+  const MeshContent content(file);
+  const MeshSource& source = content.source();
+  const FileFormat* format = certainFormat(source.bytes);
+  const std::string extension = extensionFor(file);
+  if (format == nullptr) {
+    if (const std::string reason = foreignContent(source.bytes); !reason.empty()) failInput(reason);
+    format = detectFormat(source.bytes, extension);
+  }
+  if (format == nullptr)
+    if (const std::string reason = foreignExtension(extension); !reason.empty()) failInput(reason);
   if (format == nullptr || !isMeshFormat(*format))
     failInput(fmt::format("has {}; meshes are read from {}",
                           format == nullptr ? "an unknown format" : fmt::format("the format {}", format->name),

@@ -18,18 +18,30 @@ namespace {
 constexpr std::array<const FileFormat*, 10> kFormats{&kStlFormat, &kPlyFormat, &kOffFormat, &kObjFormat, &kGlbFormat,
                                                      &k3mfFormat, &kVtuFormat, &kNpyFormat, &kNpzFormat, &kCsvFormat};
 
+const FileFormat* firstWith(Match match, std::span<const char> bytes) {
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const FileFormat* format) {
+    return format->detect != nullptr && format->detect(bytes) == match;
+  });
+  return found == kFormats.end() ? nullptr : *found;
+}
+
 }  // namespace
+
+uint64_t MeshSource::sizeForLimits() const {
+  constexpr uint64_t kMaxRatio = 20;
+  return packedSize == 0 ? bytes.size() : std::min<uint64_t>(bytes.size(), kMaxRatio * packedSize);
+}
 
 uint64_t MeshSource::maxFaceCount() const {
   constexpr uint64_t kFacesPerByte = 100, kSmallestLimit = 100'000;
-  return options.maxFaces != 0 ? options.maxFaces : std::max(kSmallestLimit, kFacesPerByte * bytes.size());
+  return options.maxFaces != 0 ? options.maxFaces : std::max(kSmallestLimit, kFacesPerByte * sizeForLimits());
 }
 
 void requireFaceCount(uint64_t faceCount, const MeshSource& source) {
   const uint64_t limit = source.maxFaceCount();
   if (faceCount <= limit) return;
   const std::string which =
-      source.options.maxFaces != 0 ? "" : fmt::format(" for a file of {}", counted(source.bytes.size(), "byte"));
+      source.options.maxFaces != 0 ? "" : fmt::format(" for a file of {}", counted(source.sizeForLimits(), "byte"));
   throw Error(ErrorCode::TooManyFaces,
               fmt::format("has {}; the limit{} is {}", counted(faceCount, "face"), which, groupDigits(limit)),
               {{"limit", std::to_string(limit)}});
@@ -47,16 +59,17 @@ const FileFormat* formatOfExtension(std::string_view extension) {
   return nullptr;
 }
 
+std::string meshExtension(const std::filesystem::path& name) {
+  std::string extension = name.extension().string();
+  return lowerCase(extension) == ".gz" ? name.stem().extension().string() : extension;
+}
+
+const FileFormat* certainFormat(std::span<const char> bytes) { return firstWith(Match::Certain, bytes); }
+
 const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension) {
-  const FileFormat* possible = nullptr;
-  for (const FileFormat* const format : kFormats) {
-    if (format->detect == nullptr) continue;
-    const Match match = format->detect(bytes);
-    if (match == Match::Certain) return format;
-    if (match == Match::Possible && possible == nullptr) possible = format;
-  }
+  if (const FileFormat* const certain = certainFormat(bytes)) return certain;
   const FileFormat* const named = formatOfExtension(extension);
-  return named != nullptr ? named : possible;
+  return named != nullptr ? named : firstWith(Match::Possible, bytes);
 }
 
 }  // namespace asdfvk

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct MeshSource {
   std::span<const char> bytes;
   std::filesystem::path path = {};  ///< Empty for standard input and for bytes in memory: there are no files beside.
   ReadOptions options = {};
+  uint64_t packedSize = 0;  ///< Size of the compressed file that has the bytes; 0 if the file has them directly.
 
+  /// The size on which limits depend: the number of bytes, but at most 20 times the packed size.
+  [[nodiscard]] uint64_t sizeForLimits() const;
   /// The greatest number of faces that the reader may return.
   [[nodiscard]] uint64_t maxFaceCount() const;
 };
@@ -65,7 +69,13 @@ struct FileFormat {
 /// extension: in upper or lower case, with or without the dot. Null if unknown.
 [[nodiscard]] const FileFormat* formatOfExtension(std::string_view extension);
 
-/// Tests in this order: the first format with Match::Certain, the format of the extension, the first format with
+/// The extension that names the format of a mesh: ".stl" for "part.stl" and for "part.stl.gz".
+[[nodiscard]] std::string meshExtension(const std::filesystem::path& name);
+
+/// The first format with Match::Certain, or null.
+[[nodiscard]] const FileFormat* certainFormat(std::span<const char> bytes);
+
+/// Tests in this order: certainFormat(), the format of the extension, the first format with
 /// Match::Possible. Returns null if there is none of these.
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "core/text.h"
 #include "io/input_failure.h"
@@ -12,32 +14,29 @@
 namespace asdfvk {
 namespace {
 
-PlyType typeOf(std::string_view word, uint64_t line) {
+std::optional<PlyType> plyTypeNamed(std::string_view word) {
   struct Name {
     std::string_view word;
     PlyType type;
   };
   constexpr auto kNames = std::to_array<Name>({
-      {"char", PlyType::Int8},
-      {"int8", PlyType::Int8},
-      {"uchar", PlyType::UInt8},
-      {"uint8", PlyType::UInt8},
-      {"short", PlyType::Int16},
-      {"int16", PlyType::Int16},
-      {"ushort", PlyType::UInt16},
-      {"uint16", PlyType::UInt16},
-      {"int", PlyType::Int32},
-      {"int32", PlyType::Int32},
-      {"uint", PlyType::UInt32},
-      {"uint32", PlyType::UInt32},
-      {"float", PlyType::Float32},
-      {"float32", PlyType::Float32},
-      {"double", PlyType::Float64},
-      {"float64", PlyType::Float64},
+      {"char", PlyType::Int8},      {"int8", PlyType::Int8},       {"uchar", PlyType::UInt8},
+      {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},     {"int16", PlyType::Int16},
+      {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},   {"int", PlyType::Int32},
+      {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},     {"uint32", PlyType::UInt32},
+      {"int64", PlyType::Int64},    {"long", PlyType::Int64},      {"uint64", PlyType::UInt64},
+      {"ulong", PlyType::UInt64},   {"float", PlyType::Float32},   {"float32", PlyType::Float32},
+      {"double", PlyType::Float64}, {"float64", PlyType::Float64},
   });
+  if (word.ends_with("_t")) word.remove_suffix(2);
   const auto found = std::find_if(kNames.begin(), kNames.end(), [&](const Name& name) { return name.word == word; });
-  if (found == kNames.end()) failAtLine(line, fmt::format("{} is not a PLY type", quoted(word)));
-  return found->type;
+  return found == kNames.end() ? std::nullopt : std::optional(found->type);
+}
+
+PlyType typeOf(std::string_view word, uint64_t line) {
+  const std::optional<PlyType> type = plyTypeNamed(word);
+  if (!type) failAtLine(line, fmt::format("{} is not a PLY type", quoted(word)));
+  return *type;
 }
 
 void setOnce(size_t& property, size_t value, const PlyElement& element) {
@@ -126,9 +125,24 @@ class HeaderParser {
       while (!text_.wordOnLine().empty()) {
       }
     } else {
-      failAtLine(text_.line(), fmt::format("{} is not a PLY header keyword", quoted(keyword)));
+      skipUnknownLine(keyword);
     }
     return true;
+  }
+
+  /// Skips a line that the format does not define, such as a comment without the keyword. Refuses a line that may be a
+  /// misspelt property, or a misspelt element because properties follow.
+  void skipUnknownLine(std::string_view keyword) {
+    if (!unknown_) unknown_ = {text_.line(), keyword};
+    ++unknownLineCount_;
+    const std::string_view second = text_.wordOnLine();
+    if (second == "list" || plyTypeNamed(second)) failAtUnknownLine();
+    while (!text_.wordOnLine().empty()) {
+    }
+  }
+
+  [[noreturn]] void failAtUnknownLine() const {
+    failAtLine(unknown_->first, fmt::format("{} is not a PLY header keyword", quoted(unknown_->second)));
   }
 
   std::string_view wordOnLine(std::string_view expected) {
@@ -151,10 +165,14 @@ class HeaderParser {
       failAtLine(text_.line(), fmt::format("{} is not a PLY encoding", quoted(encoding)));
     }
     const std::string_view version = wordOnLine("the version");
-    if (version != "1.0") failAtLine(text_.line(), fmt::format("PLY version {} is not supported", quoted(version)));
+    if (version == "1.1")
+      header_.skipped.emplace_back("version number 1.1 (the only version of PLY is 1.0)");
+    else if (version != "1.0")
+      failAtLine(text_.line(), fmt::format("PLY version {} is not supported", quoted(version)));
   }
 
   void parseElement() {
+    unknown_.reset();
     PlyElement& element = header_.elements.emplace_back();
     element.name = wordOnLine("the name of the element");
     if (text_.atLineEnd()) failAtLine(text_.line(), "the count of the element is missing");
@@ -164,6 +182,7 @@ class HeaderParser {
   }
 
   void parseProperty() {
+    if (unknown_) failAtUnknownLine();
     if (header_.elements.empty()) failAtLine(text_.line(), "a property before the first element");
     PlyElement& element = header_.elements.back();
     PlyProperty& property = element.properties.emplace_back();
@@ -186,6 +205,7 @@ class HeaderParser {
     header_.bodyOffset = static_cast<uint64_t>(text_.position() - bytes_.data()) + length;
     header_.bodyLine = text_.line() + (length > 0 ? 1 : 0);
     header_.vertexCount = assignRoles(header_.elements);
+    if (unknownLineCount_ > 0) header_.skipped.push_back(counted(unknownLineCount_, "unknown header line"));
   }
 
   /// Returns the number of bytes of the next line break. If lines end with CR alone, an LF after end_header belongs to
@@ -201,6 +221,9 @@ class HeaderParser {
   PlyHeader header_;
   bool hasFormat_ = false;
   bool hasCrLines_ = false;
+  uint64_t unknownLineCount_ = 0;
+  /// Line and first word of the first unknown line since the last element.
+  std::optional<std::pair<uint64_t, std::string_view>> unknown_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,10 +14,10 @@ class AtomicFile;
 class ResultView;
 
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
-enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
 [[nodiscard]] constexpr uint64_t sizeOf(PlyType type) {
-  constexpr std::array<uint8_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  constexpr std::array<uint8_t, 10> kSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return kSizes[static_cast<size_t>(type)];
 }
 [[nodiscard]] constexpr bool isInteger(PlyType type) { return type < PlyType::Float32; }
@@ -55,6 +56,7 @@ struct PlyHeader {
   uint64_t bodyOffset = 0;           ///< Byte of the first row.
   uint64_t bodyLine = 1;             ///< Line of the first row, in an ASCII file.
   uint64_t vertexCount = 0;          ///< Below 2^32.
+  std::vector<std::string> skipped;  ///< See Mesh::skipped.
 };
 
 /// Throws Error{UnreadableInput} with the line. Names are views into `bytes`.

@@ -1,7 +1,8 @@
 // PLY 1.0 (Turk 1994): a header (ply_header.h), then the rows of its elements, in ASCII or in binary of either byte
 // order (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and at least one of the
 // elements `face` (with the list vertex_indices or vertex_index) and `tristrips`. Elements may be in any order. The
-// reader ignores all other elements and properties. In ASCII each row begins on a new line.
+// reader ignores all other elements and properties. In ASCII each row begins on a new line. Lines of the header that
+// the format does not define, and padding after the last row, are ignored and reported.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -54,7 +55,9 @@ class PlyBody {
 
   Mesh read() {
     for (const PlyElement& element : header_.elements) readElement(element);
-    source_.requireEnd();
+    mesh_.skipped = header_.skipped;
+    if (const uint64_t size = source_.requireEnd(); size > 0)
+      mesh_.skipped.push_back(counted(size, "byte") + " after the last row");
     faces_.moveTo(mesh_);
     return std::move(mesh_);
   }

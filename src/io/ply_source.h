@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,7 @@ template <typename T, bool kIsSwapped>
   return std::bit_cast<T>(bytes);
 }
 
-/// Reads a number of a PLY type. Out: double or int64_t, which hold every value of the integer types.
+/// Reads a number of a PLY type. Out: double, or int64_t, in which a number from 2^63 on becomes negative.
 template <typename Out, bool kIsSwapped>
 [[nodiscard]] Out loadPly(const char* at, PlyType type) {
   switch (type) {
@@ -43,6 +44,10 @@ template <typename Out, bool kIsSwapped>
       return static_cast<Out>(loadScalar<int32_t, kIsSwapped>(at));
     case PlyType::UInt32:
       return static_cast<Out>(loadScalar<uint32_t, kIsSwapped>(at));
+    case PlyType::Int64:
+      return static_cast<Out>(loadScalar<int64_t, kIsSwapped>(at));
+    case PlyType::UInt64:
+      return static_cast<Out>(loadScalar<uint64_t, kIsSwapped>(at));
     case PlyType::Float32:
       return static_cast<Out>(loadScalar<float, kIsSwapped>(at));
     case PlyType::Float64:
@@ -50,6 +55,12 @@ template <typename Out, bool kIsSwapped>
   }
   // Float64 is read after the switch, because a default case would cause a warning of GCC 14.
   return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
+}
+
+/// Whether all bytes are zero, blanks, line breaks, or the end of a text in DOS (Ctrl-Z).
+[[nodiscard]] inline bool isPlyPadding(std::span<const char> bytes) {
+  return std::all_of(bytes.begin(), bytes.end(),
+                     [](char c) { return std::string_view("\0 \t\n\r\x1a", 6).find(c) != std::string_view::npos; });
 }
 
 // PlyAsciiSource and PlyBinarySource read the numbers after a PLY header through the same functions. expected: name of
@@ -80,7 +91,12 @@ class PlyAsciiSource {
     if (!text_.atLineEnd())
       fail(fmt::format("row {} of element {} has more numbers than the header lists", row, quoted(element.name)));
   }
-  void requireEnd() { text_.requireEnd("the last row"); }
+  /// Returns the size of padding after the last row.
+  uint64_t requireEnd() {
+    const uint64_t size = text_.atEnd() ? 0 : text_.remaining();
+    if (!isPlyPadding({text_.position(), size})) text_.requireEnd("the last row");
+    return size;
+  }
   uint64_t takePoints(const PlyElement&, std::vector<Vec3d>&) { return 0; }
   uint64_t takeTriangles(const PlyElement&, uint64_t, std::vector<Face>&) { return 0; }
 
@@ -108,8 +124,11 @@ class PlyBinarySource {
   /// Precondition: canHoldItems(count, type).
   void skip(uint64_t count, PlyType type, std::string_view) { at_ += count * sizeOf(type); }
   void endRow(const PlyElement&, uint64_t) {}
-  void requireEnd() const {
-    if (remaining() != 0) failAtByte(at_, "unexpected " + counted(remaining(), "byte") + " after the last row");
+  /// Returns the size of padding after the last row: up to three bytes, or more if they are padding.
+  [[nodiscard]] uint64_t requireEnd() const {
+    if (remaining() > 3 && !isPlyPadding(bytes_.subspan(at_)))
+      failAtByte(at_, "unexpected " + counted(remaining(), "byte") + " after the last row");
+    return remaining();
   }
 
   /// Sets the points of rows without lists. points: an entry per row.

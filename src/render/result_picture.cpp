@@ -80,7 +80,7 @@ View viewOf(const View& requested, const std::string& input, const Result& resul
   View view = requested;
   const TraceScene& scene = result.scene->scene;
   if (!view.up) {
-    const FileFormat* const format = formatOfExtension(std::filesystem::path(input).extension().string());
+    const FileFormat* const format = formatOfExtension(meshExtension(input));
     view.up = format != nullptr && (format->name == "stl" || format->name == "3mf")
                   ? Up::Z
                   : guessUp(verticesOfHitFaces(scene));

@@ -80,7 +80,7 @@ const std::map<std::string, Expectation> kExpectations = {
     {"obj_no_vertices_corner_with_normal_only.obj", error("line 2: '//1' is not a corner")},
     {"ply_property_without_element.ply", error("line 3: a property before the first element")},
     {"ply_unknown_keyword.ply", error("line 2: 'a' is not a PLY header keyword")},
-    {"ply_header_on_one_line.ply", error("line 2: 'a' is not a PLY header keyword")},
+    {"ply_header_on_one_line.ply", error("the file ends where end_header is expected")},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/text.h"
 #include "reading.h"
 
 using namespace asdfvk;
@@ -151,7 +152,7 @@ TEST_CASE("PLY properties, lists and elements outside of the mesh are ignored in
     CHECK(mesh.vertices == vertices);
     CHECK(mesh.faces == faces);
     CHECK(errorOf("ply", bytes.substr(0, bytes.size() - 1)) != "no error");
-    CHECK(holds(errorOf("ply", bytes + "x"), "unexpected 1 byte after the last row"));
+    CHECK(holds(errorOf("ply", bytes + "four"), "unexpected 4 bytes after the last row"));
   }
 }
 
@@ -297,4 +298,51 @@ TEST_CASE("a large binary PLY gives its mesh, with and without a quad") {
       wrongCount += mesh.faces[i] == Face{corner(i, 0), corner(i, 1), corner(i, 2)} ? 0 : 1;
     CHECK(wrongCount == 0);
   }
+}
+
+TEST_CASE("PLY integers of 64 bits are read under all their names") {
+  for (const char* type : {"int64", "long", "int64_t"}) requireTriangleAndQuad<int32_t, int64_t>("int32_t", type);
+  for (const char* type : {"uint64", "ulong", "uint64_t"}) requireTriangleAndQuad<uint8_t, uint64_t>("uint8_t", type);
+  requireTriangleAndQuad<int64_t, uint16_t>("int64", "uint16_t");
+  requireTriangleAndQuad<uint64_t, int16_t>("uint64", "int16_t");
+  std::string bytes = binaryPly<float, uint64_t>("float", "uint64", true);
+  bytes[bytes.size() - 8] = '\xff';
+  CHECK(holds(errorOf("ply", bytes), "is out of range; the mesh has 4 vertices"));
+  CHECK(holds(errorOf("ply", asciiPly("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                                      "element face 1\nproperty list uchar float vertex_indices\n")),
+              "must be a list of integers"));
+}
+
+TEST_CASE("padding after the last row of a PLY is ignored and reported") {
+  const std::string binary = binaryPly<float, int32_t>("float", "int", false);
+  const std::string ascii = asciiPly("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  for (const std::string& tail : {std::string("x"), std::string("\r\n"), std::string("\x1a"), std::string(512, '\0')})
+    CHECK(parse("ply", binary + tail).skipped ==
+          std::vector<std::string>{counted(tail.size(), "byte") + " after the last row"});
+  CHECK(parse("ply", ascii + std::string(9, '\0')).skipped == std::vector<std::string>{"9 bytes after the last row"});
+  CHECK(parse("ply", ascii + "\n\n \r\n").skipped.empty());
+  CHECK(parse("ply", binary).skipped.empty());
+  CHECK(holds(errorOf("ply", binary + std::string("\3\0\0\0\1\0", 6)), "unexpected 6 bytes after the last row"));
+  CHECK(holds(errorOf("ply", ascii + "x"), "line 14: unexpected 'x' after the last row"));
+}
+
+TEST_CASE("unknown lines of a PLY header are ignored and reported, but not misspelt elements and properties") {
+  std::string text = asciiPly("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  text.replace(text.find("1.0\n"), 4, "1.1\nCreated by Blender3D 2.49\n\nSomeTool\n");
+  CHECK(parse("ply", text).skipped ==
+        std::vector<std::string>{"version number 1.1 (the only version of PLY is 1.0)", "2 unknown header lines"});
+  const std::string corners(kPlyCorners);
+  for (const char* header : {"elment face 1\nproperty list uchar int vertex_indices\n",
+                             "elment face 1\ncomment c\nproperty list uchar int vertex_indices\n",
+                             "elment face 1\nSomeTool\nproperty list uchar int vertex_indices\n"})
+    CHECK(
+        holds(errorOf("ply", asciiPly(corners + "3 0 1 2\n", header)), "line 7: 'elment' is not a PLY header keyword"));
+  for (const char* line : {"propery float q\n", "propery list uchar int vertex_indices\n", "propery int64_t q\n"})
+    CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 2\n", "element face 1\n" + std::string(line))),
+                "line 8: 'propery' is not a PLY header keyword"));
+}
+
+TEST_CASE("an undefined number in ASCII PLY is an error with its cause") {
+  CHECK(holds(errorOf("ply", asciiPly("0 0 1.#QNAN\n1 0 0\n0 1 0\n3 0 1 2\n")),
+              "line 10: expected z, found '1.#QNAN', which is not a number: the program"));
 }
