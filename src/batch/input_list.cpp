@@ -36,7 +36,8 @@ uint64_t byteCountOf(const fs::path& path) {
 
 /// Whether the file is a result of this program, such as "horse.asdf.ply" or "horse.asdf.ply.gz".
 bool isResult(const fs::path& name) {
-  return name.stem().extension() == ".asdf" || name.stem().stem().extension() == ".asdf";
+  const fs::path unpacked = lowerCase(name.extension().string()) == ".gz" ? name.stem() : name;
+  return unpacked.stem().extension() == ".asdf";
 }
 
 class FolderSearch {

@@ -27,7 +27,8 @@ struct InputRequest {
 };
 
 /// Returns the inputs: first the arguments in their order, then the list. Meshes below a folder are in ascending order
-/// of their paths. Below folders, results of this program (NAME.asdf.ply), hidden files and hidden folders are ignored,
+/// of their paths. Below folders, results of this program (NAME.asdf.ply), also compressed
+/// ones (NAME.asdf.ply.gz), hidden files and hidden folders are ignored,
 /// and links to folders are not followed. For a list, InputFile::folder is relative to the longest common folder of its
 /// paths. A file that does not exist is also an input, as is a dangling link below a folder. Throws
 /// Error{UnreadableInput} for a folder or list that cannot be read.

@@ -32,7 +32,8 @@ TEST_CASE("the meshes below a folder are inputs in order, results and hidden fil
   std::filesystem::create_directories(folder / "in/.git");
   std::filesystem::create_directories(folder / "in/out");
   for (const char* name : {"in/z.off", "in/a.PLY", "in/b/c/d.off", "in/b/e.off", "in/b/e.asdf.ply", "in/.hidden.off",
-                           "in/.git/f.off", "in/note.txt", "in/out/g.off"})
+                           "in/.git/f.off", "in/note.txt", "in/out/g.off", "in/h.ply.gz", "in/i.OFF.GZ",
+                           "in/j.asdf.ply.gz", "in/k.asdf.l.ply", "in/notes.gz"})
     folder.write(name, "12345");
   std::filesystem::create_directory_symlink(folder / "in", folder / "in/b/loop");
   InputRequest request = requestOf({folder / "in"});
@@ -41,6 +42,9 @@ TEST_CASE("the meshes below a folder are inputs in order, results and hidden fil
   CHECK_EQ(pathsOf(inputs), Paths{{folder / "in/a.PLY", ""},
                                   {folder / "in/b/c/d.off", "b/c"},
                                   {folder / "in/b/e.off", "b"},
+                                  {folder / "in/h.ply.gz", ""},
+                                  {folder / "in/i.OFF.GZ", ""},
+                                  {folder / "in/k.asdf.l.ply", ""},
                                   {folder / "in/z.off", ""}});
   CHECK_EQ(inputs[0].byteCount, 5);
 }
