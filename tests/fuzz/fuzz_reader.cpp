@@ -1,6 +1,7 @@
-// The harness of the reader of ASDFVK_FORMAT. It requires that the reader either throws Error of kind Input with one
-// line, or returns a mesh whose arrays fit together; and that its memory never exceeds 64 times the input plus 256 KiB,
-// or 128 MiB more for formats with instances. A model of 3MF may also be given without its archive.
+// The harness of the reader of ASDFVK_FORMAT, or of parseMesh() for "gz". It requires that the reader either throws
+// Error of kind Input with one line, or returns a mesh whose arrays fit together; and that its memory never exceeds 64
+// times the input plus 256 KiB, or 128 MiB more for formats with instances. For "gz" the input counts with its greatest
+// unpacked size. A model of 3MF may also be given without its archive.
 #include <sanitizer/allocator_interface.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace asdfvk {
 namespace {
 
 constexpr int64_t kMaxBytesPerInputByte = 64;
+constexpr int64_t kGreatestDeflateRatio = 1032;
 constexpr int64_t kAllowance = 256 << 10;
 constexpr int64_t kInstanceAllowance = 128 << 20;
 
@@ -64,7 +66,8 @@ void requireSound(const Mesh& mesh) {
   require(triangle == mesh.faces.size(), "a triangle belongs to no polygon");
 }
 
-int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
+/// format: null for parseMesh().
+int readOnce(const FileFormat* format, const uint8_t* data, size_t size) {
   static const int isInstalled = __sanitizer_install_malloc_and_free_hooks(onMalloc, onFree);
   require(isInstalled != 0, "the allocation hooks could not be installed");
   liveBytes = 0;
@@ -73,7 +76,7 @@ int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
   try {
     const std::span bytes(reinterpret_cast<const char*>(data), size);
     static_cast<void>(detectFormat(bytes, ""));
-    const Mesh mesh = format.parseMesh({.bytes = bytes});
+    const Mesh mesh = format != nullptr ? format->parseMesh({.bytes = bytes}) : parseMesh(bytes);
     isCounting = false;
     requireSound(mesh);
   } catch (const Error& error) {
@@ -84,9 +87,9 @@ int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
     require(std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }),
             "a message that is not one printable line");
   }
-  const bool hasInstances = format.name == "glb" || format.name == "3mf";
-  require(peakBytes <=
-              kMaxBytesPerInputByte * static_cast<int64_t>(size) + kAllowance + (hasInstances ? kInstanceAllowance : 0),
+  const bool hasInstances = format == nullptr || format->name == "glb" || format->name == "3mf";
+  const int64_t byteCount = static_cast<int64_t>(size) * (format == nullptr ? kGreatestDeflateRatio : 1);
+  require(peakBytes <= kMaxBytesPerInputByte * byteCount + kAllowance + (hasInstances ? kInstanceAllowance : 0),
           "more memory than 64 times the input");
   return 0;
 }
@@ -95,9 +98,9 @@ int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
 }  // namespace asdfvk
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const asdfvk::FileFormat& format = *asdfvk::formatOfExtension(ASDFVK_FORMAT);
+  static const asdfvk::FileFormat* const format = asdfvk::formatOfExtension(ASDFVK_FORMAT);
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  if (format.name == "3mf" && !text.starts_with("PK")) {
+  if (format != nullptr && format->name == "3mf" && !text.starts_with("PK")) {
     const std::string archive = asdfvk::storedArchive(text);
     return asdfvk::readOnce(format, reinterpret_cast<const uint8_t*>(archive.data()), archive.size());
   }
