@@ -46,7 +46,7 @@ uint64_t memoryLimit(size_t archiveBytes) {
 
 /// Markup rarely deflates to less than a tenth.
 uint64_t inflatedLimit(size_t archiveBytes) {
-  constexpr uint64_t kMinLimit = uint64_t{1} << 30, kMaxInflatedBytesPerByte = 100;
+  constexpr uint64_t kMinLimit = uint64_t{256} << 20, kMaxInflatedBytesPerByte = 100;
   return std::max(kMinLimit, kMaxInflatedBytesPerByte * archiveBytes);
 }
 

@@ -52,7 +52,8 @@ inline std::string madeArchive(const std::vector<ArchivedFile>& files, std::stri
     put(common, file.flags, 2);
     put(common, file.method.value_or(file.isDeflated ? 8 : 0), 2);
     put(common, 0, 4);
-    put(common, file.checksum.value_or(static_cast<uint32_t>(crc32(0, data, static_cast<uInt>(file.contents.size())))), 4);
+    put(common, file.checksum.value_or(static_cast<uint32_t>(crc32(0, data, static_cast<uInt>(file.contents.size())))),
+        4);
     put(common, isWide ? kSeeWide : storedSize, 4);
     put(common, isWide ? kSeeWide : size, 4);
     put(common, file.name.size(), 2);

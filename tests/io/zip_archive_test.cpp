@@ -53,7 +53,8 @@ TEST_CASE("a ZIP archive gives its stored and deflated files, also with ZIP64 an
 }
 
 TEST_CASE("names of a ZIP archive are compared as part names") {
-  const std::string bytes = madeArchive({{.name = "3D\\My Part.Model", .contents = "1"}, {.name = "a%20b", .contents = "2"}});
+  const std::string bytes =
+      madeArchive({{.name = "3D\\My Part.Model", .contents = "1"}, {.name = "a%20b", .contents = "2"}});
   for (const char* const name : {"3D/My Part.Model", "/3d/my%20part.model", "3D\\My Part.Model"})
     CHECK(contentsIn(bytes, name) == "1");
   CHECK(contentsIn(bytes, "a b") == "2");
@@ -89,7 +90,8 @@ TEST_CASE("a damaged or hostile file of a ZIP archive is refused with the reason
   CHECK(errorOf({.name = "a", .contents = "several bytes", .storedSize = 5}) == damaged);
   CHECK(errorOf({.name = "a", .contents = "several bytes", .storedSize = 500}) ==
         "error: ZIP archive: 'a' overlaps other content");
-  CHECK(errorOf({.name = "a", .contents = "\7is no deflated text", .method = 8}) == "error: ZIP archive: 'a' is damaged");
+  CHECK(errorOf({.name = "a", .contents = "\7is no deflated text", .method = 8}) ==
+        "error: ZIP archive: 'a' is damaged");
   CHECK(errorOf({.name = "a", .contents = "", .method = 8}) == "error: ZIP archive: 'a' is damaged");
   CHECK(errorOf({.name = "a", .contents = "1", .offset = 3}) == "error: ZIP archive: 'a' overlaps other content");
 }
