@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "asdf_vk/error.h"
 #include "core/text.h"
 #include "io/corner_welder.h"
 #include "io/input_failure.h"
-#include "io/zip_archive.h"
 #include "mesh/dual_graph.h"
 
 namespace asdfvk {
@@ -23,7 +25,8 @@ bool isCoreSpace(std::string_view space) {
          space == "http://schemas.microsoft.com/3dmanufacturing/2013/01";
 }
 
-bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+/// Whether a namespace has a path element, for example "/material/". Its date differs between versions.
+bool spaceHas(std::string_view space, std::string_view part) { return space.find(part) != std::string_view::npos; }
 
 /// Takes the next word from the text; returns "" at its end.
 std::string_view takeWord(std::string_view& text) {
@@ -32,9 +35,6 @@ std::string_view takeWord(std::string_view& text) {
   text.remove_prefix(word.size());
   return word;
 }
-
-constexpr std::array<ModelUnit, 6> kModelUnits{
-    {{"millimeter", "mm"}, {"micron", "um"}, {"centimeter", "cm"}, {"meter", "m"}, {"inch", "in"}, {"foot", "ft"}}};
 
 class ModelReader {
  public:
@@ -85,7 +85,7 @@ class ModelReader {
 
   void skipResource() {
     const bool isKnown =
-        isCore("basematerials") || contains(xml_.space(), "/material/") || contains(xml_.space(), "/trianglesets/");
+        isCore("basematerials") || spaceHas(xml_.space(), "/material/") || spaceHas(xml_.space(), "/trianglesets/");
     if (!isKnown) models_.countSkipped(xml_.name());
     xml_.skipElement();
   }
@@ -102,7 +102,7 @@ class ModelReader {
     std::string_view required = xml_.attribute("requiredextensions").value_or("");
     for (std::string_view prefix = takeWord(required); !prefix.empty(); prefix = takeWord(required)) {
       const std::string space = xml_.namespaceOf(std::string(prefix));
-      if (!contains(space, "/production/") && !contains(space, "/material/") && !contains(space, "/trianglesets/"))
+      if (!spaceHas(space, "/production/") && !spaceHas(space, "/material/") && !spaceHas(space, "/trianglesets/"))
         xml_.fail(fmt::format("requires the extension {} {}, which is not supported; export without it",
                               asdfvk::quoted(prefix), asdfvk::quoted(space)));
     }
@@ -148,7 +148,7 @@ class ModelReader {
   ObjectUse use() {
     ObjectUse read{index_, whole("objectid"), placement()};
     for (const XmlReader::Attribute& attribute : xml_.attributes())
-      if (attribute.name == "path" && contains(attribute.space, "/production/"))
+      if (attribute.name == "path" && spaceHas(attribute.space, "/production/"))
         read.model = models_.indexAt(withoutBlanks(attribute.value));
     models_.charge(sizeof(ObjectUse));
     return read;
@@ -239,7 +239,7 @@ class ModelReader {
         forEachChild([&] { isCore("vertex") ? readVertex(mesh) : skipUnknown(); });
       else if (isCore("triangles"))
         forEachChild([&] { isCore("triangle") ? readTriangle(mesh) : skipUnknown(); });
-      else if (xml_.name() == "volumes" && contains(xml_.space(), "slic3r"))
+      else if (xml_.name() == "volumes" && spaceHas(xml_.space(), "slic3r"))
         readVolumes(ranges);
       else
         skipUnknown();
@@ -299,41 +299,6 @@ class ModelReader {
 };
 
 }  // namespace
-
-void ModelList::charge(uint64_t bytes) {
-  chargedBytes_ += bytes;
-  if (chargedBytes_ > limitBytes_)
-    throw Error(ErrorCode::InputTooLarge, fmt::format("its mesh needs more than {} MiB of memory", limitBytes_ >> 20));
-}
-
-size_t ModelList::indexAt(std::string_view path) {
-  if (path.starts_with('/')) path.remove_prefix(1);
-  const auto [known, isNew] = indexOf_.emplace(partName(path), models_.size());
-  if (!isNew) return known->second;
-  constexpr size_t kMaxModels = 4096;
-  if (models_.size() == kMaxModels) failInput(fmt::format("more than {} model files", kMaxModels));
-  charge(sizeof(ModelFile) + 128 + path.size());
-  models_.push_back({.path = std::string(path), .unit = kModelUnits.data()});
-  return models_.size() - 1;
-}
-
-void ModelList::countSkipped(std::string_view element) {
-  constexpr size_t kMaxNames = 3;
-  if (element == "beamlattice") {
-    ++latticeCount_;
-    return;
-  }
-  ++unknownCount_;
-  if (unknownNames_.size() < kMaxNames) unknownNames_.insert(asdfvk::quoted(element));
-}
-
-std::vector<std::string> ModelList::describeSkipped() const {
-  std::vector<std::string> phrases;
-  if (latticeCount_ > 0) phrases.push_back(counted(latticeCount_, "beam lattice"));
-  if (unknownCount_ > 0)
-    phrases.push_back(fmt::format("{} ({})", counted(unknownCount_, "unknown element"), joined(unknownNames_, ", ")));
-  return phrases;
-}
 
 void readModel(XmlReader& xml, ModelList& models, size_t index) { ModelReader(models, index, xml).read(); }
 

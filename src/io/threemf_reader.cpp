@@ -16,6 +16,7 @@
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/threemf_model.h"
+#include "io/threemf_model_list.h"
 #include "io/threemf_roles.h"
 #include "io/xml_reader.h"
 #include "io/zip_archive.h"

@@ -24,7 +24,7 @@ constexpr char kSeparator = '\n';
 
 bool isXmlBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-void trimStart(std::string_view& text) {
+void dropXmlBlanks(std::string_view& text) {
   while (!text.empty() && isXmlBlank(text.front())) text.remove_prefix(1);
 }
 
@@ -37,7 +37,7 @@ std::pair<std::string_view, std::string_view> splitName(std::string_view name) {
 }  // namespace
 
 std::string_view withoutBlanks(std::string_view text) {
-  trimStart(text);
+  dropXmlBlanks(text);
   while (!text.empty() && isXmlBlank(text.back())) text.remove_suffix(1);
   return text;
 }
@@ -72,7 +72,7 @@ struct XmlReader::Handlers {
     guarded(data, [&](XmlReader& reader) {
       std::string& open = reader.openText_;
       std::string_view added(text, static_cast<size_t>(size));
-      if (open.empty()) trimStart(added);
+      if (open.empty()) dropXmlBlanks(added);
       open += added.substr(0, kMaxText - open.size());
     });
   }

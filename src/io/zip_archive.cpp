@@ -103,7 +103,7 @@ void requireDisjoint(std::span<const ZipEntry> entries, uint64_t directoryOffset
   }
 }
 
-std::optional<char> hexByte(std::string_view digits) {
+std::optional<char> byteOfHex(std::string_view digits) {
   uint8_t value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
   if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2) return std::nullopt;
@@ -116,7 +116,7 @@ std::string partName(std::string_view name) {
   std::string decoded;
   if (name.starts_with('/') || name.starts_with('\\')) name.remove_prefix(1);
   for (size_t i = 0; i < name.size(); ++i) {
-    const std::optional<char> byte = name[i] == '%' ? hexByte(name.substr(i + 1, 2)) : std::nullopt;
+    const std::optional<char> byte = name[i] == '%' ? byteOfHex(name.substr(i + 1, 2)) : std::nullopt;
     decoded += byte ? *byte : name[i] == '\\' ? '/' : name[i];
     if (byte) i += 2;
   }

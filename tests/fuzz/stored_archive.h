@@ -6,8 +6,10 @@
 
 namespace asdfvk {
 
-/// A ZIP archive of a model of 3MF, not compressed and without checksums: a fuzzer changes the model itself.
-inline std::string storedArchive(std::string_view model) {
+/// A ZIP archive of a model of 3MF, not compressed and without checksums: a fuzzer changes the model itself. The text
+/// from "<config" on is the settings of a slicer, in both files that may have them.
+inline std::string storedArchive(std::string_view text) {
+  const std::string_view model = text.substr(0, text.find("<config")), settings = text.substr(model.size());
   constexpr std::string_view kRelationships =
       "<Relationships><Relationship Target='/3D/3dmodel.model' "
       "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></Relationships>";
@@ -35,12 +37,18 @@ inline std::string storedArchive(std::string_view model) {
   };
   add("_rels/.rels", kRelationships);
   add("3D/3dmodel.model", model);
+  uint64_t count = 2;
+  if (!settings.empty()) {
+    add("Metadata/Slic3r_PE_model.config", settings);
+    add("Metadata/model_settings.config", settings);
+    count = 4;
+  }
   const uint64_t offset = archive.size();
   archive += directory;
   put(archive, 0x06054b50, 4);
   put(archive, 0, 4);
-  put(archive, 2, 2);
-  put(archive, 2, 2);
+  put(archive, count, 2);
+  put(archive, count, 2);
   put(archive, directory.size(), 4);
   put(archive, offset, 4);
   put(archive, 0, 2);

@@ -84,7 +84,8 @@ std::string threeVolumes() {
     for (const Face& f : {Face{0, 2, 1}, Face{0, 1, 3}, Face{1, 2, 3}, Face{2, 0, 3}}) {
       triangles += "<triangle";
       for (uint32_t c = 0; c < 3; ++c)
-        triangles += " v" + std::to_string(c + 1) + "='" + std::to_string(f[c] + 4 * static_cast<uint32_t>(volume)) + "'";
+        triangles +=
+            " v" + std::to_string(c + 1) + "='" + std::to_string(f[c] + 4 * static_cast<uint32_t>(volume)) + "'";
       triangles += "/>";
     }
   }
@@ -117,16 +118,19 @@ TEST_CASE("3MF: namespaces may be bound anywhere") {
   CHECK(foreignItem.faceCount() == 4);
   CHECK(skippedIn(foreignItem) == "1 unknown element ('item')");
   const std::string foreign = "<triangles xmlns='http://vendor'><triangle v1='0' v2='1' v3='2'/></triangles>";
-  const Mesh mesh = read(model(object(1, "<mesh>" + kVertices + "<triangles>" + kTriangles + "</triangles>" + foreign + "</mesh>")));
+  const Mesh mesh =
+      read(model(object(1, "<mesh>" + kVertices + "<triangles>" + kTriangles + "</triangles>" + foreign + "</mesh>")));
   CHECK(mesh.faceCount() == 4);
   CHECK(skippedIn(mesh) == "1 unknown element ('triangles')");
 }
 
 TEST_CASE("3MF: the path of the production extension is followed for items and components, wherever it is bound") {
-  const std::vector<ArchivedFile> part{{.name = "3D/part.model", .contents = model(object(4, kMesh), "", "unit='centimeter'")}};
+  const std::vector<ArchivedFile> part{
+      {.name = "3D/part.model", .contents = model(object(4, kMesh), "", "unit='centimeter'")}};
   const std::string path = " objectid='4' xmlns:q='" + kProduction + "' q:path='/3D/part.model'/>";
-  for (const std::string& text : {model("", "<item" + path), model(object(1, "<components><component" + path + "</components>")),
-                                  model("", "<item objectid='4' q:path='/3D/part.model'/>", "xmlns:q='" + kProduction + "'")}) {
+  for (const std::string& text :
+       {model("", "<item" + path), model(object(1, "<components><component" + path + "</components>")),
+        model("", "<item objectid='4' q:path='/3D/part.model'/>", "xmlns:q='" + kProduction + "'")}) {
     const Mesh mesh = read(text, part);
     CHECK(mesh.faceCount() == 4);
     CHECK(signedVolume(mesh) == doctest::Approx(1000 / 6.0));
@@ -134,7 +138,8 @@ TEST_CASE("3MF: the path of the production extension is followed for items and c
 }
 
 TEST_CASE("3MF: blanks, references, the schema 2013/01 and encoded part names are read") {
-  std::string text = model(object(1, kMesh), "<item objectid=' 1&#10;' transform='2\n0\t0 0 2 0 0 0 2  10 20\r\n30 '/>", "unit=' inch '");
+  std::string text = model(object(1, kMesh), "<item objectid=' 1&#10;' transform='2\n0\t0 0 2 0 0 0 2  10 20\r\n30 '/>",
+                           "unit=' inch '");
   text.replace(text.find("x='1'"), 5, "x=' &#49; '");
   text.replace(text.find("v3='3'"), 6, "v3='&#x33;\t'");
   const Mesh mesh = read(text);
@@ -146,7 +151,8 @@ TEST_CASE("3MF: blanks, references, the schema 2013/01 and encoded part names ar
   old.replace(old.find(kCore), kCore.size(), "http://schemas.microsoft.com/3dmanufacturing/2013/01");
   CHECK(read(old).faceCount() == 4);
 
-  const std::string archive = archiveOf("", {{.name = "My Model.model", .contents = model(object(1, kMesh))}}, "My%20Model.model");
+  const std::string archive =
+      archiveOf("", {{.name = "My Model.model", .contents = model(object(1, kMesh))}}, "My%20Model.model");
   CHECK(test::parse("3mf", archive).faceCount() == 4);
 }
 
@@ -162,20 +168,24 @@ TEST_CASE("3MF: damage inside of the core specification is refused") {
   CHECK(holds(errorIn(model(object(1, "<mash/>"))), "unexpected element 'mash'"));
   CHECK(holds(errorIn(model(object(1, kMesh), "<itom objectid='1'/>")), "unexpected element 'itom'"));
   CHECK(holds(errorIn(model(object(1, kMesh, "type='modal'"))), "'modal' is not a type of object"));
-  CHECK(holds(errorIn(model(object(2, kMesh) + object(1, kMesh + "<components><component objectid='2'/></components>"))),
-              "object 1 has a mesh and components"));
+  CHECK(
+      holds(errorIn(model(object(2, kMesh) + object(1, kMesh + "<components><component objectid='2'/></components>"))),
+            "object 1 has a mesh and components"));
   CHECK(skippedIn(read(model(object(1, kMesh) + "<objact id='2'/>"))) == "1 unknown element ('objact')");
 }
 
 TEST_CASE("3MF: elements of extensions that may have geometry are told, others are not") {
-  const std::string resources = object(1, kMesh + "<v:shape xmlns:v='http://vendor'/>") +
-                                "<m:colorgroup xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02' id='9'/>"
-                                "<s:slicestack xmlns:s='http://schemas.microsoft.com/3dmanufacturing/slice/2015/07' id='8'/>";
+  const std::string resources =
+      object(1, kMesh + "<v:shape xmlns:v='http://vendor'/>") +
+      "<m:colorgroup xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02' id='9'/>"
+      "<s:slicestack xmlns:s='http://schemas.microsoft.com/3dmanufacturing/slice/2015/07' id='8'/>";
   CHECK(skippedIn(read(model(resources))) == "2 unknown elements ('shape', 'slicestack')");
 }
 
 TEST_CASE("3MF: build items that are not to be printed are left out and told") {
-  const std::string items = kItem + "<item objectid='1' printable='0'/><item objectid='1' printable='false'/><item objectid='1' printable='1'/>";
+  const std::string items =
+      kItem +
+      "<item objectid='1' printable='0'/><item objectid='1' printable='false'/><item objectid='1' printable='1'/>";
   const Mesh mesh = read(model(object(1, kMesh), items));
   CHECK(mesh.faceCount() == 8);
   CHECK(skippedIn(mesh) == "2 build items that are not to be printed");
@@ -185,23 +195,26 @@ TEST_CASE("3MF: build items that are not to be printed are left out and told") {
 
 TEST_CASE("3MF: objects that are not material by the core specification are left out and told") {
   const std::string items = kItem + "<item objectid='2'/>";
-  for (const auto& [type, phrase] : {std::pair{"support", "1 support"}, std::pair{"solidsupport", "1 support"},
-                                     std::pair{"surface", "1 surface without volume"}, std::pair{"other", "1 object of type other"}}) {
+  for (const auto& [type, phrase] :
+       {std::pair{"support", "1 support"}, std::pair{"solidsupport", "1 support"},
+        std::pair{"surface", "1 surface without volume"}, std::pair{"other", "1 object of type other"}}) {
     CAPTURE(type);
     const Mesh mesh = read(model(object(1, kMesh) + object(2, kMesh, std::string("type='") + type + "'"), items));
     CHECK(mesh.faceCount() == 4);
     CHECK(skippedIn(mesh) == phrase);
     // The type of an object with components is ignored: the types of the components count.
-    const std::string group = object(2, "<components><component objectid='1'/></components>", std::string("type='") + type + "'");
+    const std::string group =
+        object(2, "<components><component objectid='1'/></components>", std::string("type='") + type + "'");
     CHECK(read(model(object(1, kMesh) + group, items)).faceCount() == 8);
   }
 }
 
 TEST_CASE("3MF: parts of Bambu Studio and OrcaSlicer that are not material are left out and told") {
-  const std::string parts = "<part id='2' subtype='normal_part'><metadata key='matrix' value='1 0 0 0'/></part>"
-                            "<part id='3' subtype='negative_part'/><part id='4' subtype='modifier_part'/>"
-                            "<part id='5' subtype='support_blocker'/><part id='6' subtype='support_enforcer'/>"
-                            "<part id='7' subtype='a_new_part'/><part id='8'/>";
+  const std::string parts =
+      "<part id='2' subtype='normal_part'><metadata key='matrix' value='1 0 0 0'/></part>"
+      "<part id='3' subtype='negative_part'/><part id='4' subtype='modifier_part'/>"
+      "<part id='5' subtype='support_blocker'/><part id='6' subtype='support_enforcer'/>"
+      "<part id='7' subtype='a_new_part'/><part id='8'/>";
   for (const char* const type : {"", "type='model'"}) {
     const Mesh mesh = read(assembly(7, type), {bambuSettings(parts)});
     CHECK(mesh.faceCount() == 8);
@@ -210,9 +223,11 @@ TEST_CASE("3MF: parts of Bambu Studio and OrcaSlicer that are not material are l
           "1 negative volume; 1 modifier; 1 support blocker; 1 support enforcer; 1 part of an unknown type");
   }
   // Bambu Studio may state the type "other" for such parts.
-  CHECK(read(assembly(2, "type='model'"), {bambuSettings("<part id='3' subtype='negative_part'/>")}).negativeVolumeCount == 1);
-  const std::string other = model(object(2, kMesh) + object(3, kMesh, "type='other'") +
-                                  object(1, "<components><component objectid='2'/><component objectid='3'/></components>"));
+  CHECK(read(assembly(2, "type='model'"), {bambuSettings("<part id='3' subtype='negative_part'/>")})
+            .negativeVolumeCount == 1);
+  const std::string other =
+      model(object(2, kMesh) + object(3, kMesh, "type='other'") +
+            object(1, "<components><component objectid='2'/><component objectid='3'/></components>"));
   const Mesh negativeOther = read(other, {bambuSettings("<part id='3' subtype='negative_part'/>")});
   CHECK(negativeOther.negativeVolumeCount == 1);
   CHECK(skippedIn(negativeOther) == "1 negative volume");
@@ -220,14 +235,20 @@ TEST_CASE("3MF: parts of Bambu Studio and OrcaSlicer that are not material are l
 
 TEST_CASE("3MF: parts in other files, parts that are one object, and an object that is its own part") {
   const std::string path = " xmlns:q='" + kProduction + "' q:path='/o'/>";
-  const std::string inOther = model(object(1, "<components><component objectid='5'" + path + "<component objectid='6'" + path + "</components>"));
+  const std::string inOther = model(
+      object(1, "<components><component objectid='5'" + path + "<component objectid='6'" + path + "</components>"));
   const ArchivedFile objects{.name = "o", .contents = model(object(5, kMesh) + object(6, kMesh), "")};
-  const Mesh other = read(inOther, {objects, bambuSettings("<part id='5' subtype='normal_part'/><part id='6' subtype='negative_part'/>")});
+  const Mesh other = read(
+      inOther, {objects, bambuSettings("<part id='5' subtype='normal_part'/><part id='6' subtype='negative_part'/>")});
   CHECK(other.faceCount() == 4);
   CHECK(other.negativeVolumeCount == 1);
 
-  const std::string twice = model(object(2, kMesh) + object(1, "<components><component objectid='2'/><component objectid='2' transform='1 0 0 0 1 0 0 0 1 5 0 0'/></components>"));
-  const Mesh same = read(twice, {bambuSettings("<part id='2' subtype='modifier_part'/><part id='2' subtype='normal_part'/>")});
+  const std::string twice =
+      model(object(2, kMesh) + object(1,
+                                      "<components><component objectid='2'/><component objectid='2' transform='1 0 0 0 "
+                                      "1 0 0 0 1 5 0 0'/></components>"));
+  const Mesh same =
+      read(twice, {bambuSettings("<part id='2' subtype='modifier_part'/><part id='2' subtype='normal_part'/>")});
   CHECK(same.faceCount() == 4);
   CHECK(same.vertices[0] == Vec3d{5, 0, 0});
   CHECK(skippedIn(same) == "1 modifier");
@@ -243,8 +264,9 @@ TEST_CASE("3MF: volumes of PrusaSlicer that are not material are left out and to
         std::tuple{"SupportBlocker", "1 support blocker", 0u}, std::tuple{"SupportEnforcer", "1 support enforcer", 0u},
         std::tuple{"SeamPosition", "1 part of an unknown type", 0u}}) {
     CAPTURE(type);
-    const Mesh mesh = read(text, {prusaSettings(volume(0, 3, "volume_type", "ModelPart") + volume(4, 7, "volume_type", type) +
-                                                volume(8, 11, "volume_type", "ModelPart"))});
+    const Mesh mesh =
+        read(text, {prusaSettings(volume(0, 3, "volume_type", "ModelPart") + volume(4, 7, "volume_type", type) +
+                                  volume(8, 11, "volume_type", "ModelPart"))});
     CHECK(skippedIn(mesh) == phrase);
     CHECK(mesh.negativeVolumeCount == negativeCount);
     CHECK(mesh.faceCount() == 8);
@@ -255,8 +277,9 @@ TEST_CASE("3MF: volumes of PrusaSlicer that are not material are left out and to
   const Mesh older = read(text, {prusaSettings(volume(0, 3, "modifier", "1") + volume(4, 11, "modifier", "0"))});
   CHECK(older.faceCount() == 8);
   CHECK(skippedIn(older) == "1 modifier");
-  const std::string both = "<volume firstid='4' lastid='7'><metadata type='volume' key='modifier' value='1'/>"
-                           "<metadata type='volume' key='volume_type' value='ModelPart'/></volume>";
+  const std::string both =
+      "<volume firstid='4' lastid='7'><metadata type='volume' key='modifier' value='1'/>"
+      "<metadata type='volume' key='volume_type' value='ModelPart'/></volume>";
   CHECK(skippedIn(read(text, {prusaSettings(both)})).empty());
   CHECK(skippedIn(read(text, {prusaSettings(volume(0, 11, "volume_type", "ModelPart"))})).empty());
 }
@@ -264,11 +287,15 @@ TEST_CASE("3MF: volumes of PrusaSlicer that are not material are left out and to
 TEST_CASE("3MF: settings that do not fit to the model are refused") {
   const std::string text = model(object(1, "<mesh>" + threeVolumes() + "</mesh>"));
   const std::string negative = "NegativeVolume", name = "Metadata/Slic3r_PE_model.config: triangles ";
-  CHECK(errorIn(text, {prusaSettings(volume(8, 12, "volume_type", negative))}) == name + "8 to 12: the object has 12 triangles");
-  CHECK(errorIn(text, {prusaSettings(volume(8, 7, "volume_type", negative))}) == name + "8 to 7: the object has 12 triangles");
-  CHECK(errorIn(text, {prusaSettings(volume(0, 4, "volume_type", "ModelPart") + volume(4, 7, "volume_type", negative))}) ==
+  CHECK(errorIn(text, {prusaSettings(volume(8, 12, "volume_type", negative))}) ==
+        name + "8 to 12: the object has 12 triangles");
+  CHECK(errorIn(text, {prusaSettings(volume(8, 7, "volume_type", negative))}) ==
+        name + "8 to 7: the object has 12 triangles");
+  CHECK(errorIn(text,
+                {prusaSettings(volume(0, 4, "volume_type", "ModelPart") + volume(4, 7, "volume_type", negative))}) ==
         name + "4 to 7: overlap another range");
-  CHECK(errorIn(text, {prusaSettings(volume(0, 3, "volume_type", negative), 2)}) == name + "0 to 3: the model has no object 2");
+  CHECK(errorIn(text, {prusaSettings(volume(0, 3, "volume_type", negative), 2)}) ==
+        name + "0 to 3: the model has no object 2");
   CHECK(read(text, {prusaSettings(volume(0, 3, "volume_type", "ModelPart"), 2)}).faceCount() == 12);
   CHECK(holds(errorIn(text, {bambuSettings("<part id='3' subtype='negative_part'/>")}),
               "Metadata/model_settings.config: part 3 is not a part of object 1"));
@@ -277,16 +304,18 @@ TEST_CASE("3MF: settings that do not fit to the model are refused") {
 }
 
 TEST_CASE("3MF: modifiers of Slic3r and of Cura are left out and told") {
-  const std::string volumes = "<s:volumes xmlns:s='http://schemas.slic3r.org/3mf/2017/06'><s:volume ts='0' te='3' modifier='0'/>"
-                              "<s:volume ts='4' te='7' modifier='1'><s:metadata type='slic3r.x'>1</s:metadata></s:volume></s:volumes>";
+  const std::string volumes =
+      "<s:volumes xmlns:s='http://schemas.slic3r.org/3mf/2017/06'><s:volume ts='0' te='3' modifier='0'/>"
+      "<s:volume ts='4' te='7' modifier='1'><s:metadata type='slic3r.x'>1</s:metadata></s:volume></s:volumes>";
   const Mesh slic3r = read(model(object(1, "<mesh>" + threeVolumes() + volumes + "</mesh>")));
   CHECK(slic3r.faceCount() == 8);
   CHECK(skippedIn(slic3r) == "1 modifier");
 
   const auto cura = [](const std::string& key, const std::string& value) {
-    return read(model(object(1, kMesh) + object(2, "<metadatagroup><metadata name='cura:" + key + "' type='xs:string'>" + value +
-                                                       "</metadata></metadatagroup>" + kMesh),
-                      kItem + "<item objectid='2'/>"));
+    return read(
+        model(object(1, kMesh) + object(2, "<metadatagroup><metadata name='cura:" + key + "' type='xs:string'>" +
+                                               value + "</metadata></metadatagroup>" + kMesh),
+              kItem + "<item objectid='2'/>"));
   };
   CHECK(skippedIn(cura("infill_mesh", "True")) == "1 modifier");
   CHECK(skippedIn(cura("cutting_mesh", "True")) == "1 modifier");
