@@ -60,7 +60,7 @@ class ThreeMfReader {
 
  private:
   template <typename Work>
-  void readPart(const ZipEntry& entry, const std::string& path, const Work& work);
+  void readPart(const ZipEntry& entry, const std::string& path, XmlReader::Prefixes prefixes, const Work& work);
   std::string rootPath();
   void readSettings();
   void readModelAt(size_t index);
@@ -81,7 +81,8 @@ class ThreeMfReader {
 
 /// Calls work(xml) for a file of the archive.
 template <typename Work>
-void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, const Work& work) {
+void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, XmlReader::Prefixes prefixes,
+                             const Work& work) {
   ZipStream stream(archive_, entry);
   const auto read = [&](char* to, size_t size) {
     const size_t count = stream.read(to, size);
@@ -90,7 +91,7 @@ void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, con
       throw Error(ErrorCode::InputTooLarge, fmt::format("its files have more than {} MiB", limit >> 20));
     return count;
   };
-  XmlReader xml(read, path);
+  XmlReader xml(read, path, prefixes);
   work(xml);
 }
 
@@ -99,7 +100,7 @@ std::string ThreeMfReader::rootPath() {
   const ZipEntry* const entry = archive_.find(kRelationships);
   if (entry == nullptr) failInput("is a ZIP archive but not 3MF: it has no _rels/.rels");
   std::optional<std::string> path;
-  readPart(*entry, std::string(kRelationships), [&](XmlReader& xml) {
+  readPart(*entry, std::string(kRelationships), XmlReader::Prefixes::Resolved, [&](XmlReader& xml) {
     for (XmlReader::Event event = xml.next(); event != XmlReader::Event::Finished; event = xml.next()) {
       if (event != XmlReader::Event::Start || xml.attribute("Type") != kModelRelationship) continue;
       if (path) xml.fail("names two models");
@@ -113,7 +114,7 @@ std::string ThreeMfReader::rootPath() {
 void ThreeMfReader::readSettings() {
   for (const std::string_view file : kSettingsFiles)
     if (const ZipEntry* const entry = archive_.find(file))
-      readPart(*entry, std::string(file), [&](XmlReader& xml) {
+      readPart(*entry, std::string(file), XmlReader::Prefixes::PartOfName, [&](XmlReader& xml) {
         readPartSettings(
             xml, file, [&](uint64_t bytes) { models_.charge(bytes); }, models_.settings());
       });
@@ -123,7 +124,7 @@ void ThreeMfReader::readModelAt(size_t index) {
   const std::string path = models_.model(index).path;
   const ZipEntry* const entry = archive_.find(path);
   if (entry == nullptr) failInput(fmt::format("the archive has no {}", asdfvk::quoted(path)));
-  readPart(*entry, path, [&](XmlReader& xml) { readModel(xml, models_, index); });
+  readPart(*entry, path, XmlReader::Prefixes::Resolved, [&](XmlReader& xml) { readModel(xml, models_, index); });
   if (index > 0) return;
   for (const auto& [object, parts] : models_.settings())
     for (const PartSetting& part : parts)

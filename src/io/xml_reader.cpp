@@ -89,8 +89,9 @@ struct XmlReader::Handlers {
   }
 };
 
-XmlReader::XmlReader(Read read, std::string document)
-    : parser_(XML_ParserCreateNS(nullptr, kSeparator), XML_ParserFree),
+XmlReader::XmlReader(Read read, std::string document, Prefixes prefixes)
+    : parser_(prefixes == Prefixes::Resolved ? XML_ParserCreateNS(nullptr, kSeparator) : XML_ParserCreate(nullptr),
+              XML_ParserFree),
       read_(std::move(read)),
       document_(std::move(document)) {
   if (!parser_) throw std::bad_alloc();

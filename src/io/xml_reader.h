@@ -29,7 +29,10 @@ class XmlReader {
     std::string_view name, value;
   };
 
-  XmlReader(Read read, std::string document);
+  /// How prefixes are read. Some programs write prefixes that they do not bind.
+  enum class Prefixes { Resolved, PartOfName };
+
+  XmlReader(Read read, std::string document, Prefixes prefixes = Prefixes::Resolved);
   ~XmlReader();
   XmlReader(const XmlReader&) = delete;
   XmlReader& operator=(const XmlReader&) = delete;

@@ -277,6 +277,11 @@ TEST_CASE("3MF: volumes of PrusaSlicer that are not material are left out and to
   const Mesh older = read(text, {prusaSettings(volume(0, 3, "modifier", "1") + volume(4, 11, "modifier", "0"))});
   CHECK(older.faceCount() == 8);
   CHECK(skippedIn(older) == "1 modifier");
+  // PrusaSlicer does not bind the prefix of its texts.
+  const std::string written =
+      "<volume firstid='0' lastid='3'><metadata type='volume' key='volume_type' "
+      "value='NegativeVolume'/><slic3rpe:text text='a' style_name='b'/></volume>";
+  CHECK(read(text, {prusaSettings(written)}).negativeVolumeCount == 1);
   const std::string both =
       "<volume firstid='4' lastid='7'><metadata type='volume' key='modifier' value='1'/>"
       "<metadata type='volume' key='volume_type' value='ModelPart'/></volume>";

@@ -22,10 +22,10 @@ XmlReader::Read readerOf(std::string_view text) {
 
 /// All tags of a document: "[text]<{namespace}name {namespace}attribute=value" for a start, ">" for an end. The error
 /// comes last.
-std::string tagsOf(std::string_view text) {
+std::string tagsOf(std::string_view text, XmlReader::Prefixes prefixes = XmlReader::Prefixes::Resolved) {
   std::string tags;
   try {
-    XmlReader xml(readerOf(text), "d");
+    XmlReader xml(readerOf(text), "d", prefixes);
     for (XmlReader::Event event = xml.next(); event != XmlReader::Event::Finished; event = xml.next()) {
       if (!xml.text().empty()) tags.append("[").append(xml.text()).append("]");
       if (event == XmlReader::Event::End) {
@@ -73,6 +73,7 @@ TEST_CASE("the XML reader resolves namespaces, also below the root") {
   CHECK(tagsOf("<a xmlns='n' b='1'><c xmlns:p='m' p:d='2'><p:e/></c><p:f xmlns:p='n'/><g xmlns=''/></a>") ==
         "<{n}a b=1<{n}c {m}d=2<{m}e>><{n}f><g>>");
   CHECK(tagsOf("<a><p:b/></a>") == "<a!d, byte 3: unbound prefix");
+  CHECK(tagsOf("<a xmlns='n'><p:b q:c='1'/></a>", XmlReader::Prefixes::PartOfName) == "<a xmlns=n<p:b q:c=1>>");
   XmlReader xml(readerOf("<a xmlns='n' xmlns:p='m'><b xmlns:q='o'/></a>"), "d");
   xml.next();
   xml.next();
