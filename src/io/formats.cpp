@@ -28,8 +28,7 @@ const FileFormat* firstWith(Match match, std::span<const char> bytes) {
 }  // namespace
 
 uint64_t MeshSource::sizeForLimits() const {
-  constexpr uint64_t kMaxRatio = 20;
-  return packedSize == 0 ? bytes.size() : std::min<uint64_t>(bytes.size(), kMaxRatio * packedSize);
+  return packedSize == 0 ? bytes.size() : std::min<uint64_t>(bytes.size(), kMaxUnpackRatio * packedSize);
 }
 
 uint64_t MeshSource::maxFaceCount() const {

@@ -16,6 +16,9 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
+/// Limits of faces, memory and unpacked bytes count at most this multiple of the size of a compressed file.
+inline constexpr uint64_t kMaxUnpackRatio = 20;
+
 /// The bytes of a mesh file, and what its reader may use.
 struct MeshSource {
   std::span<const char> bytes;
@@ -23,7 +26,7 @@ struct MeshSource {
   ReadOptions options = {};
   uint64_t packedSize = 0;  ///< Size of the compressed file that has the bytes; 0 if the file has them directly.
 
-  /// The size on which limits depend: the number of bytes, but at most 20 times the packed size.
+  /// The size on which limits depend: the number of bytes, but at most kMaxUnpackRatio times the packed size.
   [[nodiscard]] uint64_t sizeForLimits() const;
   /// The greatest number of faces that the reader may return.
   [[nodiscard]] uint64_t maxFaceCount() const;
@@ -75,8 +78,8 @@ struct FileFormat {
 /// The first format with Match::Certain, or null.
 [[nodiscard]] const FileFormat* certainFormat(std::span<const char> bytes);
 
-/// Tests in this order: certainFormat(), the format of the extension, the first format with
-/// Match::Possible. Returns null if there is none of these.
+/// Tests in this order: certainFormat(), the format of the extension, the first format with Match::Possible. Returns
+/// null if there is none of these.
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 
 }  // namespace asdfvk

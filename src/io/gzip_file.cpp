@@ -10,6 +10,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "io/formats.h"
 #include "io/input_failure.h"
 
 namespace asdfvk {
@@ -93,8 +94,8 @@ bool isGzip(std::span<const char> bytes) {
 }
 
 uint64_t maxUnpackedSize(uint64_t packedSize) {
-  constexpr uint64_t kMinLimit = uint64_t{1} << 30, kMaxRatio = 20;
-  return std::max(kMinLimit, kMaxRatio * packedSize);
+  constexpr uint64_t kMinLimit = uint64_t{1} << 30;
+  return std::max(kMinLimit, kMaxUnpackRatio * packedSize);
 }
 
 UnsetVector<char> unpackGzip(std::span<const char> bytes) {

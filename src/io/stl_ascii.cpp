@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -19,9 +18,10 @@
 namespace asdfvk {
 namespace {
 
+/// keyword: lower-case letters. Ignores the case of the word: bit 5 of a letter.
 bool isStlWord(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+                    [](char a, char b) { return (a | 0x20) == b; });
 }
 
 bool beginsStlComment(std::string_view word) {
@@ -61,11 +61,11 @@ class AsciiStlReader {
         isInName = isFacet = false;
       }
       const std::string_view word = nextWord("'facet' or 'endsolid'");
-      if (isEnd(word, "solid")) {
+      if (isStlWord(word, "facet")) {
+        isFacet = true;
+      } else if (isEnd(word, "solid")) {
         isFacet = skipName();
         if (!isFacet) break;
-      } else if (isStlWord(word, "facet")) {
-        isFacet = true;
       } else if (isStlWord(word, "color") || isInName) {
         if (isInName) ++nameLineCount;
         isFacet = skipTextLine(word);
@@ -90,8 +90,8 @@ class AsciiStlReader {
       for (size_t axis = 0; axis < 3; ++axis) p[axis] = readCoordinate();
       corner = welder_.indexOf(p);
     }
-    requireEnd("loop");
-    requireEnd("facet");
+    requireKeyword("endloop");
+    requireKeyword("endfacet");
   }
 
   /// Coordinates are rounded to float32, the type of coordinates in STL. In the text of some programs, equal corners
@@ -158,13 +158,15 @@ class AsciiStlReader {
     if (rest.empty() && isStlWord(peekedWord(), what)) return !text_.word(what).empty();
     return isStlWord(what == "solid" ? rest.substr(0, what.size()) : rest, what);
   }
-  void requireEnd(std::string_view what) {
-    const std::string_view word = nextWord(fmt::format("end{}", what));
-    if (!isEnd(word, what)) failAtLine(text_.line(), fmt::format("expected 'end{}', found {}", what, quoted(word)));
-  }
+  /// keyword: also `endloop` or `endfacet`, which may be divided into two words.
   void requireKeyword(std::string_view keyword) {
-    const std::string_view word = nextWord(keyword);
-    if (!isStlWord(word, keyword))
+    std::string_view word = text_.word(keyword);
+    if (isStlWord(word, keyword)) return;
+    if (beginsStlComment(word)) {
+      skipComment();
+      word = nextWord(keyword);
+    }
+    if (!isStlWord(word, keyword) && !(keyword.starts_with("end") && isEnd(word, keyword.substr(3))))
       failAtLine(text_.line(), fmt::format("expected '{}', found {}", keyword, quoted(word)));
   }
   [[noreturn]] void failAtWord(std::string_view word) const {

@@ -60,6 +60,13 @@ TextScanner::TextScanner(std::span<const char> bytes, TextSyntax syntax, uint64_
   if (std::string_view(at_, bytes.size()).starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
 }
 
+bool TextScanner::isContinuation(const char* p) const {
+  if (classOf(*p) != CharClass::Backslash) return false;
+  do ++p;
+  while (p != end_ && classOf(*p) == CharClass::Blank);
+  return p != end_ && classOf(*p) == CharClass::LineBreak;
+}
+
 std::string_view TextScanner::scanWord() {
   const char* begin = at_;
   while (!endsWord(at_)) ++at_;

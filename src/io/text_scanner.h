@@ -60,12 +60,7 @@ class TextScanner {
   enum class CharClass : uint8_t { Word, Blank, LineBreak, Comment, Backslash };
 
   [[nodiscard]] CharClass classOf(char c) const { return classes_[static_cast<unsigned char>(c)]; }
-  [[nodiscard]] bool isContinuation(const char* p) const {
-    if (classOf(*p) != CharClass::Backslash) return false;
-    do ++p;
-    while (p != end_ && classOf(*p) == CharClass::Blank);
-    return p != end_ && classOf(*p) == CharClass::LineBreak;
-  }
+  [[nodiscard]] bool isContinuation(const char* p) const;
   [[nodiscard]] bool endsWord(const char* p) const {
     if (p == end_) return true;
     const CharClass c = classOf(*p);
