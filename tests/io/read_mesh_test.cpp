@@ -48,6 +48,8 @@ TEST_CASE("the content decides the format, then the extension, then a possible k
   CHECK(detected("\xef\xbb\xbfOFF\n", "") == "off");
   CHECK(detected(kObj, "") == "obj");
   CHECK(detected("# c\nmtllib a\n", "txt") == "obj");
+  CHECK(detected("# solid\n# ply\n# OFF\n\ng solid ply OFF\n", "") == "obj");
+  CHECK(detected("; c\n# v 0 0 0\n// c\nsolid\n", "obj") == "stl");
   CHECK(detected("3 1 0\n", ".OFF") == "off");
   CHECK(detected("rubbish", ".Obj") == "obj");
   CHECK(detected("rubbish", "stl") == "stl");
