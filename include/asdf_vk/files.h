@@ -9,6 +9,7 @@
 #include "asdf_vk/api.h"
 #include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
+#include "asdf_vk/options.h"
 #include "asdf_vk/run_control.h"
 
 namespace asdfvk {
@@ -19,12 +20,17 @@ struct ReadOptions {
   uint64_t maxFaces = 0;
   /// Decides the format of an ambiguous content: "stl", ".OBJ". Empty: the extension of the path.
   std::string format = {};
+  /// Greatest distance between the triangles and the curved surfaces of a STEP file, in `chordErrorUnit`. 0: 1/1000 of
+  /// the diagonal of the bounding box. Raised to the resolution, 2^-21 of the longest side of the bounding box. Also,
+  /// the angle between consecutive chords of a curve is at most 20 degrees. Other formats ignore it.
+  double chordError = 0;
+  LengthUnit chordErrorUnit = LengthUnit::OfMesh;
 };
 
-/// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF or 3MF. path: "-" is standard input. The content decides the
-/// format. If the content is ambiguous, the extension decides (OBJ and binary STL have no magic number). Throws
-/// Error{UnreadableInput}, whose message has the file, the line or byte, and the reason; Error{TooManyFaces} beyond
-/// ReadOptions::maxFaces; Error{MeshTooLarge}; Error{InputTooLarge}.
+/// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF, 3MF or STEP. STEP needs a module (docs/formats.md). path: "-" is
+/// standard input. The content decides the format. If the content is ambiguous, the extension decides (OBJ and binary
+/// STL have no magic number). Throws Error{UnreadableInput}, whose message has the file, the line or byte, and the
+/// reason; Error{TooManyFaces} beyond ReadOptions::maxFaces; Error{MeshTooLarge}; Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Reads a mesh from the bytes of a mesh file, as readMesh() does, but opens no other file.

@@ -47,11 +47,15 @@ struct Mesh {
   std::vector<Vec3d> vertices;  ///< #V, in the unit of the file. Coordinates may be non-finite (Report::defects).
   std::vector<Face> faces;      ///< #F triangles.
   Polygons polygons;            ///< Empty if every input face is a triangle.
-  /// Unit of length that a 3MF or glTF file states: "um", "mm", "cm", "m", "in" or "ft"; empty if the file states no
-  /// unit.
+  /// Unit of length that a 3MF, glTF or STEP file states: "um", "mm", "cm", "m", "in" or "ft"; empty if the file states
+  /// no unit.
   std::string unit = {};
-  /// Number of mesh instances in a 3MF or glTF file; 0 for other formats. Instances share no vertices.
+  /// Number of mesh instances in a 3MF or glTF file, or of placed bodies in a STEP file; 0 for other formats. Instances
+  /// share no vertices.
   uint32_t statedPartCount = 0;
+  /// Greatest distance between the faces and the curved surfaces that a STEP file has (ReadOptions::chordError), in the
+  /// unit of the mesh; 0 for formats whose files have the faces themselves.
+  double chordError = 0;
   /// Contents of the file that are not part of the surface and were left out, for example "12 points".
   std::vector<std::string> skipped = {};
   /// Number of negative volumes of a 3MF file, which its program subtracts from the other parts. They are not part of

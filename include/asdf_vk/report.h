@@ -323,8 +323,11 @@ struct Report {
   uint64_t componentCount = 0;   ///< Connected components of the mesh.
   Vec3d size;                    ///< Sides of the bounding box along x, y, z, in the unit of the mesh.
   std::string unit;              ///< Unit of length that the file states, for example "mm"; may be empty.
-  uint64_t seedCount = 0;        ///< Triangles that cast rays.
-  uint64_t rayCount = 0;         ///< Number of rays that the seeds cast.
+  /// Greatest distance between the faces and the curved surfaces of a STEP file, in the unit of the mesh; 0 for other
+  /// formats.
+  double chordError = 0;
+  uint64_t seedCount = 0;  ///< Triangles that cast rays.
+  uint64_t rayCount = 0;   ///< Number of rays that the seeds cast.
   /// Cones that exceeded a limit of the device or of float32. The reference traced these cones.
   uint64_t redoneConeCount = 0;
   uint64_t noValueCount = 0;  ///< Input faces without a value; with a region, only faces of the region.

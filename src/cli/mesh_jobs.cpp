@@ -69,7 +69,7 @@ bool isReadAhead(const Job& job) {
 
 JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),
-      optionsHash_(optionsHash(settings.computation, settings.session, settings.outputs)),
+      optionsHash_(optionsHash(settings.computation, settings.session, settings.reading, settings.outputs)),
       options_(optionValues(settings.computation, settings.session)) {}
 
 MeshRecord JobRecords::begin(const Job& job) const {

@@ -169,6 +169,15 @@ void completeResult(CommandLine& line, const GivenOptions& given) {
     refuseOptions("--skip-existing looks for results, but --fail-if-thinner writes none without -o; give -o");
 }
 
+/// The chord error of a check is a share of the limit.
+void completeReading(CommandLine& line) {
+  constexpr double kChordErrorShare = 1.0 / 50;
+  const ThicknessOptions& thickness = line.computation.options.thickness;
+  if (line.reading.chordError > 0 || !thickness.thinnerThan) return;
+  line.reading.chordError = kChordErrorShare * *thickness.thinnerThan;
+  line.reading.chordErrorUnit = thickness.limitUnit;
+}
+
 void completePage(CommandLine& line) {
   Outputs& outputs = line.outputs;
   if (outputs.opensPage && outputs.path.empty() && outputs.format.empty()) outputs.format = kPageFormat;
@@ -274,6 +283,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   if (Options& options = line.computation.options; line.outputs.verbose && options.measuresThickness())
     options.thickness.findsNextWall = true;
   completeFields(line);
+  completeReading(line);
   completeResult(line, given);
   completePage(line);
   completeBatch(line, given);

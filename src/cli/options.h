@@ -46,7 +46,7 @@ struct OptionTable {
 
 /// Hash of all options that affect the output of a mesh, for --skip-existing.
 [[nodiscard]] std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
-                                      const Outputs& outputs);
+                                      const ReadOptions& reading, const Outputs& outputs);
 
 /// The usage in three lines, for a call without arguments.
 [[nodiscard]] std::string shortUsage();

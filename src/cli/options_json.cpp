@@ -29,8 +29,9 @@ void setValues(OptionRows rows, void* target, const Json& json) {
 }  // namespace
 
 std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
-                        const Outputs& outputs) {
+                        const ReadOptions& reading, const Outputs& outputs) {
   const Json identity{{"options", optionValues(computation, session)},
+                      {"chordError", {reading.chordError, reading.chordErrorUnit}},
                       {"fields", fieldNames(outputs, computation.options)},
                       {"choosesFields", !outputs.fields.empty()},
                       {"format", outputs.format},

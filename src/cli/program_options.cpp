@@ -9,6 +9,7 @@
 #include "asdf_vk/error.h"
 #include "cli/options.h"
 #include "core/text.h"
+#include "describe/option_values.h"
 
 namespace asdfvk {
 namespace {
@@ -77,6 +78,19 @@ std::vector<std::string> pictureFields() {
   std::vector<std::string> names = resultFieldNames();
   std::erase(names, "centre");
   return names;
+}
+
+bool readChordError(void* target, const OptionValue& value) {
+  auto& reading = *static_cast<ReadOptions*>(target);
+  std::optional<double> length;
+  if (!readLength(value, length, reading.chordErrorUnit)) return false;
+  reading.chordError = *length;
+  return true;
+}
+
+OptionValue chordErrorValue(const void* target) {
+  const auto& reading = *static_cast<const ReadOptions*>(target);
+  return lengthValue(reading.chordError > 0 ? std::optional(reading.chordError) : std::nullopt, reading.chordErrorUnit);
 }
 
 bool readMemory(void* target, const OptionValue& value) {
@@ -207,6 +221,17 @@ const std::array kReadingRows{
               .text = "Refuse a file with more faces. A small file can describe many faces by instances",
               .placeholder = "N",
               .defaultText = "100 per byte of the file, and at least 100,000"},
+    OptionRow{.name = "chord-error",
+              .group = kInputGroup,
+              .range = above(0),
+              .text = "STEP: greatest distance between the triangles and the curved surfaces of the file, in the unit "
+                      "of the file or with a unit, such as 0.02mm",
+              .more = "The report states the value ([formats.md](formats.md#step)).",
+              .placeholder = "LENGTH",
+              .defaultText = "1/50 of the limit of --thinner-than, or 1/1000 of the diagonal of the bounding box",
+              .wanted = kLengthWanted,
+              .read = readChordError,
+              .write = chordErrorValue},
 };
 
 const std::array kBatchRows{

@@ -63,10 +63,10 @@ ASDFVK_KEYS(MeshDefects, zeroAreaFaceCount, duplicateFaceCount, nonFiniteVertexC
             boundaryEdgeCount, nonManifoldEdgeCount, inconsistentEdgeCount, weldedVertexCount, unreferencedVertexCount,
             shortPolygonCount)
 ASDFVK_KEYS(Warning, code, message, details)
-ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, seedCount,
-            rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount, backend,
-            device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, solver, sdf, postprocess, segmentCount, parts,
-            thickness, estimatedError, check, defects, warnings)
+ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, chordError,
+            seedCount, rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount,
+            backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, solver, sdf, postprocess,
+            segmentCount, parts, thickness, estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
 
 }  // namespace asdfvk

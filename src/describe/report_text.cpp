@@ -23,13 +23,18 @@ std::string percent(uint64_t part, uint64_t whole) {
   return fmt::format("{} %", std::floor(share * 100) / 100);
 }
 
+/// The end of a row about the mesh.
+std::string chordErrorText(const Report& report) {
+  return report.chordError > 0 ? fmt::format(", chord error {:.3g}", report.chordError) : "";
+}
+
 std::string meshRow(const Report& report) {
   std::string text = counted(report.faceCount, "face");
   if (report.triangleCount != report.faceCount) text += fmt::format(" ({})", counted(report.triangleCount, "triangle"));
   return text +
          fmt::format(", {}, {}", counted(report.vertexCount, "vertex", "vertices"),
                      counted(report.componentCount, "component")) +
-         (report.unit.empty() ? "" : ", unit " + report.unit);
+         (report.unit.empty() ? "" : ", unit " + report.unit) + chordErrorText(report);
 }
 
 std::string shortValueRow(const Report& report) {
@@ -197,9 +202,10 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
     if (std::string question = unitQuestion(report); !question.empty())
       rows.emplace_back("unit", std::move(question));
     else
-      rows.emplace_back("mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}",
-                                            counted(report.faceCount, "face"), report.size.x, report.size.y,
-                                            report.size.z, report.unit.empty() ? "" : " " + report.unit));
+      rows.emplace_back(
+          "mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}{}", counted(report.faceCount, "face"),
+                              report.size.x, report.size.y, report.size.z, report.unit.empty() ? "" : " " + report.unit,
+                              chordErrorText(report)));
     // Parts and the result of a check were asked for, so they come before the diameter if there is not room for all.
     const size_t askedCount = (report.segmentCount ? 1U : 0U) + (report.check ? 1U : 0U);
     hasDiameter = report.seedCount > 0 && rows.size() + askedCount < kMaxRows;

@@ -9,14 +9,15 @@
 
 namespace asdfvk {
 // Each format is defined in src/io/NAME_*.cpp.
-extern const FileFormat kStlFormat, kPlyFormat, kOffFormat, kObjFormat, kGlbFormat, k3mfFormat, kVtuFormat, kNpyFormat,
-    kNpzFormat, kCsvFormat;
+extern const FileFormat kStlFormat, kPlyFormat, kOffFormat, kObjFormat, kGlbFormat, k3mfFormat, kStepFormat, kVtuFormat,
+    kNpyFormat, kNpzFormat, kCsvFormat;
 
 namespace {
 
 // STL first: the exact size of a binary STL is stronger evidence than the first word of the other formats.
-constexpr std::array<const FileFormat*, 10> kFormats{&kStlFormat, &kPlyFormat, &kOffFormat, &kObjFormat, &kGlbFormat,
-                                                     &k3mfFormat, &kVtuFormat, &kNpyFormat, &kNpzFormat, &kCsvFormat};
+constexpr std::array<const FileFormat*, 11> kFormats{&kStlFormat, &kPlyFormat, &kOffFormat,  &kObjFormat,
+                                                     &kGlbFormat, &k3mfFormat, &kStepFormat, &kVtuFormat,
+                                                     &kNpyFormat, &kNpzFormat, &kCsvFormat};
 
 const FileFormat* firstWith(Match match, std::span<const char> bytes) {
   const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const FileFormat* format) {

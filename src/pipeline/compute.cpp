@@ -51,6 +51,7 @@ void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain
   report.componentCount = prepared.components.components.size();
   report.size = prepared.geometry.bounds.size();
   report.unit = prepared.unit;
+  report.chordError = prepared.chordError;
   report.defects = prepared.defects;
   report.reversedFaceCount = prepared.reversedFaces.size();
   report.warnings = prepared.warnings;

@@ -186,6 +186,7 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());
   if (const Mesh* const source = view.mesh()) {
     prepared.unit = source->unit;
+    prepared.chordError = source->chordError;
     prepared.statedPartCount = source->statedPartCount;
     if (!source->skipped.empty()) prepared.warnings.push_back(skippedContent(source->skipped));
     prepared.negativeVolumeCount = source->negativeVolumeCount;

@@ -32,6 +32,7 @@ struct PreparedMesh {
   std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.
   MeshDefects defects;
   std::string unit;                  ///< Mesh::unit.
+  double chordError = 0;             ///< Mesh::chordError.
   uint32_t statedPartCount = 0;      ///< Mesh::statedPartCount.
   uint32_t negativeVolumeCount = 0;  ///< Mesh::negativeVolumeCount.
   double float32Step = 0;            ///< See float32StepOf().

@@ -14,7 +14,9 @@
 namespace asdfvk {
 namespace {
 
-std::string hashOfOptions(const CommandLine& line) { return optionsHash(line.computation, line.session, line.outputs); }
+std::string hashOfOptions(const CommandLine& line) {
+  return optionsHash(line.computation, line.session, line.reading, line.outputs);
+}
 
 /// An option with a value that is not the default, and whether the value is in its field.
 struct OptionCase {
@@ -234,8 +236,8 @@ TEST_CASE("a worker gets all settings") {
     const MeshSettings sent = settingsFor(arguments);
     const MeshSettings received = settingsOf(decode(encode(toJson(sent))));
     CHECK_EQ(toJson(received), toJson(sent));
-    CHECK_EQ(optionsHash(received.computation, received.session, received.outputs),
-             optionsHash(sent.computation, sent.session, sent.outputs));
+    CHECK_EQ(optionsHash(received.computation, received.session, received.reading, received.outputs),
+             optionsHash(sent.computation, sent.session, sent.reading, sent.outputs));
     CHECK_EQ(received.outputs.path, sent.outputs.path);
     CHECK_EQ(received.timeoutSeconds, sent.timeoutSeconds);
     CHECK(received.makesFolders);

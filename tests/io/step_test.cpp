@@ -1,0 +1,199 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/vec3.h"
+#include "reading.h"
+
+using namespace asdfvk;
+using asdfvk::test::errorOf;
+using asdfvk::test::holds;
+
+namespace {
+
+const std::string kEmptyStep =
+    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+    "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";
+
+/// The number of directed edges without the opposite edge.
+uint64_t openEdgeCount(const Mesh& mesh) {
+  std::map<std::pair<uint32_t, uint32_t>, int64_t> edges;
+  for (const Face& face : mesh.faces)
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t from = face[i], to = face[(i + 1) % 3];
+      edges[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  uint64_t count = 0;
+  for (const auto& edge : edges) count += static_cast<uint64_t>(std::abs(edge.second));
+  return count;
+}
+
+double volumeOf(const Mesh& mesh) {
+  double volume = 0;
+  for (const Face& face : mesh.faces)
+    volume += dot(mesh.vertices[face[0]], cross(mesh.vertices[face[1]], mesh.vertices[face[2]])) / 6;
+  return volume;
+}
+
+std::pair<Vec3d, Vec3d> boundsOf(const Mesh& mesh) {
+  std::pair<Vec3d, Vec3d> bounds{mesh.vertices.at(0), mesh.vertices.at(0)};
+  for (const Vec3d& p : mesh.vertices)
+    for (size_t axis = 0; axis < 3; ++axis) {
+      bounds.first[axis] = std::min(bounds.first[axis], p[axis]);
+      bounds.second[axis] = std::max(bounds.second[axis], p[axis]);
+    }
+  return bounds;
+}
+
+void checkPoint(const Vec3d& point, const Vec3d& expected) {
+  for (size_t axis = 0; axis < 3; ++axis) CHECK(point[axis] == doctest::Approx(expected[axis]).epsilon(1e-9));
+}
+
+}  // namespace
+
+TEST_CASE("STEP is recognised by its first line, and a truncated file is refused") {
+  CHECK(detectFormat(std::span(kEmptyStep.data(), kEmptyStep.size()), "stl")->name == "step");
+  for (const char* extension : {"step", "STP", ".p21"}) CHECK(formatOfExtension(extension)->name == "step");
+  CHECK(errorOf("step", kEmptyStep.substr(0, 200)) == "has no END-ISO-10303-21;; the file is truncated");
+}
+
+TEST_CASE("STEP without its module is refused with a remedy") {
+  ::setenv("ASDF_VK_STEP_MODULE", "/nowhere/libasdf-vk-step.so", 1);
+  CHECK(errorOf("step", kEmptyStep) ==
+        "is STEP, which is read by a module that is not installed (libasdf-vk-step.so); export STL or 3MF, or install "
+        "asdf-vk-step (docs/formats.md)");
+  ::setenv("ASDF_VK_STEP_MODULE", ASDFVK_TEST_DIR, 1);
+  CHECK(holds(errorOf("step", kEmptyStep), "its module cannot be loaded"));
+  ::unsetenv("ASDF_VK_STEP_MODULE");
+}
+
+#ifndef ASDFVK_STEP_FILES
+TEST_CASE("bodies of STEP files" * doctest::skip()) { MESSAGE("the module that reads STEP is not built"); }
+#else
+
+namespace {
+
+struct StepModuleOfBuild {
+  StepModuleOfBuild() { ::setenv("ASDF_VK_STEP_MODULE", ASDFVK_STEP_MODULE, 1); }
+  ~StepModuleOfBuild() { ::unsetenv("ASDF_VK_STEP_MODULE"); }
+  StepModuleOfBuild(const StepModuleOfBuild&) = delete;
+  StepModuleOfBuild& operator=(const StepModuleOfBuild&) = delete;
+};
+
+/// asdfvk-write-step-files writes the files.
+std::string stepPath(const std::string& name) { return std::string(ASDFVK_STEP_FILES) + "/" + name + ".step"; }
+
+std::string stepText(const std::string& name) {
+  std::ifstream in(stepPath(name), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Mesh readStep(const std::string& name, const ReadOptions& options = {}) {
+  const StepModuleOfBuild module;
+  return readMesh(stepPath(name), options);
+}
+
+std::string stepErrorOf(std::string_view text) {
+  const StepModuleOfBuild module;
+  return errorOf("step", text);
+}
+
+}  // namespace
+
+TEST_CASE("a box in STEP is read in the unit of its file") {
+  for (const auto& [name, unit, perMillimetre] :
+       {std::tuple("box", "mm", 1.0), std::tuple("inch", "in", 1 / 25.4), std::tuple("metre", "m", 1e-3)}) {
+    const std::string file = name;
+    CAPTURE(file);
+    const Mesh mesh = readStep(file);
+    CHECK(mesh.faces.size() == 12);
+    CHECK(mesh.vertices.size() == 8);
+    CHECK(openEdgeCount(mesh) == 0);
+    CHECK(mesh.unit == unit);
+    CHECK(mesh.statedPartCount == 1);
+    CHECK(mesh.skipped.empty());
+    checkPoint(boundsOf(mesh).first, {0, 0, 0});
+    checkPoint(boundsOf(mesh).second, Vec3d{10, 20, 30} * perMillimetre);
+    CHECK(volumeOf(mesh) == doctest::Approx(6000 * std::pow(perMillimetre, 3)));
+    CHECK(mesh.chordError == doctest::Approx(0.001 * std::sqrt(1400.0) * perMillimetre));
+  }
+}
+
+TEST_CASE("curved bodies of STEP are closed, and their faces are within the chord error") {
+  for (const char* name : {"tube", "sphere", "torus", "cone", "rounded"})
+    for (const double chordError : {0.5, 0.02, 0.002}) {
+      const std::string file = name;
+      CAPTURE(file);
+      CAPTURE(chordError);
+      const Mesh mesh = readStep(file, {.chordError = chordError});
+      CHECK(mesh.chordError == doctest::Approx(chordError));
+      CHECK(openEdgeCount(mesh) == 0);
+      CHECK(volumeOf(mesh) > 0);
+      CHECK(mesh.skipped.empty());
+      if (file != "sphere") continue;
+      for (const Face& face : mesh.faces) {
+        const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
+        CHECK(length(a) == doctest::Approx(10));
+        CHECK(length((a + b + c) / 3) > 10 - chordError);
+        CHECK(length((a + b) / 2) > 10 - chordError);
+      }
+    }
+}
+
+TEST_CASE("the chord error has a unit, is at least the resolution, and costs faces") {
+  const Mesh inMesh = readStep("tube", {.chordError = 0.02}),
+             inMicrometres = readStep("tube", {.chordError = 20, .chordErrorUnit = LengthUnit::Micrometre}),
+             finest = readStep("tube", {.chordError = 1e-12});
+  CHECK(inMicrometres.chordError == doctest::Approx(0.02));
+  CHECK(inMicrometres.faces == inMesh.faces);
+  CHECK(inMicrometres.vertices == inMesh.vertices);
+  CHECK(finest.chordError == doctest::Approx(30 * 0x1p-21).epsilon(1e-6));
+  CHECK(readStep("inch", {.chordError = 0.254, .chordErrorUnit = LengthUnit::Millimetre}).chordError ==
+        doctest::Approx(0.01));
+  CHECK(inMesh.faces.size() > 2 * readStep("tube", {.chordError = 5}).faces.size());
+  try {
+    static_cast<void>(readStep("tube", {.maxFaces = 100, .chordError = 1e-4}));
+    FAIL_CHECK("no error");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::TooManyFaces);
+  }
+}
+
+TEST_CASE("the bodies of an assembly in STEP are placed, and a mirrored one stays outside out") {
+  const Mesh mesh = readStep("assembly");
+  CHECK(mesh.statedPartCount == 3);
+  CHECK(mesh.faces.size() == 36);
+  CHECK(openEdgeCount(mesh) == 0);
+  CHECK(volumeOf(mesh) == doctest::Approx(18000));
+  checkPoint(boundsOf(mesh).first, {-20, 0, 0});
+  checkPoint(boundsOf(mesh).second, {110, 20, 30});
+}
+
+TEST_CASE("open surfaces of STEP are read; curves and points are reported") {
+  CHECK(readStep("shell").faces.size() == 10);
+  CHECK(openEdgeCount(readStep("shell")) == 4);
+  CHECK(readStep("face").faces.size() == 2);
+  const Mesh mixed = readStep("box_curve_point");
+  CHECK(mixed.faces.size() == 12);
+  CHECK(mixed.skipped == std::vector<std::string>{"1 curve", "1 point"});
+  CHECK(stepErrorOf(stepText("curve")) == "has no body, only 1 curve");
+}
+
+TEST_CASE("STEP files without bodies, or with damage, are refused or report what was left out") {
+  CHECK(stepErrorOf(kEmptyStep) == "cannot be read as STEP: no product of the file has a shape");
+  const std::string box = stepText("box");
+  std::string damaged = box;
+  damaged.replace(damaged.find("PLANE("), 6, "PLANK(");
+  const StepModuleOfBuild module;
+  const Mesh mesh = asdfvk::test::parse("step", damaged);
+  CHECK(mesh.faces.size() == 10);
+  CHECK(mesh.skipped == std::vector<std::string>{"1 face that Open CASCADE cannot convert"});
+}
+
+#endif
