@@ -1,5 +1,6 @@
 # Programs with man pages and completion, libraries, headers, CMake package and pkg-config files, in the folders of
-# GNUInstallDirs. Components: program, development, c (the shared library for C without files for linking), python.
+# GNUInstallDirs. Components: program, development, c (the shared library for C without files for linking), python, step (the
+# module that reads STEP).
 include(CMakePackageConfigHelpers)
 
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/asdf-vk)
@@ -24,6 +25,9 @@ if(ASDF_VK_PROGRAM)
     install(FILES documents/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
             RENAME ${program} COMPONENT program)
   endforeach()
+endif()
+if(TARGET asdf-vk-step)  # src/io/step_library.cpp searches the module there.
+  install(TARGETS asdf-vk-step LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/asdf-vk COMPONENT step)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/asdf_vk ${PROJECT_BINARY_DIR}/include/asdf_vk
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")

@@ -1,11 +1,14 @@
 # Debian packages by CPack: asdf-vk, libasdf-vk-dev, libasdf-vk-c1 (with the ABI of the interface in C), and
-# python3-asdf-vk if the Python module is built. A package is an install component. scripts/release runs these
+# python3-asdf-vk and asdf-vk-step if these modules are built. A package is an install component. scripts/release runs these
 # commands:
 #   cmake --preset packages && cmake --build --preset packages && cpack --preset packages
 include(GNUInstallDirs)
 set(components program development c)
 if(TARGET asdfvk-python)
   list(APPEND components python)
+endif()
+if(TARGET asdf-vk-step)
+  list(APPEND components step)
 endif()
 set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_GENERATOR DEB)
@@ -45,6 +48,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME asdf-vk)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS asdf-vk-step)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "local thickness of triangle meshes by Vulkan compute
 ${description}This package has the programs asdf-vk and asdf-vk-generate.")
 
@@ -69,6 +73,13 @@ set(CPACK_DEBIAN_C_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs ${PROJECT_BINARY_DIR}/debian/triggers)
 set(CPACK_DEBIAN_C_DESCRIPTION "local thickness of triangle meshes - library for C
 ${description}This package has the shared library of the interface in C.")
+
+set(CPACK_DEBIAN_STEP_PACKAGE_NAME asdf-vk-step)
+set(CPACK_DEBIAN_STEP_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_STEP_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_STEP_PACKAGE_ENHANCES "asdf-vk, libasdf-vk-dev, libasdf-vk-c${abi}, python3-asdf-vk")
+set(CPACK_DEBIAN_STEP_DESCRIPTION "local thickness of triangle meshes - reader of STEP
+${description}This package has the module that reads STEP files by Open CASCADE.")
 
 # The module is bound to the minor version of the Python for which it is built.
 if(TARGET asdfvk-python)

@@ -21,7 +21,7 @@ def read_mesh(
     format: str | None = "",
     max_faces: int | None = None,
 ) -> Mesh:
-    """Reads a PLY, OFF, OBJ, STL, GLB, glTF or 3MF file. Keeps all faces, in the order of the file.
+    """Reads a PLY, OFF, OBJ, STL, GLB, glTF, 3MF or STEP file. Keeps all faces, in the order of the file.
 
     source: a path; or the mesh file as bytes, or a binary file object, which is read to its end. Bytes are never a path.
     format: "ply", "off", "obj", "stl", "glb", "gltf" or "3mf", if the content is ambiguous (OBJ, binary STL). Empty:

@@ -121,7 +121,7 @@ void bindFiles(py::module_& module) {
                              "(m,) int32: index of the file's face per triangle; None if all faces are triangles.")
       .def_property_readonly(
           "unit", [](const Mesh& self) { return self.unit; },
-          "Unit of length that the file states (3MF, glTF), for example \"mm\"; empty for other formats.")
+          "Unit of length that the file states (3MF, glTF, STEP), for example \"mm\"; empty for other formats.")
       .def("__repr__",
            [](const Mesh& self) {
              return "<asdf_vk.Mesh, " + std::to_string(self.vertices.size()) + " vertices, " +

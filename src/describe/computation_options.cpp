@@ -199,8 +199,9 @@ const std::array kComputationRows{
               .range = above(0),
               .text = "Report whether and where the surface is thinner than T, in the unit of the mesh; implies "
                       "--measure thickness",
-              .more = "If the file states its unit (3MF, glTF), T may have a unit, as in `0.8mm`: `um`, `mm`, `cm`, "
-                      "`m`, `in` or `ft`.",
+              .more =
+                  "If the file states its unit (3MF, glTF, STEP), T may have a unit, as in `0.8mm`: `um`, `mm`, `cm`, "
+                  "`m`, `in` or `ft`.",
               .placeholder = "T",
               .defaultText = "-",
               .keywordType = "float | str",

@@ -20,6 +20,8 @@ struct StepModuleCall {
   /// Receives the name of the unit of length (empty if the file has several units or none) and the bounding box of all
   /// bodies, and sets the chord error, above 0. Called once, before the other callbacks.
   bool (*setChordError)(void* context, const char* unit, const double min[3], const double max[3], double* chordError);
+  /// Receives the estimated number of triangles of the next body, for a body of many triangles.
+  bool (*expectTriangles)(void* context, double triangleCount);
   /// Receives the triangles of a body. points: 3 pointCount coordinates; the points of the faces are separate, but
   /// equal where faces meet. corners: 3 triangleCount indices, counter-clockwise seen from outside.
   bool (*addBody)(void* context, const double* points, uint64_t pointCount, const uint32_t* corners,
@@ -27,6 +29,7 @@ struct StepModuleCall {
   /// Places the body with this index, in the order of addBody(). columns: three columns of a linear map, and a
   /// translation.
   bool (*placeBody)(void* context, uint64_t body, const double columns[12]);
+  double foundChordError;  ///< The greatest distance that was found between a surface and its triangles.
   // What was left out.
   uint64_t curveCount;       ///< Curves that bound no face.
   uint64_t pointCount;       ///< Points that bound no curve.

@@ -64,6 +64,7 @@ class StepReader {
 
  private:
   void setChordError(std::string_view unit, const Vec3d& size, double& chordError);
+  void expectTriangles(double count);
   void addBody(const double* points, uint64_t pointCount, const uint32_t* corners, uint64_t triangleCount);
   void placeBody(uint64_t body, const double columns[12]);
   [[nodiscard]] std::vector<std::string> skippedOf(const StepModuleCall& call) const;
@@ -85,6 +86,7 @@ class StepReader {
   const LengthUnitRow* unit_ = nullptr;
   double chordError_ = 0;  ///< In the unit of the file.
   std::vector<PartMesh> bodies_;
+  uint64_t triangleCount_ = 0;  ///< Number of triangles of the bodies.
   std::vector<PlacedBody> placed_;
   uint64_t vertexCount_ = 0, faceCount_ = 0;  ///< Numbers of all placed bodies.
   std::exception_ptr failure_;
@@ -100,10 +102,14 @@ void StepReader::setChordError(std::string_view unit, const Vec3d& size, double&
   chordError_ = chordError * kMicrometresOfModule / unit_->micrometres;
 }
 
+void StepReader::expectTriangles(double count) {
+  constexpr double kMostFaces = 1e15;
+  requireFaceCount(triangleCount_ + static_cast<uint64_t>(std::min(count, kMostFaces)), source_);
+}
+
 void StepReader::addBody(const double* points, uint64_t pointCount, const uint32_t* corners, uint64_t triangleCount) {
-  uint64_t faceCount = triangleCount;
-  for (const PartMesh& body : bodies_) faceCount += body.faces.size();
-  requireFaceCount(faceCount, source_);
+  triangleCount_ += triangleCount;
+  requireFaceCount(triangleCount_, source_);
   CornerWelder welder(pointCount);
   std::vector<uint32_t> vertexOf(pointCount);
   const double perUnit = unit_->micrometres / kMicrometresOfModule;
@@ -160,6 +166,9 @@ Mesh StepReader::read() {
       reader.setChordError(unit, {max[0] - min[0], max[1] - min[1], max[2] - min[2]}, *chordError);
     });
   };
+  call.expectTriangles = [](void* context, double count) {
+    return guarded(context, [&](StepReader& reader) { reader.expectTriangles(count); });
+  };
   call.addBody = [](void* context, const double* points, uint64_t pointCount, const uint32_t* corners,
                     uint64_t triangleCount) {
     return guarded(context, [&](StepReader& reader) { reader.addBody(points, pointCount, corners, triangleCount); });
@@ -186,12 +195,11 @@ Mesh StepReader::read() {
   for (const PlacedBody& placed : placed_) assembled.add(bodies_[placed.body], placed.placement);
   Mesh mesh = assembled.finish();
   mesh.unit = unit_->name;
-  mesh.chordError = chordError_;
+  mesh.chordError = std::max(chordError_, call.foundChordError * kMicrometresOfModule / unit_->micrometres);
   mesh.skipped = std::move(skipped);
   return mesh;
 }
 
-/// White space and comments may precede the keyword.
 Match detectStep(std::span<const char> bytes) {
   return std::string_view(bytes.data(), bytes.size()).starts_with(kStepStart) ? Match::Certain : Match::None;
 }

@@ -212,7 +212,7 @@ ThicknessOptions inUnitOfMesh(ThicknessOptions thickness, const std::string& uni
   if (to == nullptr)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("the limit is in {}, and the mesh states no unit; give a plain number, in the unit of the "
-                            "mesh (3MF and glTF files state a unit)",
+                            "mesh (3MF, glTF and STEP files state a unit)",
                             from->name));
   thickness.thinnerThan = *thickness.thinnerThan * from->micrometres / to->micrometres;
   thickness.limitUnit = LengthUnit::OfMesh;

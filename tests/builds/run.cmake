@@ -7,7 +7,7 @@ set(arguments -S ${SOURCE} -B ${FOLDER})
 if(WAY STREQUAL "plain")
   list(APPEND arguments -DCMAKE_BUILD_TYPE=Release)
 elseif(WAY STREQUAL "smallest")
-  list(APPEND arguments -G Ninja -DCMAKE_BUILD_TYPE=Release -DASDF_VK_VULKAN=OFF -DASDF_VK_C=OFF -DASDF_VK_INSTALL=OFF
+  list(APPEND arguments -G Ninja -DCMAKE_BUILD_TYPE=Release -DASDF_VK_VULKAN=OFF -DASDF_VK_C=OFF -DASDF_VK_INSTALL=OFF -DASDF_VK_STEP=OFF
        -DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
        -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DASDF_VK_WERROR=ON)
 else()
@@ -38,6 +38,8 @@ endfunction()
 if(WAY STREQUAL "smallest")
   expect(3 "this build of asdf-vk has no Vulkan" ${FOLDER}/mesh.ply --backend vulkan -o ${FOLDER}/values.npy)
   expect(0 "this build of asdf-vk has no Vulkan" --list-devices)
+  file(WRITE ${FOLDER}/part.step "ISO-10303-21;\nEND-ISO-10303-21;\n")
+  expect(2 "read by a module that is not installed" ${FOLDER}/part.step -o ${FOLDER}/values.npy)
   expect(3 "this build of asdf-vk has no Vulkan" --device-report)
   expect(3 "the solver cg runs on a Vulkan device" ${FOLDER}/mesh.ply --solver cg -o ${FOLDER}/values.npy)
 endif()

@@ -94,6 +94,7 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
     return "Vulkan belongs in vk and the folders vulkan/";
   if (top == "tbb" && !(layer == "core" && file.filename() == "parallel.cpp"))
     return "TBB belongs in core/parallel.cpp";
+  if (target.ends_with(".hxx") && !isIn("opencascade", file)) return "Open CASCADE belongs in the folders opencascade/";
   if (top == "CLI" && layer != "arguments") return "CLI11 belongs in arguments";
   if (top == "embree3" || top == "embree4") return "Embree belongs in bench";
   const bool isOurs = layers().count(top) || top == "shared";
@@ -197,9 +198,11 @@ TEST_CASE("the table objects to includes against it") {
   CHECK_FALSE(objection("bvh", "src/bvh/a.cpp", "volk.h").empty());
   CHECK_FALSE(objection("cli", "src/cli/options.cpp", "CLI/CLI.hpp").empty());
   CHECK_FALSE(objection("pipeline", "src/pipeline/a.cpp", "vulkan/vulkan.h").empty());
+  CHECK_FALSE(objection("io", "src/io/a.cpp", "TopoDS.hxx").empty());
 
   CHECK(objection("trace", "src/trace/vulkan/tracer.cpp", "vk/buffer.h").empty());
   CHECK(objection("trace", "src/trace/vulkan/tracer.cpp", "volk.h").empty());
+  CHECK(objection("io", "src/io/opencascade/a.cpp", "TopoDS.hxx").empty());
   for (const char* header : {"embree3/rtcore.h", "embree4/rtcore.h"})
     CHECK_FALSE(objection("trace", "src/trace/seed_order.h", header).empty());
   CHECK(objection("poisson", "src/poisson/eigen.cpp", "Eigen/Sparse").empty());

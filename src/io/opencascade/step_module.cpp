@@ -1,9 +1,13 @@
 // The module that reads STEP (src/io/step_module.h). The plain reader of Open CASCADE is used, not the one for
 // documents of applications, because the latter opens the files to which a file refers.
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Interface_Check.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
@@ -13,6 +17,7 @@
 #include <StepData_StepModel.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
@@ -21,8 +26,10 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <istream>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <new>
@@ -38,7 +45,7 @@ namespace {
 
 struct Stopped {};
 struct Failed {
-  const char* reason;
+  std::string reason;
 };
 
 class MemoryBuffer : public std::streambuf {
@@ -67,11 +74,68 @@ void require(bool continues) {
   if (!continues) throw Stopped{};
 }
 
+/// Open CASCADE follows references of geometry without a test whether they exist and have the right type.
+void requireSound(const Handle(StepData_StepModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Interface_Check) check = model->Check(i, true);
+    if (!check->HasFailed()) continue;
+    const Handle(Standard_Transient) entity = model->Value(i);
+    const std::string_view type = entity->DynamicType()->Name();
+    if (!type.starts_with("StepGeom_") && !type.starts_with("StepShape_") && !type.starts_with("StepRepr_")) continue;
+    throw Failed{std::string(model->StringLabel(entity)->ToCString()) + ": " + check->CFail(1)};
+  }
+}
+
 /// Number of shapes of a kind that are not part of a shape of another kind.
 uint64_t countLoose(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum notIn) {
   uint64_t count = 0;
   for (TopExp_Explorer loose(shape, kind, notIn); loose.More(); loose.Next()) ++count;
   return count;
+}
+
+/// Distance of a point from a surface, by Newton's method from the parameters `place`.
+double distanceFrom(const BRepAdaptor_Surface& surface, gp_XY place, const gp_XYZ& point) {
+  constexpr int kStepCount = 3;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kStepCount; ++i) {
+    gp_Pnt on;
+    gp_Vec u, v;
+    surface.D1(place.X(), place.Y(), on, u, v);
+    const gp_Vec way(on, gp_Pnt(point));
+    least = std::min(least, way.Magnitude());
+    const double uu = u.Dot(u), uv = u.Dot(v), vv = v.Dot(v), determinant = uu * vv - uv * uv;
+    if (!(determinant > 1e-12 * uu * vv)) break;  // At the pole of a sphere, for example.
+    place += gp_XY(vv * u.Dot(way) - uv * v.Dot(way), uu * v.Dot(way) - uv * u.Dot(way)) / determinant;
+  }
+  return least;
+}
+
+/// Greatest distance between the triangles of a face and its surface, at the middles of triangles and edges. Distances
+/// above `enough` are searched again from the corners, because a parameter of a pole has no meaning.
+double deviationOf(const TopoDS_Face& face, double enough) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, location);
+  const BRepAdaptor_Surface surface(face, false);
+  if (triangles.IsNull() || !triangles->HasUVNodes() || surface.GetType() == GeomAbs_Plane) return 0;
+  double greatest = 0;
+  for (int i = 1; i <= triangles->NbTriangles(); ++i) {
+    int corners[3];
+    triangles->Triangle(i).Get(corners[0], corners[1], corners[2]);
+    gp_XYZ points[3];
+    gp_XY places[3];
+    for (int c = 0; c < 3; ++c) {
+      points[c] = triangles->Node(corners[c]).Transformed(location.Transformation()).XYZ();
+      places[c] = triangles->UVNode(corners[c]).XY();
+    }
+    const auto check = [&](const gp_XY& place, const gp_XYZ& point) {
+      double least = distanceFrom(surface, place, point);
+      for (int c = 0; c < 3 && least > enough; ++c) least = std::min(least, distanceFrom(surface, places[c], point));
+      greatest = std::max(greatest, least);
+    };
+    check((places[0] + places[1] + places[2]) / 3, (points[0] + points[1] + points[2]) / 3);
+    for (int c = 0; c < 3; ++c) check((places[c] + places[(c + 1) % 3]) / 2, (points[c] + points[(c + 1) % 3]) / 2);
+  }
+  return greatest;
 }
 
 class StepRead {
@@ -90,6 +154,7 @@ class StepRead {
     MemoryBuffer buffer(call_.bytes, call_.size);
     std::istream stream(&buffer);
     if (reader_.ReadStream("", stream) != IFSelect_RetDone) throw Failed{"Open CASCADE cannot parse the file"};
+    requireSound(reader_.StepModel());
     if (reader_.NbRootsForTransfer() == 0) throw Failed{"no product of the file has a shape"};
   }
 
@@ -144,9 +209,48 @@ class StepRead {
     require(call_.placeBody(call_.context, entry->second, columns));
   }
 
-  void triangulate(const TopoDS_Shape& body, double chordError) {
-    // Not in parallel, so that each run gives the same bits.
+  /// Open CASCADE needs about 4 KB per triangle, and for a million triangles of one face minutes. A fine triangulation
+  /// is therefore extrapolated from two coarse ones before it is made.
+  void requireTriangleCount(const TopoDS_Shape& body, double chordError) {
+    constexpr double kFine = 2e-5,
+                     kStep = 4;  // Relative to the diagonal; finer bodies have 100,000 triangles and more.
+    Bnd_Box box;
+    BRepBndLib::Add(body, box, false);
+    if (box.IsVoid() || chordError > kFine * std::sqrt(box.SquareExtent())) return;
+    double counts[2]{};
+    for (const int i : {0, 1}) {
+      const TopoDS_Shape copy = BRepBuilderAPI_Copy(body).Shape();
+      mesh(copy, chordError * (i == 0 ? kStep * kStep * kStep : kStep * kStep));
+      for (TopExp_Explorer face(copy, TopAbs_FACE); face.More(); face.Next()) {
+        TopLoc_Location ignored;
+        const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(TopoDS::Face(face.Current()), ignored);
+        if (!triangles.IsNull()) counts[i] += triangles->NbTriangles();
+      }
+    }
+    const double growth = counts[0] > 0 ? std::max(counts[1] / counts[0], 1.0) : 1.0;
+    require(call_.expectTriangles(call_.context, counts[1] * growth * growth));
+  }
+
+  /// Not in parallel, so that each run gives the same bits.
+  void mesh(const TopoDS_Shape& body, double chordError) const {
     BRepMesh_IncrementalMesh(body, chordError, false, call_.maxAngleRadians, false);
+  }
+
+  /// Open CASCADE may exceed the chord error, on spheres twice. Then the body is triangulated again.
+  void triangulate(const TopoDS_Shape& body, double chordError) {
+    constexpr int kTryCount = 4;
+    constexpr double kFiner = 0.45;
+    requireTriangleCount(body, chordError);
+    double asked = chordError, found = 0;
+    for (int i = 0; i < kTryCount; ++i, asked *= kFiner) {
+      BRepTools::Clean(body);
+      mesh(body, asked);
+      found = 0;
+      for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next())
+        found = std::max(found, deviationOf(TopoDS::Face(face.Current()), chordError));
+      if (found <= chordError) break;
+    }
+    call_.foundChordError = std::max(call_.foundChordError, found);
     points_.clear();
     corners_.clear();
     for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next()) addFace(TopoDS::Face(face.Current()));
@@ -204,7 +308,7 @@ extern "C" __attribute__((visibility("default"))) asdfvk::StepModuleStatus asdfv
   } catch (const Stopped&) {
     return StepModuleStatus::Stopped;
   } catch (const Failed& failure) {
-    return fail(*call, failure.reason);
+    return fail(*call, failure.reason.c_str());
   } catch (const std::bad_alloc&) {
     return StepModuleStatus::OutOfMemory;
   } catch (const Standard_Failure& failure) {
