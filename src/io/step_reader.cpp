@@ -24,7 +24,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr std::string_view kStepStart = "ISO-10303-21;", kStepEnd = "END-ISO-10303-21;";
+constexpr std::string_view kStepStart = "ISO-10303-21;", kStepEnd = "END-ISO-10303-21";
 constexpr double kMicrometresOfModule = 1000;         // The module has millimetres.
 constexpr double kMaxAngleRadians = 0.349;            // 20 degrees
 constexpr double kDefaultChordError = 1e-3;           // Share of the diagonal of the bounding box.

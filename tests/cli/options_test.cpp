@@ -109,6 +109,10 @@ const std::vector<OptionCase>& optionCases() {
       {{"--log", "log"}, [](const Line& l) { return l.batch.log == "log"; }},
       {{"--skip-existing"}, [](const Line& l) { return l.batch.skipsExisting; }},
       {{"--timeout", "2.5s"}, [](const Line& l) { return l.batch.timeoutSeconds == 2.5; }},
+      {{"--chord-error", "0.02mm"},
+       [](const Line& l) {
+         return l.reading.chordError == 0.02 && l.reading.chordErrorUnit == LengthUnit::Millimetre;
+       }},
       {{"--memory-limit", "2M"}, [](const Line& l) { return l.batch.memoryBytes == 2u << 20; }},
       {{"--isolate"}, [](const Line& l) { return l.batch.isolates; }},
       {{"--max-faces", "1000"}, [](const Line& l) { return l.reading.maxFaces == 1000; }},
@@ -299,3 +303,11 @@ TEST_CASE("--help has tasks with examples, of options that exist; --help=all has
 
 }  // namespace
 }  // namespace asdfvk
+
+TEST_CASE("the chord error of a check is a fiftieth of the limit") {
+  const ReadOptions reading = parseCommandLine({"a.step", "--thinner-than", "0.8mm"}).reading;
+  CHECK(reading.chordError == doctest::Approx(0.016));
+  CHECK(reading.chordErrorUnit == LengthUnit::Millimetre);
+  CHECK(parseCommandLine({"a.step", "--fail-if-thinner", "1", "--chord-error", "3"}).reading.chordError == 3);
+  CHECK(parseCommandLine({"a.step"}).reading.chordError == 0);
+}

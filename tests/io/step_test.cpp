@@ -60,7 +60,7 @@ void checkPoint(const Vec3d& point, const Vec3d& expected) {
 TEST_CASE("STEP is recognised by its first line, and a truncated file is refused") {
   CHECK(detectFormat(std::span(kEmptyStep.data(), kEmptyStep.size()), "stl")->name == "step");
   for (const char* extension : {"step", "STP", ".p21"}) CHECK(formatOfExtension(extension)->name == "step");
-  CHECK(errorOf("step", kEmptyStep.substr(0, 60)) == "has no END-ISO-10303-21;; the file is truncated");
+  CHECK(errorOf("step", kEmptyStep.substr(0, 60)) == "has no END-ISO-10303-21; the file is truncated");
 }
 
 TEST_CASE("STEP without its module is refused with a remedy") {
@@ -193,7 +193,7 @@ TEST_CASE("STEP files without bodies, or with damage, are refused or report what
   const std::string error = stepErrorOf(damaged);
   CAPTURE(error);
   CHECK(error.starts_with("cannot be read as STEP: #"));
-  CHECK(holds(error, "illegal type"));
+  CHECK(holds(error, "(face_geometry)"));
 
   std::string incomplete = box;
   const size_t firstFace = incomplete.find("CLOSED_SHELL('',(") + 17;

@@ -1,6 +1,5 @@
 // The module that reads STEP (src/io/step_module.h). The plain reader of Open CASCADE is used, not the one for
 // documents of applications, because the latter opens the files to which a file refers.
-#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -29,7 +28,6 @@
 #include <cmath>
 #include <cstring>
 #include <istream>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <new>
@@ -38,6 +36,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/opencascade/deviation.h"
 #include "io/step_module.h"
 
 namespace asdfvk {
@@ -91,51 +90,6 @@ uint64_t countLoose(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_Sha
   uint64_t count = 0;
   for (TopExp_Explorer loose(shape, kind, notIn); loose.More(); loose.Next()) ++count;
   return count;
-}
-
-/// Distance of a point from a surface, by Newton's method from the parameters `place`.
-double distanceFrom(const BRepAdaptor_Surface& surface, gp_XY place, const gp_XYZ& point) {
-  constexpr int kStepCount = 3;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kStepCount; ++i) {
-    gp_Pnt on;
-    gp_Vec u, v;
-    surface.D1(place.X(), place.Y(), on, u, v);
-    const gp_Vec way(on, gp_Pnt(point));
-    least = std::min(least, way.Magnitude());
-    const double uu = u.Dot(u), uv = u.Dot(v), vv = v.Dot(v), determinant = uu * vv - uv * uv;
-    if (!(determinant > 1e-12 * uu * vv)) break;  // At the pole of a sphere, for example.
-    place += gp_XY(vv * u.Dot(way) - uv * v.Dot(way), uu * v.Dot(way) - uv * u.Dot(way)) / determinant;
-  }
-  return least;
-}
-
-/// Greatest distance between the triangles of a face and its surface, at the middles of triangles and edges. Distances
-/// above `enough` are searched again from the corners, because a parameter of a pole has no meaning.
-double deviationOf(const TopoDS_Face& face, double enough) {
-  TopLoc_Location location;
-  const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, location);
-  const BRepAdaptor_Surface surface(face, false);
-  if (triangles.IsNull() || !triangles->HasUVNodes() || surface.GetType() == GeomAbs_Plane) return 0;
-  double greatest = 0;
-  for (int i = 1; i <= triangles->NbTriangles(); ++i) {
-    int corners[3];
-    triangles->Triangle(i).Get(corners[0], corners[1], corners[2]);
-    gp_XYZ points[3];
-    gp_XY places[3];
-    for (int c = 0; c < 3; ++c) {
-      points[c] = triangles->Node(corners[c]).Transformed(location.Transformation()).XYZ();
-      places[c] = triangles->UVNode(corners[c]).XY();
-    }
-    const auto check = [&](const gp_XY& place, const gp_XYZ& point) {
-      double least = distanceFrom(surface, place, point);
-      for (int c = 0; c < 3 && least > enough; ++c) least = std::min(least, distanceFrom(surface, places[c], point));
-      greatest = std::max(greatest, least);
-    };
-    check((places[0] + places[1] + places[2]) / 3, (points[0] + points[1] + points[2]) / 3);
-    for (int c = 0; c < 3; ++c) check((places[c] + places[(c + 1) % 3]) / 2, (points[c] + points[(c + 1) % 3]) / 2);
-  }
-  return greatest;
 }
 
 class StepRead {
