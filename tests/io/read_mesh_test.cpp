@@ -98,7 +98,7 @@ TEST_CASE("errors name the file and the reason") {
   CHECK(holds(errorOfReading(folder / "empty.off"), "empty.off: is empty"));
   std::ofstream(folder / "letter.txt") << "Dear reader,\n";
   CHECK(holds(errorOfReading(folder / "letter.txt"),
-              "has an unknown format; meshes are read from stl, ply, off, obj, glb or 3mf"));
+              "has an unknown format; meshes are read from stl, ply, off, obj, glb, 3mf or step"));
   std::ofstream(folder / "bad.obj") << "v 0 0 0\nf 1 2 3\n";
   CHECK(holds(errorOfReading(folder / "bad.obj"), "bad.obj: line 2: vertex index 3"));
 }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -127,7 +128,7 @@ TEST_CASE("a box in STEP is read in the unit of its file") {
 
 TEST_CASE("curved bodies of STEP are closed, and their faces are within the chord error") {
   for (const char* name : {"tube", "sphere", "torus", "cone", "rounded"})
-    for (const double chordError : {0.5, 0.02, 0.002}) {
+    for (const double chordError : {0.5, 0.1, 0.02}) {
       const std::string file = name;
       CAPTURE(file);
       CAPTURE(chordError);
@@ -137,12 +138,13 @@ TEST_CASE("curved bodies of STEP are closed, and their faces are within the chor
       CHECK(volumeOf(mesh) > 0);
       CHECK(mesh.skipped.empty());
       if (file != "sphere") continue;
+      double greatest = 0;
       for (const Face& face : mesh.faces) {
         const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
-        CHECK(length(a) == doctest::Approx(10));
-        CHECK(length((a + b + c) / 3.0) > 10 - chordError);
-        CHECK(length((a + b) / 2.0) > 10 - chordError);
+        for (const Vec3d& p : {a, (a + b) / 2.0, (a + b + c) / 3.0})
+          greatest = std::max(greatest, std::abs(length(p) - 10));
       }
+      CHECK(greatest < chordError);
     }
 }
 
