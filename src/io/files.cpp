@@ -1,19 +1,14 @@
 #include "asdf_vk/files.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <new>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
 #include "core/unset_vector.h"
+#include "io/file_bytes.h"
 #include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/grouped_files.h"
@@ -24,48 +19,6 @@
 
 namespace asdfvk {
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(const std::filesystem::path& path)
-      : value_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (value_ < 0) failInput(fmt::format("cannot be opened: {}", std::strerror(errno)));
-  }
-  ~Descriptor() {
-    if (value_ != STDIN_FILENO) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int value() const { return value_; }
-
- private:
-  int value_;
-};
-
-/// Reads a whole file; "-" is standard input. Pipes are read to their end. Does not map the file into memory, because
-/// truncating a mapped file would end the process. Throws Error{UnreadableInput} with the error of the operating
-/// system.
-UnsetVector<char> bytesOf(const std::filesystem::path& path) {
-  const Descriptor descriptor(path);
-  struct stat status {};
-  if (::fstat(descriptor.value(), &status) != 0) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (S_ISDIR(status.st_mode)) failInput("is a directory, not a file");
-  // Rejected, because a device such as /dev/zero has no end.
-  if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
-    failInput("is a device, not a file");
-  constexpr size_t kMaxRead = size_t{1} << 30, kFirstOfPipe = size_t{1} << 16;  // Linux reads at most 2 GiB at once.
-  // One byte more than the file, so that the read that detects the end needs no larger buffer.
-  UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
-  for (size_t size = 0;;) {
-    if (size == bytes.size()) bytes.resize(2 * size);
-    const ssize_t count = ::read(descriptor.value(), bytes.data() + size, std::min(bytes.size() - size, kMaxRead));
-    if (count < 0 && errno != EINTR) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
-    if (count > 0) size += static_cast<size_t>(count);
-    if (count != 0) continue;
-    bytes.resize(size);
-    return bytes;
-  }
-}
 
 using HasOperation = bool (*)(const FileFormat& format);
 bool isMeshFormat(const FileFormat& format) { return format.parseMesh != nullptr; }
@@ -133,7 +86,7 @@ Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
               const std::function<void(std::span<const char>)>& inspect) {
   const std::string name = path == "-" ? "standard input" : path.string();
   try {
-    const UnsetVector<char> bytes = bytesOf(path);
+    const UnsetVector<char> bytes = fileBytes(path);
     inspect(bytes);
     return parse({.bytes = bytes, .path = path == "-" ? std::filesystem::path() : path, .options = options});
   } catch (const Error& error) {

@@ -29,7 +29,8 @@ const FileFormat* firstWith(Match match, std::span<const char> bytes) {
 }  // namespace
 
 uint64_t MeshSource::sizeForLimits() const {
-  return packedSize == 0 ? bytes.size() : std::min<uint64_t>(bytes.size(), kMaxUnpackRatio * packedSize);
+  if (packedSize != 0) return std::min<uint64_t>(bytes.size(), kMaxUnpackRatio * packedSize);
+  return bytes.size() + besideByteCount;
 }
 
 uint64_t MeshSource::maxFaceCount() const {

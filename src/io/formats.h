@@ -26,8 +26,13 @@ struct MeshSource {
   ReadOptions options = {};
   uint64_t packedSize = 0;  ///< Size of the compressed file that has the bytes; 0 if the file has them directly.
 
-  /// The size on which limits depend: the number of bytes, but at most kMaxUnpackRatio times the packed size.
+  /// The number of bytes that the reader took from files beside. They count for the limits.
+  mutable uint64_t besideByteCount = 0;
+
+  /// The size on which limits depend: the number of bytes with those of files beside, but for a compressed file at most
+  /// kMaxUnpackRatio times the packed size.
   [[nodiscard]] uint64_t sizeForLimits() const;
+
   /// The greatest number of faces that the reader may return.
   [[nodiscard]] uint64_t maxFaceCount() const;
 };

@@ -1,7 +1,8 @@
-// glTF 2.0 (Khronos), as .glb or as .gltf with embedded data: the meshes of the default scene, placed by its nodes. The
-// mesh of a node is a part. Vertices of a part at the same point become one, because glTF splits vertices where normals
-// or texture coordinates differ. Positions may have any type of KHR_mesh_quantization. The reader ignores materials,
-// textures, cameras and animations. Mesh::skipped lists other ignored content. Other files are not opened.
+// glTF 2.0 (Khronos), as .glb or .gltf: the meshes of the default scene, placed by its nodes. The mesh of a node is a
+// part. Vertices of a part at the same point become one, because glTF splits vertices where normals or texture
+// coordinates differ. Positions may have any type of KHR_mesh_quantization. The data of a .gltf file may be in a file
+// beside (pathBeside()). The reader ignores materials, textures, cameras and animations. Mesh::skipped lists other
+// ignored content.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,32 +16,19 @@
 #include "io/corner_welder.h"
 #include "io/formats.h"
 #include "io/gltf_file.h"
+#include "io/gltf_primitive.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
 
 namespace asdfvk {
 namespace {
 
-enum GltfMode : uint64_t { kPoints = 0, kLines, kLineStrip = 3, kTriangles, kTriangleStrip, kTriangleFan };
-
-struct GltfPrimitive {
-  uint64_t mode = kTriangles;
-  GltfAccessor positions;
-  std::optional<GltfAccessor> indices;
-
-  [[nodiscard]] uint64_t cornerCount() const { return indices ? indices->count() : positions.count(); }
-  [[nodiscard]] bool hasFaces() const { return mode >= kTriangles; }
-  [[nodiscard]] uint64_t faceCount() const {
-    if (!hasFaces()) return 0;
-    return mode == kTriangles ? cornerCount() / 3 : std::max<uint64_t>(cornerCount(), 2) - 2;
-  }
-};
-
 /// A node on the path from the root of the scene to the current node.
 struct GltfVisit {
-  uint64_t node = 0;
+  const GltfJson* children = nullptr;  ///< Null if the node has none.
   uint64_t nextChild = 0;
   Placement placement;
+  bool isHidden = false;
 };
 
 class GltfReader {
@@ -55,11 +43,13 @@ class GltfReader {
     for (uint64_t mesh = 0; mesh < meshCount; ++mesh) {
       if (useCounts[mesh] == 0) continue;
       uint64_t vertices = 0, faces = 0;
-      for (const GltfPrimitive& primitive : primitivesOf(mesh)) {
+      const uint64_t primitiveCount = forEachPrimitive(mesh, [&](const GltfPrimitive& primitive) {
         count(primitive, useCounts[mesh]);
-        faces += primitive.faceCount();
-        vertices += std::min(primitive.hasFaces() ? primitive.positions.count() : 0, 3 * primitive.faceCount());
-      }
+        const uint64_t primitiveFaces = std::min(primitive.faceCount(), kTooMany);
+        faces = std::min(faces + primitiveFaces, kTooMany);
+        vertices = std::min(vertices + std::min(primitive.vertexCount(), 3 * primitiveFaces), 3 * kTooMany);
+      });
+      withoutPrimitivesCount_ += primitiveCount == 0 ? useCounts[mesh] : 0;
       vertexCount = std::min(vertexCount + product(vertices, useCounts[mesh]), kTooMany);
       faceCount = std::min(faceCount + product(faces, useCounts[mesh]), kTooMany);
     }
@@ -94,44 +84,47 @@ class GltfReader {
     std::vector<uint8_t> isVisited(file_.countOf("nodes"), 0);
     for (const uint64_t root : rootsOf()) {
       std::vector<GltfVisit> path;
-      enter(path, root, {}, isVisited, work);
+      enter(path, root, GltfVisit{}, isVisited, work);
       while (!path.empty()) {
         GltfVisit& visit = path.back();
-        const std::string where = fmt::format("node {}", visit.node);
-        const GltfJson* const children = gltfArray(file_.item("nodes", visit.node, where), "children", where);
-        if (children == nullptr || visit.nextChild == children->size()) {
+        if (visit.children == nullptr || visit.nextChild == visit.children->size()) {
           path.pop_back();
           continue;
         }
-        const uint64_t child = indexIn(*children, visit.nextChild++, where);
-        enter(path, child, visit.placement, isVisited, work);
+        const uint64_t child = indexIn(*visit.children, visit.nextChild++, "children");
+        enter(path, child, visit, isVisited, work);
       }
     }
     isFirstPass_ = false;
   }
 
   template <typename Work>
-  void enter(std::vector<GltfVisit>& path, uint64_t index, const Placement& outer, std::vector<uint8_t>& isVisited,
+  void enter(std::vector<GltfVisit>& path, uint64_t index, const GltfVisit& parent, std::vector<uint8_t>& isVisited,
              const Work& work) {
     const std::string where = fmt::format("node {}", index);
     const GltfJson& node = file_.item("nodes", index, "scene");
     if (isVisited[index]++ != 0) failInput(fmt::format("{} has two parents; nodes must form trees", where));
-    Placement placement = outer.after(placementOf(node, where));
-    if (!placement.isFinite()) failInput(fmt::format("{}: its transform overflows", where));
-    if (const GltfJson* const extensions = gltfMember(node, "extensions", where))
-      if (gltfMember(*extensions, "EXT_mesh_gpu_instancing", where) != nullptr)
-        failInput(fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it",
-                              where));
-    if (gltfMember(node, "mesh", where) != nullptr) {
+    GltfVisit visit{.children = gltfArray(node, "children", where),
+                    .placement = parent.placement.after(placementOf(node, where)),
+                    .isHidden = parent.isHidden};
+    if (!visit.placement.isFinite()) failInput(fmt::format("{}: its transform overflows", where));
+    if (const GltfJson* const visibility = gltfExtension(node, "KHR_node_visibility", where))
+      visit.isHidden = visit.isHidden || !gltfFlag(*visibility, "visible", true, where);
+    if (gltfExtension(node, "EXT_mesh_gpu_instancing", where) != nullptr)
+      failInput(fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it",
+                            where));
+    if (visit.isHidden && gltfMember(node, "mesh", where) != nullptr) {
+      hiddenCount_ += isFirstPass_ ? 1 : 0;
+    } else if (gltfMember(node, "mesh", where) != nullptr) {
       const uint64_t mesh = gltfWhole(node, "mesh", std::nullopt, where);
       (void)file_.item("meshes", mesh, where);
       // The joints determine the place of a mesh with a skin; the node of the mesh has no effect.
       const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
       skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
       morphCount_ += isFirstPass_ && (hasWeights(node) || hasWeights(file_.item("meshes", mesh, where))) ? 1 : 0;
-      work(mesh, hasSkin ? Placement{} : placement);
+      work(mesh, hasSkin ? Placement{} : visit.placement);
     }
-    path.push_back({index, 0, placement});
+    path.push_back(visit);
   }
 
   /// Whether morph targets change the shape.
@@ -196,86 +189,64 @@ class GltfReader {
     return placement;
   }
 
-  std::vector<GltfPrimitive> primitivesOf(uint64_t index) const {
-    const std::string where = fmt::format("mesh {}", index);
-    const GltfJson& mesh = file_.item("meshes", index, where);
-    const GltfJson* const primitives = gltfArray(mesh, "primitives", where);
-    if (primitives == nullptr) failInput(fmt::format("{} has no primitives", where));
-    std::vector<GltfPrimitive> found;
-    found.reserve(primitives->size());
-    for (uint64_t i = 0; i < primitives->size(); ++i)
-      found.push_back(primitiveOf((*primitives)[i], fmt::format("mesh {}, primitive {}", index, i)));
-    return found;
-  }
-
-  GltfPrimitive primitiveOf(const GltfJson& json, const std::string& where) const {
-    GltfPrimitive primitive{.mode = gltfWhole(json, "mode", kTriangles, where)};
-    if (primitive.mode > kTriangleFan) failInput(fmt::format("{}: mode {} is unknown", where, primitive.mode));
-    const GltfJson* const attributes = gltfMember(json, "attributes", where);
-    if (attributes == nullptr || gltfMember(*attributes, "POSITION", where) == nullptr)
-      failInput(fmt::format("{} has no positions", where));
-    primitive.positions = file_.vectors(gltfWhole(*attributes, "POSITION", std::nullopt, where));
-    if (gltfMember(json, "indices", where) != nullptr)
-      primitive.indices = file_.indices(gltfWhole(json, "indices", std::nullopt, where));
-    if (primitive.mode == kTriangles && primitive.cornerCount() % 3 != 0)
-      failInput(fmt::format("{}: {} corners do not make triangles", where, primitive.cornerCount()));
-    return primitive;
+  /// Returns the number of primitives.
+  template <typename Work>
+  uint64_t forEachPrimitive(uint64_t mesh, const Work& work) {
+    const std::string where = fmt::format("mesh {}", mesh);
+    const GltfJson* const primitives = gltfArray(file_.item("meshes", mesh, where), "primitives", where);
+    const uint64_t primitiveCount = primitives == nullptr ? 0 : primitives->size();
+    for (uint64_t i = 0; i < primitiveCount; ++i)
+      work(GltfPrimitive(file_, (*primitives)[i], fmt::format("{}, primitive {}", where, i)));
+    return primitiveCount;
   }
 
   void count(const GltfPrimitive& primitive, uint64_t uses) {
-    const uint64_t corners = primitive.cornerCount();
-    if (primitive.mode == kPoints) pointCount_ += product(corners, uses);
-    if (primitive.mode == kLines) lineCount_ += product(corners / 2, uses);
-    if (primitive.mode > kLines && primitive.mode <= kLineStrip) lineCount_ += product(corners, uses);
+    const uint64_t corners = primitive.cornerCount(), mode = primitive.mode();
+    if (!primitive.hasPositions()) {
+      withoutPositionsCount_ += uses;
+    } else if (primitive.isEmpty()) {
+      emptyCount_ += uses;
+    } else {
+      if (mode == kGltfPoints) pointCount_ += product(corners, uses);
+      if (mode == kGltfLines) lineCount_ += product(corners / 2, uses);
+      if (mode > kGltfLines && mode <= kGltfLineStrip) lineCount_ += product(corners, uses);
+    }
   }
 
-  PartMesh partOf(uint64_t mesh) const {
+  PartMesh partOf(uint64_t mesh) {
     PartMesh part;
     CornerWelder welder(0);
-    for (const GltfPrimitive& primitive : primitivesOf(mesh)) {
-      if (!primitive.hasFaces()) continue;
-      const uint64_t vertexCount = primitive.positions.count();
-      const auto vertexAt = [&](uint64_t corner) {
-        const uint64_t vertex = primitive.indices ? primitive.indices->indexAt(corner) : corner;
-        if (vertex >= vertexCount)
-          failInput(fmt::format("mesh {}: index {} is out of range; the primitive has {}", mesh, vertex,
-                                counted(vertexCount, "vertex", "vertices")));
-        return vertex;
-      };
-      const uint64_t faceCount = primitive.faceCount();
-      for (uint64_t i = 0; i < faceCount; ++i) {
-        const uint64_t a = primitive.mode == kTriangles ? 3 * i : primitive.mode == kTriangleFan ? 0 : i;
-        const uint64_t b = primitive.mode == kTriangles ? a + 1 : i + 1;
-        const bool isOdd = primitive.mode == kTriangleStrip && i % 2 == 1;
-        const std::array vertices{vertexAt(a), vertexAt(isOdd ? b + 1 : b), vertexAt(isOdd ? b : b + 1)};
-        // In a strip, triangles with two equal indices only connect pieces of the strip and are not faces.
-        if (primitive.mode == kTriangleStrip &&
-            (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]))
-          continue;
-        Face face;
-        for (size_t c = 0; c < 3; ++c) face[c] = welder.indexOf(primitive.positions.vectorAt(vertices[c]));
-        part.faces.push_back(face);
-      }
-    }
+    forEachPrimitive(mesh, [&](const GltfPrimitive& primitive) {
+      lackingCount_ += primitive.addTo(part.faces, welder, source_);
+    });
     part.vertices = std::move(welder.points());
     return part;
   }
 
   std::vector<std::string> skipped() const {
-    std::vector<std::string> texts;
-    if (pointCount_ > 0) texts.push_back(counted(pointCount_, "point"));
-    if (lineCount_ > 0) texts.push_back(counted(lineCount_, "line"));
-    if (skinCount_ > 0) texts.push_back(counted(skinCount_, "pose of a skin", "poses of skins"));
-    if (morphCount_ > 0) texts.push_back(counted(morphCount_, "blend of morph targets", "blends of morph targets"));
-    if (const uint64_t scenes = file_.countOf("scenes"); scenes > 1)
-      texts.push_back(counted(scenes - 1, "further scene"));
+    std::vector<std::string> texts = file_.skipped();
+    const auto add = [&](uint64_t count, std::string_view one, std::string_view many) {
+      if (count > 0) texts.push_back(counted(count, one, many));
+    };
+    add(pointCount_, "point", "points");
+    add(lineCount_, "line", "lines");
+    add(withoutPositionsCount_, "primitive without positions", "primitives without positions");
+    add(emptyCount_, "primitive without vertices", "primitives without vertices");
+    add(withoutPrimitivesCount_, "mesh without primitives", "meshes without primitives");
+    add(lackingCount_, "triangle that its Draco data lacks", "triangles that their Draco data lacks");
+    add(hiddenCount_, "hidden node", "hidden nodes");
+    add(skinCount_, "pose of a skin", "poses of skins");
+    add(morphCount_, "blend of morph targets", "blends of morph targets");
+    const uint64_t scenes = file_.countOf("scenes");
+    add(scenes > 1 ? scenes - 1 : 0, "further scene", "further scenes");
     return texts;
   }
 
   const MeshSource& source_;
   GltfFile file_;
   bool isFirstPass_ = true;
-  uint64_t pointCount_ = 0, lineCount_ = 0, skinCount_ = 0, morphCount_ = 0;
+  uint64_t pointCount_ = 0, lineCount_ = 0, withoutPositionsCount_ = 0, emptyCount_ = 0, withoutPrimitivesCount_ = 0;
+  uint64_t lackingCount_ = 0, hiddenCount_ = 0, skinCount_ = 0, morphCount_ = 0;
 };
 
 Match detectGltf(std::span<const char> bytes) {

@@ -162,9 +162,19 @@ def write_gltf():
     write("gltf_bad_base64.gltf", json.dumps(
         {**document, "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,@@@@"}]}))
     write("gltf_plain_data_uri.gltf", json.dumps({**document, "buffers": [{"byteLength": 72, "uri": "data:,abc"}]}))
-    write("glb_draco.glb", changed(set_at("extensionsRequired", ["KHR_draco_mesh_compression"])))
-    write("glb_meshopt.glb",
-          changed(set_at("extensionsRequired", ["KHR_mesh_quantization", "EXT_meshopt_compression"])))
+
+    def draco(d):
+        d["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+        d["meshes"][0]["primitives"][0]["extensions"] = {
+            "KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+
+    def meshopt(d):
+        d["extensionsRequired"] = ["KHR_mesh_quantization", "EXT_meshopt_compression"]
+        d["bufferViews"][1]["extensions"] = {"EXT_meshopt_compression": {
+            "buffer": 0, "byteLength": 24, "byteStride": 12, "count": 4, "mode": "ATTRIBUTES"}}
+
+    write("glb_draco.glb", changed(draco))
+    write("glb_meshopt.glb", changed(meshopt))
     write("glb_unknown_extension.glb", changed(set_at("extensionsRequired", ["VENDOR_shape"])))
     write("glb_material_extension.glb", changed(set_at("extensionsRequired", ["KHR_materials_unlit"])))
     write("glb_gpu_instances.glb", changed(lambda d: d["nodes"][0].update(

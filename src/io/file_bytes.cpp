@@ -1,0 +1,114 @@
+#include "io/file_bytes.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+#include "io/input_failure.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kMaxRead = size_t{1} << 30;  // Linux reads at most 2 GiB at once.
+
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {
+    if (value_ < 0) failInput(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  }
+  ~Descriptor() {
+    if (value_ != STDIN_FILENO) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] struct stat status() const {
+    struct stat status {};
+    if (::fstat(value_, &status) != 0) failRead();
+    return status;
+  }
+
+  [[nodiscard]] bool isTerminal() const { return ::isatty(value_) != 0; }
+
+  /// Returns less than `size` only at the end of the file.
+  size_t read(char* to, size_t size) const {
+    size_t done = 0;
+    while (done < size) {
+      const ssize_t count = ::read(value_, to + done, std::min(size - done, kMaxRead));
+      if (count < 0 && errno != EINTR) failRead();
+      if (count == 0) break;
+      if (count > 0) done += static_cast<size_t>(count);
+    }
+    return done;
+  }
+
+ private:
+  [[noreturn]] static void failRead() { failInput(fmt::format("cannot be read: {}", std::strerror(errno))); }
+
+  int value_;
+};
+
+bool isRelativeName(std::string_view name) {
+  if (name.empty() || name.starts_with('/') || name.find('\\') != std::string_view::npos) return false;
+  if (std::any_of(name.begin(), name.end(), [](char c) { return '\0' <= c && c < ' '; })) return false;
+  if (name.substr(0, name.find('/')).find(':') != std::string_view::npos) return false;  // A scheme.
+  const std::vector<std::string> steps = splitAt(name, '/');
+  return std::find(steps.begin(), steps.end(), "..") == steps.end();
+}
+
+}  // namespace
+
+UnsetVector<char> fileBytes(const std::filesystem::path& path) {
+  const Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const struct stat status = file.status();
+  if (S_ISDIR(status.st_mode)) failInput("is a directory, not a file");
+  // Rejected, because a device such as /dev/zero has no end.
+  if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && !file.isTerminal())) failInput("is a device, not a file");
+  constexpr size_t kFirstOfPipe = size_t{1} << 16;
+  // One byte more than the file, so that the read that detects the end needs no larger buffer.
+  UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
+  for (size_t size = 0;;) {
+    size += file.read(bytes.data() + size, bytes.size() - size);
+    const bool isAtEnd = size < bytes.size();
+    bytes.resize(isAtEnd ? size : 2 * size);
+    if (isAtEnd) return bytes;
+  }
+}
+
+std::filesystem::path pathBeside(const std::filesystem::path& file, std::string_view name, std::string_view where) {
+  const auto fail = [&](std::string_view reason) {
+    failInput(fmt::format("{}: its data is in the file {}, {}", where, quoted(name), reason));
+  };
+  if (file.empty()) fail("which is read only beside a named file; export as .glb, or name the file");
+  if (!isRelativeName(name)) fail("which is not a relative name in the folder of this file; export as .glb");
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical(std::filesystem::absolute(file).parent_path(), error);
+  const std::filesystem::path path = error ? folder : std::filesystem::canonical(folder / name, error);
+  if (error) fail(fmt::format("which cannot be opened: {}; export as .glb, or add the file", error.message()));
+  if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
+    fail("a link to another folder; export as .glb, or copy the file");
+  return path;
+}
+
+UnsetVector<char> regularFileBytes(const std::filesystem::path& path, std::string_view where) try {
+  // Neither waits for the writer of a FIFO nor follows a link that replaced the file after pathBeside().
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
+  const struct stat status = file.status();
+  if (!S_ISREG(status.st_mode)) failInput("is not a regular file");
+  UnsetVector<char> bytes(static_cast<size_t>(status.st_size));
+  bytes.resize(file.read(bytes.data(), bytes.size()));
+  return bytes;
+} catch (const Error& error) {
+  throw Error(error.code(), fmt::format("{}: the file {} {}", where, asdfvk::quoted(path.filename().string()), error.what()));
+}
+
+}  // namespace asdfvk
