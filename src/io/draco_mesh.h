@@ -17,10 +17,10 @@ struct DracoMesh {
 };
 
 struct DracoRequest {
-  uint64_t positionId = 0;         ///< The unique id of the attribute with the positions.
-  GltfType type = kGltfFloat;      ///< The type of the positions.
+  uint64_t positionId = 0;     ///< The unique id of the attribute with the positions.
+  GltfType type = kGltfFloat;  ///< The type of the positions.
   uint64_t maxFaceCount = 0;
-  uint64_t maxByteCount = 0;       ///< Limit of the memory for decoding.
+  uint64_t maxByteCount = 0;  ///< Limit of the memory for decoding.
 };
 
 /// Throws Error{UnreadableInput} if the bytes are damaged or exceed the limits, and if this build has no libdraco. The

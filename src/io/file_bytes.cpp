@@ -108,7 +108,8 @@ UnsetVector<char> regularFileBytes(const std::filesystem::path& path, std::strin
   bytes.resize(file.read(bytes.data(), bytes.size()));
   return bytes;
 } catch (const Error& error) {
-  throw Error(error.code(), fmt::format("{}: the file {} {}", where, asdfvk::quoted(path.filename().string()), error.what()));
+  throw Error(error.code(),
+              fmt::format("{}: the file {} {}", where, asdfvk::quoted(path.filename().string()), error.what()));
 }
 
 }  // namespace asdfvk

@@ -85,8 +85,6 @@ Vec3d GltfAccessor::vectorAt(uint64_t i) const {
   return vector;
 }
 
-uint32_t GltfAccessor::indexAt(uint64_t i) const {
-  return Elements{elementAt(i), 0, base_.componentType}.wholeAt(0);
-}
+uint32_t GltfAccessor::indexAt(uint64_t i) const { return Elements{elementAt(i), 0, base_.componentType}.wholeAt(0); }
 
 }  // namespace asdfvk

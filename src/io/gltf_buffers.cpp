@@ -80,7 +80,7 @@ std::span<const char> GltfBuffers::load(uint64_t index, const GltfJson& json, co
   const GltfJson* const uri = gltfMember(json, "uri", where);
   if (uri != nullptr && !uri->is_string()) failGltf(where, "uri is not a string");
   const std::string_view text = uri == nullptr ? std::string_view() : uri->get_ref<const std::string&>();
-  const std::span<const char> bytes = uri == nullptr             ? *binary_
+  const std::span<const char> bytes = uri == nullptr              ? *binary_
                                       : text.starts_with("data:") ? embedded(text, where)
                                                                   : fileBeside(percentDecoded(text), where);
   if (byteLength > bytes.size())
@@ -146,7 +146,7 @@ GltfView GltfBuffers::decoded(uint64_t index, const GltfJson& compression, const
   if (isNew) {
     const std::span<const char> bytes = range(compression, where);
     constexpr uint64_t kLeastLimit = uint64_t{64} << 20, kDecodedBytesPerByte = 64;
-    const uint64_t limit = std::max(kLeastLimit, kDecodedBytesPerByte * source_.byteCount());
+    const uint64_t limit = std::max(kLeastLimit, kDecodedBytesPerByte * source_.sizeForLimits());
     if (view.count > (limit - decodedByteCount_) / view.stride)
       failGltf(where, fmt::format("the compressed views of this file need more than {} MiB; export without compression",
                                   limit >> 20));

@@ -58,8 +58,8 @@ std::optional<std::span<const char>> GltfFile::readChunks() {
     failInput(fmt::format("binary glTF version {}; version 2 is read: convert the file", version));
   const uint64_t length = glbWordAt(bytes, 8);
   if (length > bytes.size())
-    failInput(fmt::format("binary glTF has {} bytes by its header; this file has {} and is truncated", length,
-                          bytes.size()));
+    failInput(
+        fmt::format("binary glTF has {} bytes by its header; this file has {} and is truncated", length, bytes.size()));
   trailingByteCount_ = bytes.size() - length;
   std::optional<std::span<const char>> binary;
   uint64_t at = kGlbHeaderSize;
@@ -86,8 +86,8 @@ void GltfFile::requireKnownExtensions() const {
     if (!entry.is_string()) failInput("extensionsRequired has an entry that is not a string");
     const auto& name = entry.get_ref<const std::string&>();
     if (!isKnownExtension(name))
-      failInput(fmt::format("requires the extension {}, which is not supported; export without it",
-                            asdfvk::quoted(name)));
+      failInput(
+          fmt::format("requires the extension {}, which is not supported; export without it", asdfvk::quoted(name)));
   }
 }
 
@@ -153,17 +153,17 @@ void GltfFile::openSparse(const GltfJson& sparse, uint32_t componentCount, GltfA
   const uint64_t placeType = gltfWhole(*places, "componentType", std::nullopt, where);
   if (placeType != kGltfUByte && placeType != kGltfUShort && placeType != kGltfUInt)
     failGltf(where, "the componentType of its sparse indices is not allowed");
-  const GltfAccessor::Elements indices =
-      elementsOf(*places, count, static_cast<uint32_t>(placeType), 1, false, where);
+  const GltfAccessor::Elements indices = elementsOf(*places, count, static_cast<uint32_t>(placeType), 1, false, where);
   // Many accessors of a small file may have the same sparse indices.
   constexpr uint64_t kSparseElementsPerByte = 4;
   sparseElementCount_ += count;
-  if (sparseElementCount_ > kSparseElementsPerByte * source_.byteCount())
+  if (sparseElementCount_ > kSparseElementsPerByte * source_.sizeForLimits())
     failGltf(where, "the sparse parts of this file have more elements than its size allows; export without them");
   for (uint64_t i = 0; i < count; ++i)
     if (indices.wholeAt(i) >= accessor.count() || (i > 0 && indices.wholeAt(i) <= indices.wholeAt(i - 1)))
       failGltf(where, "its sparse indices do not ascend, or are out of range");
-  accessor.setSparse(count, indices, elementsOf(*values, count, accessor.componentType(), componentCount, false, where));
+  accessor.setSparse(count, indices,
+                     elementsOf(*values, count, accessor.componentType(), componentCount, false, where));
 }
 
 }  // namespace asdfvk

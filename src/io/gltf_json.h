@@ -36,7 +36,6 @@ using GltfJson = nlohmann::json;
 /// Returns null if `object` does not have this extension.
 [[nodiscard]] const GltfJson* gltfExtension(const GltfJson& object, const char* name, std::string_view where);
 
-
 /// The number of items in an array of the document, for example in "nodes".
 [[nodiscard]] uint64_t gltfCount(const GltfJson& document, const char* array);
 /// Returns an item of an array of the document. Throws if it does not exist.

@@ -15,10 +15,10 @@ namespace {
 
 constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
-/// Limit of the memory for decoding. Draco needs about 0.6 bytes per face or more, and libdraco 130 bytes.
+/// Limit of the memory for decoding. A face has 1 to 40 bytes in a file, and 50 to 300 bytes in the arrays of libdraco.
 uint64_t maxDracoBytes(const MeshSource& source) {
-  constexpr uint64_t kDracoBytesPerByte = 256, kLeastLimit = uint64_t{128} << 20;
-  return std::max({kLeastLimit, kDracoBytesPerByte * source.byteCount(), kDracoBytesPerByte * source.options.maxFaces});
+  constexpr uint64_t kDracoBytesPerByte = 512, kLeastLimit = uint64_t{64} << 20;
+  return std::max({kLeastLimit, kDracoBytesPerByte * source.sizeForLimits(), kDracoBytesPerByte * source.options.maxFaces});
 }
 
 }  // namespace
@@ -85,8 +85,7 @@ uint64_t GltfPrimitive::addTo(std::vector<Face>& faces, CornerWelder& welder, co
     const bool isOdd = mode_ == kGltfStrip && i % 2 == 1;
     const std::array vertices{vertexAt(a), vertexAt(isOdd ? b + 1 : b), vertexAt(isOdd ? b : b + 1)};
     // In a strip, triangles with two equal indices only connect pieces of the strip and are not faces.
-    if (mode_ == kGltfStrip &&
-        (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]))
+    if (mode_ == kGltfStrip && (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]))
       continue;
     Face face;
     for (size_t c = 0; c < 3; ++c) face[c] = welder.indexOf(positions_->vectorAt(vertices[c]));

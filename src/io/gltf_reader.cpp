@@ -111,8 +111,8 @@ class GltfReader {
     if (const GltfJson* const visibility = gltfExtension(node, "KHR_node_visibility", where))
       visit.isHidden = visit.isHidden || !gltfFlag(*visibility, "visible", true, where);
     if (gltfExtension(node, "EXT_mesh_gpu_instancing", where) != nullptr)
-      failInput(fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it",
-                            where));
+      failInput(
+          fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it", where));
     if (visit.isHidden && gltfMember(node, "mesh", where) != nullptr) {
       hiddenCount_ += isFirstPass_ ? 1 : 0;
     } else if (gltfMember(node, "mesh", where) != nullptr) {
@@ -216,9 +216,8 @@ class GltfReader {
   PartMesh partOf(uint64_t mesh) {
     PartMesh part;
     CornerWelder welder(0);
-    forEachPrimitive(mesh, [&](const GltfPrimitive& primitive) {
-      lackingCount_ += primitive.addTo(part.faces, welder, source_);
-    });
+    forEachPrimitive(
+        mesh, [&](const GltfPrimitive& primitive) { lackingCount_ += primitive.addTo(part.faces, welder, source_); });
     part.vertices = std::move(welder.points());
     return part;
   }

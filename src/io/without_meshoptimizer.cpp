@@ -8,9 +8,10 @@ namespace asdfvk {
 bool readsMeshopt() { return false; }
 
 std::vector<char> decodeMeshopt(std::span<const char>, const MeshoptView&, std::string_view where) {
-  failInput(fmt::format("{} is compressed by meshopt, which this build cannot read; build it with libmeshoptimizer-dev, "
-                        "or export without compression",
-                        where));
+  failInput(
+      fmt::format("{} is compressed by meshopt, which this build cannot read; build it with libmeshoptimizer-dev, "
+                  "or export without compression",
+                  where));
 }
 
 }  // namespace asdfvk

@@ -2,13 +2,13 @@
 #   -DWAY=plain      CMake without a preset
 #   -DWAY=develop    the preset
 #   -DWAY=debug      the preset
-#   -DWAY=smallest   without Vulkan, OpenMesh and the library for C
+#   -DWAY=smallest   without Vulkan, OpenMesh, Draco, meshoptimizer and the library for C
 set(arguments -S ${SOURCE} -B ${FOLDER})
 if(WAY STREQUAL "plain")
   list(APPEND arguments -DCMAKE_BUILD_TYPE=Release)
 elseif(WAY STREQUAL "smallest")
-  list(APPEND arguments -G Ninja -DCMAKE_BUILD_TYPE=Release -DASDF_VK_VULKAN=OFF -DASDF_VK_C=OFF -DASDF_VK_INSTALL=OFF -DASDF_VK_STEP=OFF
-       -DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
+  list(APPEND arguments -G Ninja -DCMAKE_BUILD_TYPE=Release -DASDF_VK_VULKAN=OFF -DASDF_VK_C=OFF -DASDF_VK_INSTALL=OFF
+       -DASDF_VK_STEP=OFF -DASDF_VK_DRACO=OFF -DASDF_VK_MESHOPTIMIZER=OFF -DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
        -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DASDF_VK_WERROR=ON)
 else()
   list(APPEND arguments --preset ${WAY})
@@ -36,6 +36,9 @@ function(expect code pattern)
 endfunction()
 
 if(WAY STREQUAL "smallest")
+  set(corpus ${SOURCE}/tests/io/assembly_corpus)
+  expect(2 "build it with libdraco-dev" ${corpus}/glb_draco.glb -o ${FOLDER}/values.npy)
+  expect(2 "build it with libmeshoptimizer-dev" ${corpus}/glb_meshopt.glb -o ${FOLDER}/values.npy)
   expect(3 "this build of asdf-vk has no Vulkan" ${FOLDER}/mesh.ply --backend vulkan -o ${FOLDER}/values.npy)
   expect(0 "this build of asdf-vk has no Vulkan" --list-devices)
   file(WRITE ${FOLDER}/part.step "ISO-10303-21;\nEND-ISO-10303-21;\n")

@@ -95,6 +95,9 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
   if (top == "tbb" && !(layer == "core" && file.filename() == "parallel.cpp"))
     return "TBB belongs in core/parallel.cpp";
   if (target.ends_with(".hxx") && !isIn("opencascade", file)) return "Open CASCADE belongs in the folders opencascade/";
+  if (top == "draco" && !isIn("draco", file)) return "Draco belongs in folders draco/";
+  if (target == "meshoptimizer.h" && !isIn("meshoptimizer", file))
+    return "meshoptimizer belongs in folders meshoptimizer/";
   if (top == "CLI" && layer != "arguments") return "CLI11 belongs in arguments";
   if (top == "embree3" || top == "embree4") return "Embree belongs in bench";
   const bool isOurs = layers().count(top) || top == "shared";
@@ -197,6 +200,8 @@ TEST_CASE("the table objects to includes against it") {
   CHECK_FALSE(objection("trace", "src/trace/a.cpp", "Eigen/Sparse").empty());
   CHECK_FALSE(objection("bvh", "src/bvh/a.cpp", "volk.h").empty());
   CHECK_FALSE(objection("cli", "src/cli/options.cpp", "CLI/CLI.hpp").empty());
+  CHECK_FALSE(objection("io", "src/io/gltf_file.cpp", "draco/mesh/mesh.h").empty());
+  CHECK_FALSE(objection("io", "src/io/gltf_file.cpp", "meshoptimizer.h").empty());
   CHECK_FALSE(objection("pipeline", "src/pipeline/a.cpp", "vulkan/vulkan.h").empty());
   CHECK_FALSE(objection("io", "src/io/a.cpp", "TopoDS.hxx").empty());
 

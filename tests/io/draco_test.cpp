@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,10 @@ using nlohmann::json;
 
 struct DracoStyle {
   int method = draco::MESH_EDGEBREAKER_ENCODING;
-  int speed = 5;           ///< 0 to 10: other prediction schemes and symbols.
-  bool hasNormals = false; ///< A normal per corner, which splits vertices.
-  bool isShort = false;    ///< Positions as 16-bit integers.
+  int speed = 5;            ///< 0 to 10: other prediction schemes and symbols.
+  bool hasNormals = false;  ///< A normal per corner, which splits vertices.
+  bool isShort = false;     ///< Positions as 16-bit integers.
+  int bits = 0;             ///< Bits per coordinate; 0: not quantized.
 };
 
 std::string encodedDraco(const test::PlainMesh& plain, const DracoStyle& style) {
@@ -42,8 +44,9 @@ std::string encodedDraco(const test::PlainMesh& plain, const DracoStyle& style) 
     const float* const from = plain.positions.data() + 3 * i;
     const std::array<int16_t, 3> shorts{static_cast<int16_t>(from[0]), static_cast<int16_t>(from[1]),
                                         static_cast<int16_t>(from[2])};
-    mesh.attribute(positionId)->SetAttributeValue(draco::AttributeValueIndex(i),
-                                                  style.isShort ? static_cast<const void*>(shorts.data()) : from);
+    mesh.attribute(positionId)
+        ->SetAttributeValue(draco::AttributeValueIndex(i),
+                            style.isShort ? static_cast<const void*>(shorts.data()) : from);
   }
   for (uint32_t i = 0; i < cornerCount; ++i) {
     mesh.attribute(positionId)->SetPointMapEntry(draco::PointIndex(i), draco::AttributeValueIndex(plain.indices[i]));
@@ -54,11 +57,13 @@ std::string encodedDraco(const test::PlainMesh& plain, const DracoStyle& style) 
     }
   }
   for (uint32_t i = 0; i < cornerCount / 3; ++i)
-    mesh.SetFace(draco::FaceIndex(i), {draco::PointIndex(3 * i), draco::PointIndex(3 * i + 1), draco::PointIndex(3 * i + 2)});
+    mesh.SetFace(draco::FaceIndex(i),
+                 {draco::PointIndex(3 * i), draco::PointIndex(3 * i + 1), draco::PointIndex(3 * i + 2)});
   mesh.DeduplicatePointIds();
   draco::ExpertEncoder encoder(mesh);
   encoder.SetEncodingMethod(style.method);
   encoder.SetSpeedOptions(style.speed, style.speed);
+  if (style.bits > 0) encoder.SetAttributeQuantization(positionId, style.bits);
   draco::EncoderBuffer buffer;
   REQUIRE(encoder.EncodeToBuffer(&buffer).ok());
   return {buffer.data(), buffer.size()};
@@ -109,12 +114,25 @@ TEST_CASE("Draco: the faces are those of the plain file, corner by corner") {
           CAPTURE(method);
           CAPTURE(speed);
           CAPTURE(hasNormals);
-          const Mesh read =
-              test::parse("glb", dracoFile(mesh, encodedDraco(mesh, {method, speed, hasNormals, false})));
+          const Mesh read = test::parse("glb", dracoFile(mesh, encodedDraco(mesh, {method, speed, hasNormals, false})));
           CHECK(sortedFacesOf(read) == expected);
           CHECK(read.skipped.empty());
           CHECK(read.vertices.size() == mesh.vertexCount());
         }
+  }
+}
+
+TEST_CASE("Draco: quantized positions differ by less than a step") {
+  const test::PlainMesh grid = test::curvedGrid(30);
+  for (const int speed : {0, 5, 10}) {
+    const std::string draco = encodedDraco(grid, {.speed = speed, .bits = 16});
+    const Mesh mesh = test::parse("glb", dracoFile(grid, draco));
+    CHECK(mesh.faceCount() == 1800);
+    REQUIRE(mesh.vertices.size() == grid.vertexCount());
+    for (const Vec3d& p : mesh.vertices) {
+      CHECK(std::abs(p.x - std::round(p.x)) < 30.0 / 65535);
+      CHECK(std::abs(p.z - p.x * p.y / 50) < 0.001);
+    }
   }
 }
 
@@ -187,22 +205,24 @@ TEST_CASE("Draco: counts beyond the limits are refused before memory is allocate
   const std::string tooMany = std::string(kCompressed) + "has 1,400,000,000 faces; its accessor has 12";
   CHECK(refused(headerOf(sequential, {1'400'000'000, 8}), 12, 0) == tooMany);
   CHECK(refused(headerOf(edgebreaker, {8, 1'400'000'000, 0, 0, 0}), 12, 0) == tooMany);
-  // 128 MiB, or 256 bytes per byte of the file, or per face of a limit by the user.
-  const std::string tooLarge = std::string(kCompressed) + "needs more than 128 MiB to be decoded; export without compression";
+  // 64 MiB, or 512 bytes per byte of the file, or per face of a limit by the user.
+  const std::string tooLarge =
+      std::string(kCompressed) + "needs more than 64 MiB to be decoded; export without compression";
   CHECK(refused(headerOf(sequential, {100, 4'000'000'000}), 100, 0) == tooLarge);
   CHECK(refused(headerOf(edgebreaker, {50'000, 100'000, 127, 1000, 10}), 100'000, 0) == tooLarge);
   CHECK(refused(headerOf(edgebreaker, {50'000, 100'000, 127, 1000, 10}), 100'000, 5'000'000) ==
         std::string(kCompressed) + "is damaged");
   // Counts that contradict each other.
-  for (const std::vector<uint64_t>& counts : {std::vector<uint64_t>{4'000'000'000, 12, 0, 12, 0},
-                                              {8, 12, 0, 13, 0},
-                                              {8, 12, 0, 10, 4'000'000'000}})
+  for (const std::vector<uint64_t>& counts :
+       {std::vector<uint64_t>{4'000'000'000, 12, 0, 12, 0}, {8, 12, 0, 13, 0}, {8, 12, 0, 10, 4'000'000'000}})
     CHECK(refused(headerOf(edgebreaker, counts), 12, 0) == std::string(kCompressed) + "is damaged");
 }
 
 TEST_CASE("Draco: damaged data is refused or read, and never crashes") {
-  for (const DracoStyle& style : {DracoStyle{}, DracoStyle{.speed = 0, .hasNormals = true},
-                                  DracoStyle{.method = draco::MESH_SEQUENTIAL_ENCODING}}) {
+  for (const DracoStyle& style :
+       {DracoStyle{}, DracoStyle{.speed = 0, .hasNormals = true, .bits = 11}, DracoStyle{.bits = 11},
+        DracoStyle{.method = draco::MESH_SEQUENTIAL_ENCODING, .bits = 11},
+        DracoStyle{.method = draco::MESH_SEQUENTIAL_ENCODING}}) {
     const test::PlainMesh grid = test::curvedGrid(3);
     const std::string draco = encodedDraco(grid, style);
     for (size_t size = 0; size < draco.size(); ++size) {

@@ -69,18 +69,18 @@ inline std::string binaryOf(const PlainMesh& mesh) { return bytesOf(mesh.positio
 inline nlohmann::json documentOf(const PlainMesh& mesh) {
   using nlohmann::json;
   const size_t positionSize = 4 * mesh.positions.size(), indexSize = 4 * mesh.indices.size();
-  return {{"asset", {{"version", "2.0"}}},
-          {"scene", 0},
-          {"scenes", json::array({{{"nodes", {0}}}})},
-          {"nodes", json::array({{{"mesh", 0}}})},
-          {"meshes", json::array({{{"primitives", json::array({{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}})}}})},
-          {"accessors",
-           json::array({{{"bufferView", 0}, {"componentType", 5126}, {"count", mesh.vertexCount()}, {"type", "VEC3"}},
-                        {{"bufferView", 1}, {"componentType", 5125}, {"count", mesh.indices.size()}, {"type", "SCALAR"}}})},
-          {"bufferViews",
-           json::array({{{"buffer", 0}, {"byteLength", positionSize}},
-                        {{"buffer", 0}, {"byteOffset", positionSize}, {"byteLength", indexSize}}})},
-          {"buffers", json::array({{{"byteLength", positionSize + indexSize}}})}};
+  return {
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", json::array({{{"nodes", {0}}}})},
+      {"nodes", json::array({{{"mesh", 0}}})},
+      {"meshes", json::array({{{"primitives", json::array({{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}})}}})},
+      {"accessors",
+       json::array({{{"bufferView", 0}, {"componentType", 5126}, {"count", mesh.vertexCount()}, {"type", "VEC3"}},
+                    {{"bufferView", 1}, {"componentType", 5125}, {"count", mesh.indices.size()}, {"type", "SCALAR"}}})},
+      {"bufferViews", json::array({{{"buffer", 0}, {"byteLength", positionSize}},
+                                   {{"buffer", 0}, {"byteOffset", positionSize}, {"byteLength", indexSize}}})},
+      {"buffers", json::array({{{"byteLength", positionSize + indexSize}}})}};
 }
 
 inline std::string glbOf(const PlainMesh& mesh) { return glbOf(documentOf(mesh), binaryOf(mesh)); }

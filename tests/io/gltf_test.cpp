@@ -151,11 +151,13 @@ TEST_CASE("glTF: no file outside of the folder is read, and no file that is not 
   CHECK(readMesh(outer.write("inner/mesh.gltf", documentWithUri(box, "inside.bin"))).faceCount() == 12);
   CHECK(refused("fifo.bin") == "buffer 0: the file 'fifo.bin' is not a regular file");
   CHECK(refused("below") == "buffer 0: the file 'below' is not a regular file");
-  CHECK(test::holds(refused("none.bin"), "cannot be opened: No such file or directory; export as .glb, or add the file"));
+  CHECK(
+      test::holds(refused("none.bin"), "cannot be opened: No such file or directory; export as .glb, or add the file"));
   CHECK(refused("short.bin") == "buffer 0: byteLength 240; its data has 9 bytes");
   const std::string message = test::errorOf("gltf", documentWithUri(box, "mesh.bin"));
-  CHECK(message == "buffer 0: its data is in the file 'mesh.bin', which is read only beside a named file; export as "
-                   ".glb, or name the file");
+  CHECK(message ==
+        "buffer 0: its data is in the file 'mesh.bin', which is read only beside a named file; export as "
+        ".glb, or name the file");
 }
 
 TEST_CASE("glTF: bytes after the end of the file or of a buffer are reported") {
@@ -250,8 +252,7 @@ TEST_CASE("glTF: a small file that describes many faces or sparse elements is re
   document["accessors"].push_back(sparse);
   json many = document;
   many["meshes"][0]["primitives"] = json::array();
-  for (uint32_t i = 0; i < 20'000; ++i)
-    many["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 2}}}});
+  for (uint32_t i = 0; i < 20'000; ++i) many["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 2}}}});
   const std::string oneAccessor = test::glbOf(many, binary);
   CHECK(test::holds(test::errorOf("glb", oneAccessor), "has 666,660,000 faces; the limit for a file of"));
   CHECK(secondsToRead(oneAccessor) < 4);  // 9 s if each primitive reads the sparse indices.

@@ -50,8 +50,11 @@ MeshoptFile meshoptFile(const test::PlainMesh& mesh, const std::string& extensio
   file.document["buffers"][1]["extensions"][extension] = {{"fallback", true}};
   json& views = file.document["bufferViews"];
   views[0]["buffer"] = views[1]["buffer"] = 1;
-  views[0]["extensions"][extension] = {{"buffer", 0},        {"byteLength", positions.size()}, {"byteStride", 12},
-                                       {"mode", "ATTRIBUTES"}, {"count", vertexCount}};
+  views[0]["extensions"][extension] = {{"buffer", 0},
+                                       {"byteLength", positions.size()},
+                                       {"byteStride", 12},
+                                       {"mode", "ATTRIBUTES"},
+                                       {"count", vertexCount}};
   if (!filter.empty()) views[0]["extensions"][extension]["filter"] = filter;
   views[1]["extensions"][extension] = {{"buffer", 0},
                                        {"byteOffset", positions.size()},
@@ -99,7 +102,8 @@ TEST_CASE("meshopt: the exponential filter restores positions, and the others re
   meshopt_encodeFilterExp(filtered.data(), grid.vertexCount(), 12, 24, grid.positions.data());
   const std::string vertices = encodedVertices(filtered, grid.vertexCount(), 12);
   const Mesh plain = test::parse("glb", test::glbOf(grid));
-  const Mesh read = test::parse("glb", meshoptFile(grid, "EXT_meshopt_compression", true, vertices, "EXPONENTIAL").bytes());
+  const Mesh read =
+      test::parse("glb", meshoptFile(grid, "EXT_meshopt_compression", true, vertices, "EXPONENTIAL").bytes());
   REQUIRE(read.faces == plain.faces);
   for (size_t i = 0; i < plain.vertices.size(); ++i) CHECK(length(read.vertices[i] - plain.vertices[i]) < 1e-5);
 

@@ -66,8 +66,8 @@ class LimitedDracoDecoder final : public Decoder {
   bool isWithinMemory(uint64_t byteCount) {
     byteCount_ += byteCount;
     if (byteCount_ <= request_.maxByteCount) return true;
-    reason_ = fmt::format("needs more than {} MiB to be decoded; export without compression",
-                          request_.maxByteCount >> 20);
+    reason_ =
+        fmt::format("needs more than {} MiB to be decoded; export without compression", request_.maxByteCount >> 20);
     return false;
   }
 
@@ -101,14 +101,15 @@ draco::DataType dracoTypeOf(GltfType type) {
 }  // namespace
 
 DracoMesh decodeDraco(std::span<const char> bytes, const DracoRequest& request, std::string_view where) {
-  const auto fail = [&](std::string_view reason) { 
+  const auto fail = [&](std::string_view reason) {
     failInput(fmt::format("{} is compressed by Draco, and its data {}", where, reason));
   };
   // The five letters, the version, the kind of geometry, the method, and two bytes of flags. glTF demands version 2.2.
   constexpr size_t kHeaderSize = 11;
   const std::string_view header(bytes.data(), std::min(bytes.size(), kHeaderSize));
   if (header.size() < kHeaderSize || !header.starts_with("DRACO")) fail("has no header of Draco");
-  if (!header.substr(5).starts_with("\2\2")) fail(fmt::format("has the version {}.{} instead of 2.2", +header[5], +header[6]));
+  if (!header.substr(5).starts_with("\2\2"))
+    fail(fmt::format("has the version {}.{} instead of 2.2", +header[5], +header[6]));
   if (header[7] != draco::TRIANGULAR_MESH) fail("is not a mesh of triangles");
   draco::Mesh mesh;
   std::string reason = "is damaged";

@@ -24,8 +24,8 @@ bool readsMeshopt() { return true; }
 
 std::vector<char> decodeMeshopt(std::span<const char> bytes, const MeshoptView& view, std::string_view where) {
   if (!isMeshoptLayout(view))
-    failInput(fmt::format("{} is compressed by meshopt, and its mode or filter does not allow {} elements of {} bytes", where, view.count,
-                          view.stride));
+    failInput(fmt::format("{} is compressed by meshopt, and its mode or filter does not allow {} elements of {} bytes",
+                          where, view.count, view.stride));
   std::vector<char> decoded(view.count * view.stride);
   const auto* const from = reinterpret_cast<const unsigned char*>(bytes.data());
   const int result = view.mode == MeshoptMode::Attributes
@@ -34,7 +34,8 @@ std::vector<char> decodeMeshopt(std::span<const char> bytes, const MeshoptView& 
                          ? meshopt_decodeIndexBuffer(decoded.data(), view.count, view.stride, from, bytes.size())
                          : meshopt_decodeIndexSequence(decoded.data(), view.count, view.stride, from, bytes.size());
   if (result != 0)
-    failInput(fmt::format("{} is compressed by meshopt, and its data is damaged, or of a later version (error {})", where, result));
+    failInput(fmt::format("{} is compressed by meshopt, and its data is damaged, or of a later version (error {})",
+                          where, result));
   if (view.filter == MeshoptFilter::Octahedral) meshopt_decodeFilterOct(decoded.data(), view.count, view.stride);
   if (view.filter == MeshoptFilter::Quaternion) meshopt_decodeFilterQuat(decoded.data(), view.count, view.stride);
   if (view.filter == MeshoptFilter::Exponential) meshopt_decodeFilterExp(decoded.data(), view.count, view.stride);
