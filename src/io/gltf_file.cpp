@@ -48,6 +48,7 @@ GltfFile::GltfFile(const MeshSource& source) : source_(source) {
     failInput(fmt::format("glTF version {}; version 2.0 is read: convert the file", asdfvk::quoted(version)));
   requireKnownExtensions();
   buffers_.emplace(document_, binary, source);
+  requiresDraco_ = gltfRequires(document_, "KHR_draco_mesh_compression");
 }
 
 /// Returns the binary chunk.

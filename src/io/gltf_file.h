@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/draco_mesh.h"
 #include "io/formats.h"
 #include "io/gltf_accessor.h"
 #include "io/gltf_buffers.h"
@@ -37,6 +38,8 @@ class GltfFile {
   /// elements.
   [[nodiscard]] GltfAccessor vectors(uint64_t accessor) { return open(accessor, false); }
   [[nodiscard]] GltfAccessor indices(uint64_t accessor) { return open(accessor, true); }
+  [[nodiscard]] bool requiresDraco() const { return requiresDraco_; }
+  [[nodiscard]] DracoBudget& dracoBudget() { return dracoBudget_; }
   /// The bytes of a buffer view.
   [[nodiscard]] std::span<const char> bytesOf(uint64_t view, std::string_view where) {
     return buffers_->view(view, where).bytes;
@@ -59,6 +62,8 @@ class GltfFile {
   std::optional<GltfBuffers> buffers_;
   std::map<std::pair<uint64_t, bool>, GltfAccessor> opened_;  ///< By index and by whether it has indices.
   uint64_t sparseElementCount_ = 0;
+  bool requiresDraco_ = false;
+  DracoBudget dracoBudget_;
   uint64_t trailingByteCount_ = 0;
 };
 

@@ -9,37 +9,43 @@
 #include "core/text.h"
 #include "io/draco_mesh.h"
 #include "io/input_failure.h"
+#include "mesh/mesh.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
-
-/// Limit of the memory for decoding. A face has 1 to 40 bytes in a file, and 50 to 300 bytes in the arrays of libdraco.
+/// Limit of the memory for decoding all meshes. A face has 1 to 40 bytes in a file, and 50 to 300 bytes in the arrays
+/// of libdraco.
 uint64_t maxDracoBytes(const MeshSource& source) {
   constexpr uint64_t kDracoBytesPerByte = 512, kLeastLimit = uint64_t{64} << 20;
-  return std::max({kLeastLimit, kDracoBytesPerByte * source.sizeForLimits(), kDracoBytesPerByte * source.options.maxFaces});
+  const uint64_t allowedFaceCount = std::min<uint64_t>(source.options.maxFaces, kMaxTriangleCount);
+  return std::max(kLeastLimit, kDracoBytesPerByte * std::max(source.sizeForLimits(), allowedFaceCount));
 }
 
 }  // namespace
 
 GltfPrimitive::GltfPrimitive(GltfFile& file, const GltfJson& json, std::string where)
     : file_(file), where_(std::move(where)), mode_(gltfWhole(json, "mode", kGltfTriangles, where_)) {
+  const auto hasBufferView = [&](uint64_t accessor) {
+    return gltfMember(file.item("accessors", accessor, where_), "bufferView", where_) != nullptr;
+  };
   if (mode_ > kGltfFan) failGltf(where_, fmt::format("mode {} is unknown", mode_));
   const GltfJson* const attributes = gltfMember(json, "attributes", where_);
   if (attributes == nullptr || gltfMember(*attributes, "POSITION", where_) == nullptr) return;
   const uint64_t positions = gltfWhole(*attributes, "POSITION", std::nullopt, where_);
   positions_ = file.vectors(positions);
-  if (gltfMember(json, "indices", where_) != nullptr)
-    indices_ = file.indices(gltfWhole(json, "indices", std::nullopt, where_));
+  bool isPlain = hasBufferView(positions);
+  if (gltfMember(json, "indices", where_) != nullptr) {
+    const uint64_t indices = gltfWhole(json, "indices", std::nullopt, where_);
+    indices_ = file.indices(indices);
+    isPlain = isPlain && hasBufferView(indices);
+  }
   if (mode_ == kGltfTriangles && cornerCount() % 3 != 0)
     failGltf(where_, fmt::format("{} corners do not make triangles", cornerCount()));
-  draco_ = gltfExtension(json, kDracoExtension, where_);
+  draco_ = gltfExtension(json, "KHR_draco_mesh_compression", where_);
   // If the extension is not required, the accessors may have the same triangles without compression.
-  if (draco_ != nullptr && !gltfRequires(file.document(), kDracoExtension) &&
-      gltfMember(file.item("accessors", positions, where_), "bufferView", where_) != nullptr)
-    draco_ = nullptr;
-  if (draco_ != nullptr && mode_ != kGltfTriangles)
+  if (isPlain && !file.requiresDraco()) draco_ = nullptr;
+  if (draco_ != nullptr && mode_ > kGltfTriangles)
     failGltf(where_, fmt::format("mode {} with Draco; export triangles, or without compression", mode_));
 }
 
@@ -61,10 +67,10 @@ uint64_t GltfPrimitive::addDecoded(std::vector<Face>& faces, CornerWelder& welde
   if (attributes == nullptr) failGltf(where_, "its Draco extension has no attributes");
   const DracoRequest request{.positionId = gltfWhole(*attributes, "POSITION", std::nullopt, where_),
                              .type = static_cast<GltfType>(positions_->componentType()),
-                             .maxFaceCount = faceCount(),
-                             .maxByteCount = maxDracoBytes(source)};
+                             .maxFaceCount = faceCount()};
+  file_.dracoBudget().maxByteCount = maxDracoBytes(source);
   const uint64_t view = gltfWhole(*draco_, "bufferView", std::nullopt, where_);
-  const DracoMesh mesh = decodeDraco(file_.bytesOf(view, where_), request, where_);
+  const DracoMesh mesh = decodeDraco(file_.bytesOf(view, where_), request, file_.dracoBudget(), where_);
   const uint64_t pointSize = uint64_t{3} * gltfSizeOf(request.type);
   const GltfAccessor points(mesh.positions.size() / pointSize, {mesh.positions.data(), pointSize, request.type},
                             positions_->isNormalized());

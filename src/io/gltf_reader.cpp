@@ -38,6 +38,8 @@ class GltfReader {
   Mesh read() {
     const uint64_t meshCount = file_.countOf("meshes");
     std::vector<uint64_t> useCounts(meshCount, 0);
+    for (uint64_t mesh = 0; mesh < meshCount; ++mesh)
+      meshHasWeights_.push_back(hasWeights(file_.item("meshes", mesh, "glTF")) ? 1 : 0);
     forEachInstance([&](uint64_t mesh, const Placement&) { ++useCounts[mesh]; });
     uint64_t vertexCount = 0, faceCount = 0;
     for (uint64_t mesh = 0; mesh < meshCount; ++mesh) {
@@ -121,7 +123,7 @@ class GltfReader {
       // The joints determine the place of a mesh with a skin; the node of the mesh has no effect.
       const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
       skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
-      morphCount_ += isFirstPass_ && (hasWeights(node) || hasWeights(file_.item("meshes", mesh, where))) ? 1 : 0;
+      morphCount_ += isFirstPass_ && (meshHasWeights_[mesh] != 0 || hasWeights(node)) ? 1 : 0;
       work(mesh, hasSkin ? Placement{} : visit.placement);
     }
     path.push_back(visit);
@@ -244,6 +246,7 @@ class GltfReader {
   const MeshSource& source_;
   GltfFile file_;
   bool isFirstPass_ = true;
+  std::vector<uint8_t> meshHasWeights_;
   uint64_t pointCount_ = 0, lineCount_ = 0, withoutPositionsCount_ = 0, emptyCount_ = 0, withoutPrimitivesCount_ = 0;
   uint64_t lackingCount_ = 0, hiddenCount_ = 0, skinCount_ = 0, morphCount_ = 0;
 };

@@ -5,7 +5,7 @@
 
 namespace asdfvk {
 
-DracoMesh decodeDraco(std::span<const char>, const DracoRequest&, std::string_view where) {
+DracoMesh decodeDraco(std::span<const char>, const DracoRequest&, DracoBudget&, std::string_view where) {
   failInput(
       fmt::format("{} is compressed by Draco, which this build cannot read; build it with libdraco-dev, or export "
                   "without compression",

@@ -153,9 +153,15 @@ TEST_CASE("Draco: plain accessors are preferred if the extension is not required
   document["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
       {"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
   CHECK(test::parse("glb", test::glbOf(document, test::binaryOf(box))).faceCount() == 12);
-  document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  CHECK(test::errorOf("glb", test::glbOf(document, test::binaryOf(box))) ==
-        std::string(kCompressed) + "has no header of Draco");
+  const std::string noHeader = std::string(kCompressed) + "has no header of Draco";
+  json required = document;
+  required["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  CHECK(test::errorOf("glb", test::glbOf(required, test::binaryOf(box))) == noHeader);
+  for (const size_t accessor : {0, 1}) {
+    json incomplete = document;
+    incomplete["accessors"][accessor].erase("bufferView");
+    CHECK(test::errorOf("glb", test::glbOf(incomplete, test::binaryOf(box))) == noHeader);
+  }
 }
 
 TEST_CASE("Draco: other numbers of faces than in the accessor are refused or reported") {
@@ -216,6 +222,23 @@ TEST_CASE("Draco: counts beyond the limits are refused before memory is allocate
   for (const std::vector<uint64_t>& counts :
        {std::vector<uint64_t>{4'000'000'000, 12, 0, 12, 0}, {8, 12, 0, 13, 0}, {8, 12, 0, 10, 4'000'000'000}})
     CHECK(refused(headerOf(edgebreaker, counts), 12, 0) == std::string(kCompressed) + "is damaged");
+}
+
+TEST_CASE("Draco: the limit of memory is for all primitives of a file") {
+  const test::PlainMesh grid = test::curvedGrid(100);
+  const std::string draco = encodedDraco(grid, {.bits = 4});
+  json document = dracoDocument(grid, draco.size());
+  json& primitives = document["meshes"][0]["primitives"];
+  primitives = json(10, primitives[0]);
+  CHECK(test::parse("glb", test::glbOf(document, draco)).faceCount() == 200'000);
+  primitives = json(80, primitives[0]);
+  CHECK(test::errorOf("glb", test::glbOf(document, draco)) ==
+        std::string(kCompressed) + "needs more than 64 MiB to be decoded; export without compression");
+  const std::string bytes = test::glbOf(document, draco);
+  CHECK(parseMesh(bytes, "glb", {.maxFaces = 2'000'000}).faceCount() == 1'600'000);
+  document["accessors"][1]["count"] = 300;  // Each primitive claims few faces.
+  CHECK(test::errorOf("glb", test::glbOf(document, draco)) ==
+        std::string(kCompressed) + "has 20,000 faces; its accessor has 100");
 }
 
 TEST_CASE("Draco: damaged data is refused or read, and never crashes") {

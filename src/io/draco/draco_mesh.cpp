@@ -36,7 +36,8 @@ bool isRead(draco::DecoderBuffer buffer, draco::MeshEdgebreakerDecoder*, DracoCo
 template <typename Decoder>
 class LimitedDracoDecoder final : public Decoder {
  public:
-  LimitedDracoDecoder(const DracoRequest& request, std::string& reason) : request_(request), reason_(reason) {}
+  LimitedDracoDecoder(const DracoRequest& request, DracoBudget& budget, std::string& reason)
+      : request_(request), budget_(budget), reason_(reason) {}
 
  protected:
   bool DecodeConnectivity() override {
@@ -64,23 +65,24 @@ class LimitedDracoDecoder final : public Decoder {
 
  private:
   bool isWithinMemory(uint64_t byteCount) {
-    byteCount_ += byteCount;
-    if (byteCount_ <= request_.maxByteCount) return true;
+    budget_.usedByteCount += byteCount;
+    if (budget_.usedByteCount <= budget_.maxByteCount) return true;
     reason_ =
-        fmt::format("needs more than {} MiB to be decoded; export without compression", request_.maxByteCount >> 20);
+        fmt::format("needs more than {} MiB to be decoded; export without compression", budget_.maxByteCount >> 20);
     return false;
   }
 
   const DracoRequest& request_;
+  DracoBudget& budget_;
   std::string& reason_;
-  uint64_t byteCount_ = 0;
 };
 
 template <typename Decoder>
-bool isDracoDecoded(std::span<const char> bytes, const DracoRequest& request, draco::Mesh& mesh, std::string& reason) {
+bool isDracoDecoded(std::span<const char> bytes, const DracoRequest& request, DracoBudget& budget, draco::Mesh& mesh,
+                    std::string& reason) {
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());
-  return LimitedDracoDecoder<Decoder>(request, reason).Decode(draco::DecoderOptions(), &buffer, &mesh).ok();
+  return LimitedDracoDecoder<Decoder>(request, budget, reason).Decode(draco::DecoderOptions(), &buffer, &mesh).ok();
 }
 
 draco::DataType dracoTypeOf(GltfType type) {
@@ -100,7 +102,8 @@ draco::DataType dracoTypeOf(GltfType type) {
 
 }  // namespace
 
-DracoMesh decodeDraco(std::span<const char> bytes, const DracoRequest& request, std::string_view where) {
+DracoMesh decodeDraco(std::span<const char> bytes, const DracoRequest& request, DracoBudget& budget,
+                      std::string_view where) {
   const auto fail = [&](std::string_view reason) {
     failInput(fmt::format("{} is compressed by Draco, and its data {}", where, reason));
   };
@@ -111,11 +114,12 @@ DracoMesh decodeDraco(std::span<const char> bytes, const DracoRequest& request, 
   if (!header.substr(5).starts_with("\2\2"))
     fail(fmt::format("has the version {}.{} instead of 2.2", +header[5], +header[6]));
   if (header[7] != draco::TRIANGULAR_MESH) fail("is not a mesh of triangles");
+  budget.usedByteCount += bytes.size();
   draco::Mesh mesh;
   std::string reason = "is damaged";
   if (!(header[8] == draco::MESH_EDGEBREAKER_ENCODING
-            ? isDracoDecoded<draco::MeshEdgebreakerDecoder>(bytes, request, mesh, reason)
-            : isDracoDecoded<draco::MeshSequentialDecoder>(bytes, request, mesh, reason)))
+            ? isDracoDecoded<draco::MeshEdgebreakerDecoder>(bytes, request, budget, mesh, reason)
+            : isDracoDecoded<draco::MeshSequentialDecoder>(bytes, request, budget, mesh, reason)))
     fail(reason);
 
   const bool isId = request.positionId <= std::numeric_limits<uint32_t>::max();
