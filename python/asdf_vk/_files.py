@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 import operator
 import os
 from typing import Any, BinaryIO, Mapping, Sequence
@@ -20,6 +21,7 @@ def read_mesh(
     *,
     format: str | None = "",
     max_faces: int | None = None,
+    chord_error: float | None = None,
 ) -> Mesh:
     """Reads a PLY, OFF, OBJ, STL, GLB, glTF, 3MF or STEP file. Keeps all faces, in the order of the file.
 
@@ -27,6 +29,8 @@ def read_mesh(
     format: "ply", "off", "obj", "stl", "glb", "gltf" or "3mf", if the content is ambiguous (OBJ, binary STL). Empty:
         the extension of the path.
     max_faces: refuse a mesh with more faces. None: 100 per byte of the file, and at least 100,000.
+    chord_error: greatest distance between the triangles and the curved surfaces of a STEP file, in the unit of the
+        file. None: 1/1000 of the diagonal of the bounding box.
 
     The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. If a face of the file is
     not a triangle, `faces` has the triangles into which the faces are cut. `face_of_triangle` (m,) then has the index
@@ -37,7 +41,7 @@ def read_mesh(
     if not isinstance(name, str) or (name and name.lower() not in _core.mesh_extensions()):
         known = ", ".join(_core.mesh_extensions())
         raise error_of("unknownFormat", f"format={format!r} is not one of {known}")
-    limit = 0 if max_faces is None else _face_limit(max_faces)
+    options = (name, 0 if max_faces is None else _face_limit(max_faces), _chord_error(chord_error))
     if not isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)):
         read = getattr(source, "read", None)
         if not callable(read):
@@ -46,11 +50,11 @@ def read_mesh(
         if not isinstance(source, (bytes, bytearray, memoryview)):
             raise error_of("optionOutOfRange", "the file object returns text; open it in binary mode")
     if isinstance(source, (bytes, bytearray, memoryview)):
-        return _core.parse_mesh(bytes(source) if isinstance(source, memoryview) else source, name, limit)
+        return _core.parse_mesh(bytes(source) if isinstance(source, memoryview) else source, *options)
     if isinstance(source, str) and (len(source) > 1000 or "\n" in source) and not os.path.exists(source):
         start = source.lstrip()[:20]
         raise error_of("unreadableInput", f"{start!r}... is not the path of a file; give a mesh in memory as bytes")
-    return _core.read_mesh(_path(source), name, limit)
+    return _core.read_mesh(_path(source), *options)
 
 
 def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: ArrayLike) -> Mesh:
@@ -135,6 +139,16 @@ def _face_limit(value: Any) -> int:
     if isinstance(value, bool) or not 1 <= count < 2**32:
         raise error_of("optionOutOfRange", f"max_faces={value!r} is not a whole number from 1 to 4294967295")
     return count
+
+
+def _chord_error(value: Any) -> float:
+    try:
+        length = 0.0 if value is None else float(value)
+    except (TypeError, ValueError):
+        length = -1.0
+    if isinstance(value, bool) or not 0 <= length < math.inf or (value is not None and length == 0):
+        raise error_of("optionOutOfRange", f"chord_error={value!r} is not a length above 0")
+    return length
 
 
 def _report_of(result: Any) -> _core.ShownReport | None:

@@ -20,20 +20,21 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-Mesh readWithoutGil(const std::filesystem::path& path, const std::string& format, uint64_t maxFaces) {
+Mesh readWithoutGil(const std::filesystem::path& path, const std::string& format, uint64_t maxFaces,
+                    double chordError) {
   requireSameProcess();
   const GilRelease released;
-  return readMesh(path, {.maxFaces = maxFaces, .format = format});
+  return readMesh(path, {.maxFaces = maxFaces, .format = format, .chordError = chordError});
 }
 
 /// bytes: a contiguous buffer.
-Mesh parseWithoutGil(const py::buffer& bytes, const std::string& format, uint64_t maxFaces) {
+Mesh parseWithoutGil(const py::buffer& bytes, const std::string& format, uint64_t maxFaces, double chordError) {
   requireSameProcess();
   const py::buffer_info info = bytes.request();
   const std::span<const char> contents(static_cast<const char*>(info.ptr),
                                        static_cast<size_t>(info.size * info.itemsize));
   const GilRelease released;
-  return parseMesh(contents, {.maxFaces = maxFaces, .format = format});
+  return parseMesh(contents, {.maxFaces = maxFaces, .format = format, .chordError = chordError});
 }
 
 py::array verticesOf(const py::object& self) {

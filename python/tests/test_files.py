@@ -60,7 +60,8 @@ def test_what_is_no_mesh_file_is_refused_with_a_short_message(tmp_path: Path) ->
         with pytest.raises(asdf_vk.Error) as failure:
             asdf_vk.read_mesh(source)  # type: ignore[arg-type]
         assert message in str(failure.value) and len(str(failure.value)) < 300
-    for options in ({"format": "vtu"}, {"format": 3}, {"max_faces": 0}, {"max_faces": True}, {"max_faces": 1.5}):
+    for options in ({"format": "vtu"}, {"format": 3}, {"max_faces": 0}, {"max_faces": True}, {"max_faces": 1.5},
+                    {"chord_error": 0}, {"chord_error": "x"}, {"chord_error": float("nan")}):
         with pytest.raises(asdf_vk.UsageError):
             asdf_vk.read_mesh(b"", **options)  # type: ignore[arg-type]
 

@@ -201,7 +201,7 @@ TEST_CASE("Draco: counts beyond the limits are refused before memory is allocate
     document["accessors"][1]["count"] = 3 * faceCount;
     const std::string bytes = test::glbOf(document, draco);
     try {
-      (void)parseMesh(bytes, "glb", {.maxFaces = maxFaces});
+      (void)parseMesh(bytes, {.maxFaces = maxFaces});
     } catch (const Error& error) {
       return std::string(error.what());
     }
@@ -235,7 +235,7 @@ TEST_CASE("Draco: the limit of memory is for all primitives of a file") {
   CHECK(test::errorOf("glb", test::glbOf(document, draco)) ==
         std::string(kCompressed) + "needs more than 64 MiB to be decoded; export without compression");
   const std::string bytes = test::glbOf(document, draco);
-  CHECK(parseMesh(bytes, "glb", {.maxFaces = 2'000'000}).faceCount() == 1'600'000);
+  CHECK(parseMesh(bytes, {.maxFaces = 2'000'000}).faceCount() == 1'600'000);
   document["accessors"][1]["count"] = 300;  // Each primitive claims few faces.
   CHECK(test::errorOf("glb", test::glbOf(document, draco)) ==
         std::string(kCompressed) + "has 20,000 faces; its accessor has 100");

@@ -30,18 +30,9 @@ std::string gzipped(std::string_view text) {
   return bytes;
 }
 
-std::string utf16(std::string_view text, bool isBig) {
-  std::string bytes = isBig ? "\xfe\xff" : "\xff\xfe";
-  for (const char c : text) {
-    const char units[] = {isBig ? '\0' : c, isBig ? c : '\0'};
-    bytes.append(units, 2);
-  }
-  return bytes;
-}
-
 std::string errorOfContent(std::string_view bytes, std::string_view extension = {}) {
   try {
-    static_cast<void>(parseMesh(bytes, extension));
+    static_cast<void>(parseMesh(bytes, {.format = std::string(extension)}));
   } catch (const Error& error) {
     return error.kind() == ErrorKind::Input ? error.what() : "an error of another kind";
   }
@@ -85,7 +76,7 @@ TEST_CASE("meshes of every format are read from gzip files, by content and by th
   // Without the keyword, only the extension says that the content is OFF.
   const std::string counts = gzipped(kContentOff.substr(4));
   for (const char* extension : {"off.gz", ".off.gz", "OFF.GZ", "off"})
-    CHECK(parseMesh(counts, extension).faces == kOneFace);
+    CHECK(parseMesh(counts, {.format = extension}).faces == kOneFace);
   CHECK(holds(errorOfContent(counts, "gz"), "unknown format"));
   CHECK(meshExtension("a/part.stl.gz") == ".stl");
   CHECK(meshExtension("a/part.STL") == ".STL");
@@ -140,14 +131,15 @@ TEST_CASE("texts in UTF-16 with a byte order mark are read") {
   for (const bool isBig : {false, true})
     for (const std::string& text :
          {kContentObj, kContentOff, kContentPly, kContentStl, "# comment\ng ply\n" + kContentObj}) {
-      CHECK(parseMesh(utf16(text, isBig)).faces == kOneFace);
-      CHECK(parseMesh(gzipped(utf16(text, isBig))).faces == kOneFace);
-      CHECK(holds(errorOfContent(utf16(text, isBig) + "x"), "UTF-16 with an odd number of bytes"));
-      CHECK(holds(errorOfContent(utf16(text, isBig).substr(2)), "UTF-16 without a byte order mark; save it as UTF-8"));
+      CHECK(parseMesh(test::utf16(text, isBig)).faces == kOneFace);
+      CHECK(parseMesh(gzipped(test::utf16(text, isBig))).faces == kOneFace);
+      CHECK(holds(errorOfContent(test::utf16(text, isBig) + "x"), "UTF-16 with an odd number of bytes"));
+      CHECK(holds(errorOfContent(test::utf16(text, isBig).substr(2)),
+                  "UTF-16 without a byte order mark; save it as UTF-8"));
     }
   // A name with characters of two, three and four bytes in UTF-8, and an unpaired surrogate.
   const std::string name("\x00\xe4\x20\xac\xd8\x3d\xde\x00\xd8\x00\x00\n", 12);
-  std::string obj = utf16("o ", true) + name + utf16(kContentObj, true).substr(2);
+  std::string obj = test::utf16("o ", true) + name + test::utf16(kContentObj, true).substr(2);
   CHECK(parseMesh(obj).faces == kOneFace);
   obj.replace(obj.find('o'), 1, "w");
   CHECK(holds(errorOfContent(obj, "obj"), "line 1: 'w' is not an OBJ keyword"));

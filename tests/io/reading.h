@@ -14,6 +14,16 @@
 
 namespace asdfvk::test {
 
+/// ASCII text as UTF-16 with a byte order mark.
+inline std::string utf16(std::string_view text, bool isBig) {
+  std::string bytes = isBig ? "\xfe\xff" : "\xff\xfe";
+  for (const char c : text) {
+    const char units[] = {isBig ? '\0' : c, isBig ? c : '\0'};
+    bytes.append(units, 2);
+  }
+  return bytes;
+}
+
 /// The mesh that the reader of the format makes of the text.
 inline Mesh parse(std::string_view format, std::string_view text) {
   return formatOfExtension(format)->parseMesh({.bytes = std::span(text.data(), text.size())});

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "asdf_vk/error.h"
+#include "reading.h"
 
 using namespace asdfvk;
 
@@ -46,16 +47,6 @@ std::string tagsOf(std::string_view text, XmlReader::Prefixes prefixes = XmlRead
   return tags;
 }
 
-std::string utf16(std::string_view ascii, bool isLittle) {
-  std::string text = isLittle ? "\xff\xfe" : "\xfe\xff";
-  for (const char c : ascii) {
-    if (!isLittle) text += '\0';
-    text += c;
-    if (isLittle) text += '\0';
-  }
-  return text;
-}
-
 }  // namespace
 
 TEST_CASE("the XML reader gives tags, attributes and text") {
@@ -66,7 +57,8 @@ TEST_CASE("the XML reader gives tags, attributes and text") {
   CHECK(tagsOf("\xef\xbb\xbf<a/>") == "<a>");
   for (const bool isLittle : {false, true})
     for (const char* const encoding : {"", " encoding='UTF-16'", " encoding='UTF-8'"})
-      CHECK(tagsOf(utf16("<?xml version='1.0'" + std::string(encoding) + "?><a b='c'/>", isLittle)) == "<a b=c>");
+      CHECK(tagsOf(test::utf16("<?xml version='1.0'" + std::string(encoding) + "?><a b='c'/>", !isLittle)) ==
+            "<a b=c>");
 }
 
 TEST_CASE("the XML reader resolves namespaces, also below the root") {
