@@ -29,7 +29,8 @@ struct ReadOptions {
 
 /// Reads a mesh file: PLY, OFF, OBJ, STL, GLB, glTF, 3MF or STEP. STEP needs a module (docs/formats.md). path: "-" is
 /// standard input. The content decides the format. If the content is ambiguous, the extension decides (OBJ and binary
-/// STL have no magic number). Throws Error{UnreadableInput}, whose message has the file, the line or byte, and the
+/// STL have no magic number). A .gltf file may name files with its data that are in its folder; no other files are
+/// opened. Throws Error{UnreadableInput}, whose message has the file, the line or byte, and the
 /// reason; Error{TooManyFaces} beyond ReadOptions::maxFaces; Error{MeshTooLarge}; Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options = {});
 

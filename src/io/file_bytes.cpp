@@ -88,7 +88,8 @@ std::filesystem::path pathBeside(const std::filesystem::path& file, std::string_
   const auto fail = [&](std::string_view reason) {
     failInput(fmt::format("{}: its data is in the file {}, {}", where, quoted(name), reason));
   };
-  if (file.empty()) fail("which is read only beside a named file; export as .glb, or name the file");
+  if (file.empty())
+    fail("which is read only beside a named file; export as .glb, or name the file instead of standard input");
   if (!isRelativeName(name)) fail("which is not a relative name in the folder of this file; export as .glb");
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::canonical(std::filesystem::absolute(file).parent_path(), error);

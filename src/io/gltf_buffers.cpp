@@ -7,7 +7,6 @@
 #include <charconv>
 #include <utility>
 
-#include "core/text.h"
 #include "io/base64_text.h"
 #include "io/file_bytes.h"
 #include "io/input_failure.h"
@@ -85,9 +84,8 @@ std::span<const char> GltfBuffers::load(uint64_t index, const GltfJson& json, co
                                                                   : fileBeside(percentDecoded(text), where);
   if (byteLength > bytes.size())
     failGltf(where, fmt::format("byteLength {}; its data has {} bytes", byteLength, bytes.size()));
-  // The BIN chunk is padded to a multiple of four bytes.
-  if (const uint64_t further = bytes.size() - byteLength; further > 3)
-    skipped_.push_back(fmt::format("{} after the end of {}", counted(further, "byte"), where));
+  constexpr uint64_t kMaxPadding = 3;  // The BIN chunk is padded to a multiple of four bytes.
+  if (const uint64_t further = bytes.size() - byteLength; further > kMaxPadding) unusedByteCount_ += further;
   return bytes.first(byteLength);
 }
 

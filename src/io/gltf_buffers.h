@@ -30,8 +30,8 @@ class GltfBuffers {
 
   /// Decodes a compressed view. The bytes live as long as this object.
   [[nodiscard]] GltfView view(uint64_t index, std::string_view where);
-  /// The bytes of buffers that the document does not use, as noun phrases for Mesh::skipped.
-  [[nodiscard]] const std::vector<std::string>& skipped() const { return skipped_; }
+  /// The number of bytes after the ends of buffers, without padding.
+  [[nodiscard]] uint64_t unusedByteCount() const { return unusedByteCount_; }
 
  private:
   std::span<const char> buffer(uint64_t index);
@@ -51,7 +51,7 @@ class GltfBuffers {
   std::map<std::string, UnsetVector<char>> filesBeside_;  ///< By their canonical paths.
   std::map<uint64_t, std::vector<char>> decodedViews_;    ///< By the indices of the views.
   uint64_t decodedByteCount_ = 0;
-  std::vector<std::string> skipped_;
+  uint64_t unusedByteCount_ = 0;
 };
 
 }  // namespace asdfvk

@@ -92,12 +92,6 @@ void GltfFile::requireKnownExtensions() const {
   }
 }
 
-std::vector<std::string> GltfFile::skipped() const {
-  std::vector<std::string> texts = buffers_->skipped();
-  if (trailingByteCount_ > 0) texts.push_back(counted(trailingByteCount_, "byte") + " after the end");
-  return texts;
-}
-
 GltfAccessor::Elements GltfFile::elementsOf(const GltfJson& holder, uint64_t count, uint32_t componentType,
                                             uint32_t componentCount, bool hasStride, std::string_view where) {
   const uint64_t elementSize = uint64_t{gltfSizeOf(componentType)} * componentCount;

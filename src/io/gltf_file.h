@@ -45,8 +45,9 @@ class GltfFile {
     return buffers_->view(view, where).bytes;
   }
 
-  /// Ignored bytes, as noun phrases for Mesh::skipped.
-  [[nodiscard]] std::vector<std::string> skipped() const;
+  /// The number of bytes after the end of a GLB file.
+  [[nodiscard]] uint64_t trailingByteCount() const { return trailingByteCount_; }
+  [[nodiscard]] uint64_t unusedByteCount() const { return buffers_->unusedByteCount(); }
 
  private:
   std::optional<std::span<const char>> readChunks();

@@ -112,12 +112,12 @@ class GltfReader {
     if (!visit.placement.isFinite()) failInput(fmt::format("{}: its transform overflows", where));
     if (const GltfJson* const visibility = gltfExtension(node, "KHR_node_visibility", where))
       visit.isHidden = visit.isHidden || !gltfFlag(*visibility, "visible", true, where);
-    if (gltfExtension(node, "EXT_mesh_gpu_instancing", where) != nullptr)
-      failInput(
-          fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it", where));
-    if (visit.isHidden && gltfMember(node, "mesh", where) != nullptr) {
-      hiddenCount_ += isFirstPass_ ? 1 : 0;
-    } else if (gltfMember(node, "mesh", where) != nullptr) {
+    const bool hasMesh = gltfMember(node, "mesh", where) != nullptr;
+    if (hasMesh && visit.isHidden) hiddenCount_ += isFirstPass_ ? 1 : 0;
+    if (hasMesh && !visit.isHidden) {
+      if (gltfExtension(node, "EXT_mesh_gpu_instancing", where) != nullptr)
+        failInput(fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it",
+                              where));
       const uint64_t mesh = gltfWhole(node, "mesh", std::nullopt, where);
       (void)file_.item("meshes", mesh, where);
       // The joints determine the place of a mesh with a skin; the node of the mesh has no effect.
@@ -225,10 +225,12 @@ class GltfReader {
   }
 
   std::vector<std::string> skipped() const {
-    std::vector<std::string> texts = file_.skipped();
+    std::vector<std::string> texts;
     const auto add = [&](uint64_t count, std::string_view one, std::string_view many) {
       if (count > 0) texts.push_back(counted(count, one, many));
     };
+    add(file_.unusedByteCount(), "byte after the end of a buffer", "bytes after the end of a buffer");
+    add(file_.trailingByteCount(), "byte after the end", "bytes after the end");
     add(pointCount_, "point", "points");
     add(lineCount_, "line", "lines");
     add(withoutPositionsCount_, "primitive without positions", "primitives without positions");

@@ -232,8 +232,8 @@ TEST_CASE("Draco: the limit of memory is for all primitives of a file") {
   primitives = json(10, primitives[0]);
   CHECK(test::parse("glb", test::glbOf(document, draco)).faceCount() == 200'000);
   primitives = json(80, primitives[0]);
-  CHECK(test::errorOf("glb", test::glbOf(document, draco)) ==
-        std::string(kCompressed) + "needs more than 64 MiB to be decoded; export without compression");
+  CHECK(
+      test::holds(test::errorOf("glb", test::glbOf(document, draco)), "needs more than 64 MiB to be decoded; export"));
   const std::string bytes = test::glbOf(document, draco);
   CHECK(parseMesh(bytes, {.maxFaces = 2'000'000}).faceCount() == 1'600'000);
   document["accessors"][1]["count"] = 300;  // Each primitive claims few faces.
