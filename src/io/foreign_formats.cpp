@@ -72,6 +72,9 @@ constexpr auto kForeignFormats = std::to_array<ForeignFormat>({
     {"an image, not a mesh", kExportRemedy, "png jpg jpeg svg", {"\x89PNG", "\xff\xd8\xff"}, "svg"},
 });
 
+/// The text from `at` on; empty beyond its end.
+std::string_view partFrom(std::string_view text, size_t at) { return text.substr(std::min(at, text.size())); }
+
 std::string reasonOf(const ForeignFormat& format) { return fmt::format("is {}; {}", format.what, format.remedy); }
 
 /// The name of the root element of an XML document or HTML page in lower case; empty for other texts.
@@ -93,7 +96,7 @@ std::string rootElement(std::string_view text) {
 
 bool isIges(std::string_view text) {
   constexpr size_t kSectionColumn = 72;
-  const std::string_view section = text.substr(std::min(kSectionColumn, text.size()), 8);
+  const std::string_view section = partFrom(text, kSectionColumn).substr(0, 8);
   return section == "S      1" || section == "S0000001";
 }
 
@@ -123,11 +126,11 @@ bool lacksByteOrderMark(std::string_view text) {
 
 std::string formatWithoutMagic(std::span<const char> bytes, std::string_view text) {
   constexpr size_t kTarMagicOffset = 257;
-  if (text.substr(std::min(kTarMagicOffset, text.size())).starts_with("ustar")) return "is a tar archive; unpack it";
+  if (partFrom(text, kTarMagicOffset).starts_with("ustar")) return "is a tar archive; unpack it";
   if (isIges(text)) return foreignExtension("iges");
   if (isDxf(bytes)) return foreignExtension("dxf");
   if (is3ds(text)) return foreignExtension("3ds");
-  if (text.starts_with("FORM") && text.substr(8).starts_with("LWO")) return foreignExtension("lwo");
+  if (text.starts_with("FORM") && partFrom(text, 8).starts_with("LWO")) return foreignExtension("lwo");
   if (lacksByteOrderMark(text)) return "is a text in UTF-16 without a byte order mark; save it as UTF-8";
   if (text.find_first_not_of('\0') == std::string_view::npos)
     return "has only zero bytes, because it was not copied completely; copy or download it again";

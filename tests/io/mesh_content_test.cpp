@@ -182,6 +182,8 @@ TEST_CASE("files of formats without a reader are refused with the format and a r
   refused("<amf unit=\"inch\">", "is an AMF file");
   refused("MM\x0a\0\0\0\0\0\0\0"sv, "is a 3D Studio file");
   refused("# .PCD v.7", "is a PCD file; it has points and no faces", "obj");
+  refused("FORM....LWO2", "is a LightWave file");
+  refused("FORM", "has at least 84 bytes");
   refused("{\"a\": 1}", "is JSON, but not glTF", "json");
   refused("[1, 2]", "is JSON, but not glTF", "");
   refused(std::string(257, 'a') + "ustar", "is a tar archive; unpack it");
