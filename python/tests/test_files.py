@@ -32,8 +32,8 @@ def test_a_mesh_is_read_from_bytes_and_from_binary_files(tmp_path: Path) -> None
     asdf_vk.write(tmp_path / "mesh.ply", (vertices, faces))
     data = (tmp_path / "mesh.ply").read_bytes()
     with open(tmp_path / "mesh.ply", "rb") as file:
-        for source in (data, bytearray(data), memoryview(data), memoryview(data + data)[: len(data)], io.BytesIO(data),
-                       file):
+        sources: list[Any] = [data, bytearray(data), memoryview(data), io.BytesIO(data), file]
+        for source in sources:
             np.testing.assert_array_equal(asdf_vk.read_mesh(source).faces, faces)
     corners = vertices[faces].astype("<f4")
     facets = np.zeros(len(faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

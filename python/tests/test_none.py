@@ -57,6 +57,7 @@ def test_none_is_the_default(tmp_path: Path) -> None:
         (asdf_vk.Scene, MESH),
         (scene.at, (TOP, TOP)),
         (scene.compute, ()),
+        (asdf_vk.read_mesh, (off,)),
         (scene.shape_diameter, ()),
         (scene.thickness, ()),
         (scene.segment, ()),

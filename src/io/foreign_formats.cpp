@@ -41,7 +41,6 @@ constexpr auto kForeignFormats = std::to_array<ForeignFormat>({
     {"a RAR archive", kUnpackRemedy, "rar", {"Rar!\x1a\x07"}},
     {"a pointer of Git LFS, not the mesh", "run git lfs pull", "", {"version https://git-lfs"}},
     {"an HTML page, not a mesh", "download the file itself", "html htm", {}, "html"},
-    {"a STEP file, which this build does not read", kExportRemedy, "step stp p21", {"ISO-10303-21"}},
     {"an IGES file", kExportRemedy, "iges igs"},
     {"a Parasolid file", kExportRemedy, "x_t x_b", {"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "PS\0\0\0"sv}},
     {"an ACIS file", kExportRemedy, "sat sab", {"ACIS BinaryFile"}},
