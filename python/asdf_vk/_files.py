@@ -26,7 +26,7 @@ def read_mesh(
     """Reads a PLY, OFF, OBJ, STL, GLB, glTF, 3MF or STEP file. Keeps all faces, in the order of the file.
 
     source: a path; or the mesh file as bytes, or a binary file object, which is read to its end. Bytes are never a path.
-    format: "ply", "off", "obj", "stl", "glb", "gltf" or "3mf", if the content is ambiguous (OBJ, binary STL). Empty:
+    format: "ply", "off", "obj", "stl", "glb", "gltf", "3mf" or "step", if the content is ambiguous (OBJ, binary STL). Empty:
         the extension of the path.
     max_faces: refuse a mesh with more faces. None: 100 per byte of the file, and at least 100,000.
     chord_error: greatest distance between the triangles and the curved surfaces of a STEP file, in the unit of the
@@ -50,7 +50,7 @@ def read_mesh(
         if not isinstance(source, (bytes, bytearray, memoryview)):
             raise error_of("optionOutOfRange", "the file object returns text; open it in binary mode")
     if isinstance(source, (bytes, bytearray, memoryview)):
-        return _core.parse_mesh(bytes(source) if isinstance(source, memoryview) else source, *options)
+        return _core.parse_mesh(bytes(source), *options)
     if isinstance(source, str) and (len(source) > 1000 or "\n" in source) and not os.path.exists(source):
         start = source.lstrip()[:20]
         raise error_of("unreadableInput", f"{start!r}... is not the path of a file; give a mesh in memory as bytes")

@@ -27,12 +27,9 @@ Mesh readWithoutGil(const std::filesystem::path& path, const std::string& format
   return readMesh(path, {.maxFaces = maxFaces, .format = format, .chordError = chordError});
 }
 
-/// bytes: a contiguous buffer.
-Mesh parseWithoutGil(const py::buffer& bytes, const std::string& format, uint64_t maxFaces, double chordError) {
+Mesh parseWithoutGil(const py::bytes& bytes, const std::string& format, uint64_t maxFaces, double chordError) {
   requireSameProcess();
-  const py::buffer_info info = bytes.request();
-  const std::span<const char> contents(static_cast<const char*>(info.ptr),
-                                       static_cast<size_t>(info.size * info.itemsize));
+  const std::string_view contents(bytes);
   const GilRelease released;
   return parseMesh(contents, {.maxFaces = maxFaces, .format = format, .chordError = chordError});
 }
@@ -91,11 +88,11 @@ py::tuple stateOf(const Mesh& mesh) {
   const Polygons& polygons = mesh.polygons;
   return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
                         bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf), mesh.unit, mesh.statedPartCount,
-                        mesh.skipped, mesh.negativeVolumeCount);
+                        mesh.skipped, mesh.negativeVolumeCount, mesh.chordError);
 }
 
 Mesh meshOf(const py::tuple& state) {
-  if (state.size() != 9) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have nine members");
+  if (state.size() != 10) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have ten members");
   Mesh mesh;
   readBytes(state[0], mesh.vertices);
   readBytes(state[1], mesh.faces);
@@ -106,6 +103,7 @@ Mesh meshOf(const py::tuple& state) {
   mesh.statedPartCount = state[6].cast<uint32_t>();
   mesh.skipped = state[7].cast<std::vector<std::string>>();
   mesh.negativeVolumeCount = state[8].cast<uint32_t>();
+  mesh.chordError = state[9].cast<double>();
   return mesh;
 }
 

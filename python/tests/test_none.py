@@ -35,6 +35,8 @@ def value_of(result: Any) -> Any:
         return result.backend
     if isinstance(result, asdf_vk.Info):
         return result.fields
+    if isinstance(result, asdf_vk.Mesh):
+        return result.vertices
     return result.shape_diameter() if isinstance(result, asdf_vk.Scene) else result
 
 

@@ -12,6 +12,7 @@
 #include "cli/report.h"
 #include "core/json.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -104,11 +105,16 @@ JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
   return {std::move(record), std::move(run.json), std::move(run.text)};
 }
 
+std::string JobRecords::inputHashOf(const std::string& input) const {
+  const bool mayHaveFilesBeside = lowerCase(std::filesystem::path(input).extension().string()) == ".gltf";
+  return mayHaveFilesBeside ? loadMesh(input, settings_.reading, true, {}).hash : contentHashOf(input).value_or("");
+}
+
 std::optional<JobResult> JobRecords::findFinished(const Job& job) const {
   std::error_code ignored;
   if (!std::filesystem::exists(outputRecordPath(job.output), ignored)) return std::nullopt;
   MeshRecord expected = begin(job);
-  expected.inputHash = contentHashOf(job.input).value_or("");
+  expected.inputHash = inputHashOf(job.input);
   std::optional<MeshRecord> found = findFinishedOutput(expected, job.output);
   if (!found) return std::nullopt;
   std::string report = jsonSkipped(job.input, *found);

@@ -34,6 +34,8 @@ class JobRecords {
   [[nodiscard]] JobResult fail(const Job& job, const Failure& failure) const;
 
  private:
+  [[nodiscard]] std::string inputHashOf(const std::string& input) const;
+
   const MeshSettings& settings_;
   std::string optionsHash_;
   Json options_;

@@ -100,13 +100,17 @@ std::string valueOptionsOf(const Options& options) {
 LoadedMesh loadNow(const std::string& path, const ReadOptions& options, bool computesHash) {
   LoadedMesh loaded;
   const Stopwatch watch;
+  std::optional<ContentHash> hash;
   try {
     loaded.mesh = readMesh(path, options, [&](std::span<const char> bytes) {
-      if (computesHash) loaded.hash = contentHash(bytes);
+      if (!computesHash) return;
+      if (!hash) hash.emplace();
+      hash->add(bytes);
     });
   } catch (...) {
     loaded.failure = std::current_exception();
   }
+  if (hash) loaded.hash = hash->text();
   loaded.seconds = watch.seconds();
   return loaded;
 }

@@ -40,7 +40,8 @@ struct MeshSettings {
 /// A mesh that was read, or the exception that the reader threw.
 struct LoadedMesh {
   Mesh mesh;
-  std::string hash;    ///< contentHash() of the file; empty if not requested.
+  /// contentHash() of the file and of the files beside that were read, in the order of reading; empty if not requested.
+  std::string hash;
   double seconds = 0;  ///< Time of reading.
   std::exception_ptr failure;
 };

@@ -218,8 +218,10 @@ void AtomicFiles::commit() {
   std::vector<std::filesystem::path> made;
   try {
     for (const auto& file : files_) {
-      if (!file->temporary_.empty() && !std::filesystem::exists(file->target_)) made.push_back(file->target_);
+      std::error_code ignored;
+      const bool isNew = !file->temporary_.empty() && !std::filesystem::exists(file->target_, ignored);
       file->commit();
+      if (isNew) made.push_back(file->target_);
     }
   } catch (...) {
     for (const std::filesystem::path& path : made) ::unlink(path.c_str());

@@ -1,8 +1,8 @@
+#include "generate/analytic_shapes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "generate/analytic_shapes.h"
 
 namespace asdfvk {
 namespace {

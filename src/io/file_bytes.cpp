@@ -7,12 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <string>
-#include <vector>
+#include <system_error>
 
 #include "asdf_vk/error.h"
-#include "core/text.h"
 #include "io/input_failure.h"
 
 namespace asdfvk {
@@ -23,7 +20,7 @@ constexpr size_t kMaxRead = size_t{1} << 30;  // Linux reads at most 2 GiB at on
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {
-    if (value_ < 0) failInput(fmt::format("cannot be opened: {}", std::strerror(errno)));
+    if (value_ < 0) failInput(fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
   }
   ~Descriptor() {
     if (value_ != STDIN_FILENO) ::close(value_);
@@ -52,18 +49,12 @@ class Descriptor {
   }
 
  private:
-  [[noreturn]] static void failRead() { failInput(fmt::format("cannot be read: {}", std::strerror(errno))); }
+  [[noreturn]] static void failRead() {
+    failInput(fmt::format("cannot be read: {}", std::generic_category().message(errno)));
+  }
 
   int value_;
 };
-
-bool isRelativeName(std::string_view name) {
-  if (name.empty() || name.starts_with('/') || name.find('\\') != std::string_view::npos) return false;
-  if (std::any_of(name.begin(), name.end(), [](char c) { return '\0' <= c && c < ' '; })) return false;
-  if (name.substr(0, name.find('/')).find(':') != std::string_view::npos) return false;  // A scheme.
-  const std::vector<std::string> steps = splitAt(name, '/');
-  return std::find(steps.begin(), steps.end(), "..") == steps.end();
-}
 
 }  // namespace
 
@@ -84,24 +75,8 @@ UnsetVector<char> fileBytes(const std::filesystem::path& path) {
   }
 }
 
-std::filesystem::path pathBeside(const std::filesystem::path& file, std::string_view name, std::string_view where) {
-  const auto fail = [&](std::string_view reason) {
-    failInput(fmt::format("{}: its data is in the file {}, {}", where, quoted(name), reason));
-  };
-  if (file.empty())
-    fail("which is read only beside a named file; export as .glb, or name the file instead of standard input");
-  if (!isRelativeName(name)) fail("which is not a relative name in the folder of this file; export as .glb");
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::canonical(std::filesystem::absolute(file).parent_path(), error);
-  const std::filesystem::path path = error ? folder : std::filesystem::canonical(folder / name, error);
-  if (error) fail(fmt::format("which cannot be opened: {}; export as .glb, or add the file", error.message()));
-  if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
-    fail("a link to another folder; export as .glb, or copy the file");
-  return path;
-}
-
 UnsetVector<char> regularFileBytes(const std::filesystem::path& path, std::string_view where) try {
-  // Neither waits for the writer of a FIFO nor follows a link that replaced the file after pathBeside().
+  // Neither waits for the writer of a FIFO nor follows a link that replaced the file after its path was resolved.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
   const struct stat status = file.status();
   if (!S_ISREG(status.st_mode)) failInput("is not a regular file");

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "core/unset_vector.h"
 #include "io/file_bytes.h"
+#include "io/files_beside.h"
 #include "io/foreign_formats.h"
 #include "io/formats.h"
 #include "io/grouped_files.h"
@@ -55,7 +56,9 @@ std::string extensionFor(const MeshSource& file) {
   return meshExtension("mesh." + format.substr(format.starts_with('.') ? 1 : 0));
 }
 
-Mesh parse(const MeshSource& file) {
+[[noreturn]] void failTooLarge() { throw Error(ErrorCode::InputTooLarge, "does not fit into memory"); }
+
+Mesh parse(const MeshSource& file) try {
   if (file.bytes.empty()) failInput("is empty");
   const MeshContent content(file);
   const MeshSource& source = content.source();
@@ -74,6 +77,14 @@ Mesh parse(const MeshSource& file) {
   Mesh mesh = format->parseMesh(source);
   requireFaceCount(mesh.inputFaceCount(), source);
   return mesh;
+} catch (const std::bad_alloc&) {
+  failTooLarge();
+}
+
+UnsetVector<char> allBytesOf(const std::filesystem::path& path) try {
+  return fileBytes(path);
+} catch (const std::bad_alloc&) {
+  failTooLarge();
 }
 
 }  // namespace
@@ -86,13 +97,13 @@ Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
               const std::function<void(std::span<const char>)>& inspect) {
   const std::string name = path == "-" ? "standard input" : path.string();
   try {
-    const UnsetVector<char> bytes = fileBytes(path);
+    const UnsetVector<char> bytes = allBytesOf(path);
     inspect(bytes);
-    return parse({.bytes = bytes, .path = path == "-" ? std::filesystem::path() : path, .options = options});
+    if (path == "-") return parse({.bytes = bytes, .options = options});
+    FilesBeside beside(path, inspect);
+    return parse({.bytes = bytes, .path = path, .options = options, .beside = &beside});
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", name, error.what()), error.details());
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::InputTooLarge, fmt::format("{}: does not fit into memory", name));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "io/files_beside.h"
 
 namespace asdfvk {
 // Each format is defined in src/io/NAME_*.cpp.
@@ -29,8 +30,8 @@ const FileFormat* firstWith(Match match, std::span<const char> bytes) {
 }  // namespace
 
 uint64_t MeshSource::sizeForLimits() const {
-  if (packedSize != 0) return std::min<uint64_t>(bytes.size(), kMaxUnpackRatio * packedSize);
-  return bytes.size() + besideByteCount;
+  const uint64_t own = packedSize == 0 ? bytes.size() : std::min<uint64_t>(bytes.size(), kMaxUnpackRatio * packedSize);
+  return own + (beside == nullptr ? 0 : beside->byteCount());
 }
 
 uint64_t MeshSource::maxFaceCount() const {

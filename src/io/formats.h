@@ -14,6 +14,7 @@
 namespace asdfvk {
 
 class AtomicFile;
+class FilesBeside;
 class ResultView;
 
 /// Limits of faces, memory and unpacked bytes count at most this multiple of the size of a compressed file.
@@ -22,12 +23,11 @@ inline constexpr uint64_t kMaxUnpackRatio = 20;
 /// The bytes of a mesh file, and what its reader may use.
 struct MeshSource {
   std::span<const char> bytes;
-  std::filesystem::path path = {};  ///< Empty for standard input and for bytes in memory: there are no files beside.
+  std::filesystem::path path = {};  ///< Its extension decides the format of an ambiguous content.
   ReadOptions options = {};
   uint64_t packedSize = 0;  ///< Size of the compressed file that has the bytes; 0 if the file has them directly.
 
-  /// The number of bytes that the reader took from files beside. They count for the limits.
-  mutable uint64_t besideByteCount = 0;
+  FilesBeside* beside = nullptr;  ///< Null for standard input and for bytes in memory.
 
   /// The size on which limits depend: the number of bytes with those of files beside, but for a compressed file at most
   /// kMaxUnpackRatio times the packed size.

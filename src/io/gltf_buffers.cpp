@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/base64_text.h"
-#include "io/file_bytes.h"
+#include "io/files_beside.h"
 #include "io/input_failure.h"
 #include "io/meshopt_view.h"
 
@@ -98,13 +98,10 @@ std::span<const char> GltfBuffers::embedded(std::string_view uri, std::string_vi
 }
 
 std::span<const char> GltfBuffers::fileBeside(std::string_view name, std::string_view where) {
-  const std::filesystem::path path = pathBeside(source_.path, name, where);
-  const auto [place, isNew] = filesBeside_.try_emplace(path.string());
-  if (isNew) {
-    place->second = regularFileBytes(path, where);
-    source_.besideByteCount += place->second.size();
-  }
-  return place->second;
+  if (source_.beside != nullptr) return source_.beside->read(name, where);
+  failGltf(where, fmt::format("its data is in the file {}, which is read only beside a named file; export as .glb, or "
+                              "name the file instead of standard input",
+                              asdfvk::quoted(name)));
 }
 
 bool GltfBuffers::hasData(uint64_t index, const GltfJson& json, const std::string& where) const {

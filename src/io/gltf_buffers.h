@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/unset_vector.h"
 #include "io/formats.h"
 #include "io/gltf_json.h"
 
@@ -47,9 +46,8 @@ class GltfBuffers {
   const MeshSource& source_;
   bool requiresDecoding_;
   std::vector<std::optional<std::span<const char>>> buffers_;
-  std::vector<std::vector<char>> embedded_;               ///< The bytes of data URIs.
-  std::map<std::string, UnsetVector<char>> filesBeside_;  ///< By their canonical paths.
-  std::map<uint64_t, std::vector<char>> decodedViews_;    ///< By the indices of the views.
+  std::vector<std::vector<char>> embedded_;             ///< The bytes of data URIs.
+  std::map<uint64_t, std::vector<char>> decodedViews_;  ///< By the indices of the views.
   uint64_t decodedByteCount_ = 0;
   uint64_t unusedByteCount_ = 0;
 };

@@ -47,6 +47,9 @@ GltfPrimitive::GltfPrimitive(GltfFile& file, const GltfJson& json, std::string w
   if (isPlain && !file.requiresDraco()) draco_ = nullptr;
   if (draco_ != nullptr && mode_ > kGltfTriangles)
     failGltf(where_, fmt::format("mode {} with Draco; export triangles, or without compression", mode_));
+  if (draco_ == nullptr) return;
+  dracoView_ = gltfWhole(*draco_, "bufferView", std::nullopt, where_);
+  (void)file.bytesOf(dracoView_, where_);  // Reads the file beside, on whose size the limits depend.
 }
 
 uint64_t GltfPrimitive::faceCount() const {
@@ -69,11 +72,13 @@ uint64_t GltfPrimitive::addDecoded(std::vector<Face>& faces, CornerWelder& welde
                              .type = static_cast<GltfType>(positions_->componentType()),
                              .maxFaceCount = faceCount()};
   file_.dracoBudget().maxByteCount = maxDracoBytes(source);
-  const uint64_t view = gltfWhole(*draco_, "bufferView", std::nullopt, where_);
-  const DracoMesh mesh = decodeDraco(file_.bytesOf(view, where_), request, file_.dracoBudget(), where_);
+  const DracoMesh mesh = decodeDraco(file_.bytesOf(dracoView_, where_), request, file_.dracoBudget(), where_);
   const uint64_t pointSize = uint64_t{3} * gltfSizeOf(request.type);
   const GltfAccessor points(mesh.positions.size() / pointSize, {mesh.positions.data(), pointSize, request.type},
                             positions_->isNormalized());
+  if (points.count() > vertexCount())
+    failGltf(where_, fmt::format("its Draco data have {}; its accessor has {}", counted(points.count(), "point"),
+                                 groupDigits(vertexCount())));
   for (const Face& corners : mesh.faces) {
     Face face;
     for (size_t c = 0; c < 3; ++c) face[c] = welder.indexOf(points.vectorAt(corners[c]));

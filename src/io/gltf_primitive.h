@@ -39,6 +39,7 @@ class GltfPrimitive {
   uint64_t mode_ = kGltfTriangles;
   std::optional<GltfAccessor> positions_, indices_;
   const GltfJson* draco_ = nullptr;  ///< The extension; null without Draco.
+  uint64_t dracoView_ = 0;           ///< Index of the buffer view with the Draco data.
 };
 
 }  // namespace asdfvk

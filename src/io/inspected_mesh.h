@@ -9,7 +9,8 @@
 
 namespace asdfvk {
 
-/// Like readMesh(path, options), but calls `inspect` with the bytes of the file before they are parsed.
+/// Like readMesh(path, options), but calls `inspect` with the bytes of the file before they are parsed, and then with
+/// the bytes of each file beside that is read.
 [[nodiscard]] Mesh readMesh(const std::filesystem::path& path, const ReadOptions& options,
                             const std::function<void(std::span<const char>)>& inspect);
 

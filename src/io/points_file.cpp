@@ -13,6 +13,7 @@
 #include "core/atomic_file.h"
 #include "core/buckets.h"
 #include "core/text.h"
+#include "io/grouped_files.h"
 #include "mesh/spanning_tree.h"
 
 namespace asdfvk {

@@ -40,13 +40,13 @@ struct ObjectCounts {
   }
 };
 
-uint64_t memoryLimit(size_t archiveBytes) {
+uint64_t memoryLimit(uint64_t archiveBytes) {
   constexpr uint64_t kMaxBytesPerByte = 20;  // A growing array temporarily needs three times its size.
   return std::max(kMaxInstanceBytes, kMaxBytesPerByte * archiveBytes);
 }
 
 /// Markup rarely deflates to less than a tenth.
-uint64_t inflatedLimit(size_t archiveBytes) {
+uint64_t inflatedLimit(uint64_t archiveBytes) {
   constexpr uint64_t kMinLimit = uint64_t{256} << 20, kMaxInflatedBytesPerByte = 100;
   return std::max(kMinLimit, kMaxInflatedBytesPerByte * archiveBytes);
 }
@@ -54,7 +54,7 @@ uint64_t inflatedLimit(size_t archiveBytes) {
 class ThreeMfReader {
  public:
   explicit ThreeMfReader(const MeshSource& source)
-      : source_(source), archive_(source.bytes), models_(memoryLimit(source.bytes.size())) {}
+      : source_(source), archive_(source.bytes), models_(memoryLimit(source.sizeForLimits())) {}
 
   Mesh read();
 
@@ -87,7 +87,7 @@ void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, Xml
   const auto read = [&](char* to, size_t size) {
     const size_t count = stream.read(to, size);
     inflatedBytes_ += count;
-    if (const uint64_t limit = inflatedLimit(source_.bytes.size()); inflatedBytes_ > limit)
+    if (const uint64_t limit = inflatedLimit(source_.sizeForLimits()); inflatedBytes_ > limit)
       throw Error(ErrorCode::InputTooLarge, fmt::format("its files have more than {} MiB", limit >> 20));
     return count;
   };

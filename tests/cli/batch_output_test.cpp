@@ -1,8 +1,10 @@
 #include <sys/stat.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 #include "cli/mesh_tree.h"
 
@@ -32,13 +34,42 @@ TEST_CASE("--json has a line per mesh with the key mesh, also of skipped ones") 
   CHECK_EQ(skippedCount, 9);
 }
 
-TEST_CASE("the pages of a batch have the same bytes each time") {
+TEST_CASE("a glTF mesh is computed again if a file beside it has changed") {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "in");
+  folder.write("in/mesh.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 12, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 144}], "buffers": [{"uri": "mesh.bin", "byteLength": 144}]})");
+  const auto writeData = [&](float height) {
+    const std::array<std::array<float, 3>, 4> p{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}}};
+    std::string bytes;
+    for (const size_t corner : {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3})
+      bytes.append(reinterpret_cast<const char*>(p[corner].data()), sizeof p[corner]);
+    folder.write("in/mesh.bin", bytes);
+  };
+  const auto statuses = [&] {
+    fs::remove(folder / "log");
+    CHECK_EQ(
+        runBatch({"-r", folder / "in", "-o", folder / "out", "--log", folder / "log", "--skip-existing", "--quiet"})
+            .exitCode,
+        0);
+    return statusesIn(folder / "log");
+  };
+  writeData(1);
+  CHECK_EQ(statuses(), StatusCounts{{"done", 1}});
+  CHECK_EQ(statuses(), StatusCounts{{"skipped", 1}});
+  writeData(2);
+  CHECK_EQ(statuses(), StatusCounts{{"done", 1}});
+}
+
+TEST_CASE("the pages of a batch have the same bytes each time, with any number of threads") {
   const ScratchFolder folder;
   fs::create_directory(folder / "in");
   for (const char* name : {"in/a.off", "in/b.off"}) folder.write(name, sphereOff(6));
-  for (const char* out : {"one", "two"})
+  for (const auto& [out, threads] : {std::pair{"one", "1"}, {"two", "2"}})
     CHECK_EQ(runAsdf({"-r", folder / "in", "-o", folder / out, "--backend", "reference", "--format", "html",
-                      "--memory-limit", "100G", "--quiet"})
+                      "--memory-limit", "100G", "--threads", threads, "--quiet"})
                  .exitCode,
              0);
   CHECK_EQ(resultsIn(folder / "one").size(), 2);

@@ -241,6 +241,19 @@ TEST_CASE("Draco: the limit of memory is for all primitives of a file") {
         std::string(kCompressed) + "has 20,000 faces; its accessor has 100");
 }
 
+TEST_CASE("Draco: data in a file beside count for the limit of faces, also beside a compressed document") {
+  const test::PlainMesh grid = test::curvedGrid(100);
+  const std::string draco = encodedDraco(grid, {.bits = 4});
+  json document = dracoDocument(grid, draco.size());
+  json& primitives = document["meshes"][0]["primitives"];
+  primitives = json(10, primitives[0]);
+  document["buffers"][0]["uri"] = "mesh.bin";
+  const test::GltfFolder folder;
+  (void)folder.write("mesh.bin", draco);
+  CHECK(readMesh(folder.write("mesh.gltf", document.dump())).faceCount() == 200'000);
+  CHECK(readMesh(folder.write("mesh.gltf.gz", test::gzipped(document.dump()))).faceCount() == 200'000);
+}
+
 TEST_CASE("Draco: damaged data is refused or read, and never crashes") {
   for (const DracoStyle& style :
        {DracoStyle{}, DracoStyle{.speed = 0, .hasNormals = true, .bits = 11}, DracoStyle{.bits = 11},

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <unistd.h>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -84,5 +87,27 @@ inline nlohmann::json documentOf(const PlainMesh& mesh) {
 }
 
 inline std::string glbOf(const PlainMesh& mesh) { return glbOf(documentOf(mesh), binaryOf(mesh)); }
+
+/// A temporary folder.
+class GltfFolder {
+ public:
+  GltfFolder() : path_(std::filesystem::temp_directory_path() / ("asdfvk-gltf-" + std::to_string(::getpid()))) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~GltfFolder() { std::filesystem::remove_all(path_); }
+  GltfFolder(const GltfFolder&) = delete;
+  GltfFolder& operator=(const GltfFolder&) = delete;
+
+  [[nodiscard]] std::filesystem::path write(const std::string& name, const std::string& contents) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << contents;
+    return path_ / name;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace asdfvk::test

@@ -22,27 +22,6 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 /// An empty folder, which is removed at the end.
-class GltfFolder {
- public:
-  GltfFolder() : path_(fs::temp_directory_path() / ("asdfvk-gltf-" + std::to_string(::getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~GltfFolder() { fs::remove_all(path_); }
-  GltfFolder(const GltfFolder&) = delete;
-  GltfFolder& operator=(const GltfFolder&) = delete;
-
-  [[nodiscard]] fs::path write(const std::string& name, const std::string& contents) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << contents;
-    return path_ / name;
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// A document whose buffer is in a file.
 std::string documentWithUri(const test::PlainMesh& mesh, const std::string& uri) {
   json document = test::documentOf(mesh);
@@ -97,7 +76,7 @@ TEST_CASE("glTF: JSON with two members of one name is refused") {
 }
 
 TEST_CASE("glTF: the data of a .gltf file may be in files beside it and in folders below") {
-  const GltfFolder folder;
+  const test::GltfFolder folder;
   const test::PlainMesh grid = test::curvedGrid(20);
   const Mesh expected = test::parse("glb", test::glbOf(grid));
   for (const auto& [uri, file] : {std::pair{"mesh.bin", "mesh.bin"},
@@ -124,7 +103,7 @@ TEST_CASE("glTF: the data of a .gltf file may be in files beside it and in folde
 }
 
 TEST_CASE("glTF: no file outside of the folder is read, and no file that is not regular") {
-  const GltfFolder outer;
+  const test::GltfFolder outer;
   const test::PlainMesh box = test::box();
   (void)outer.write("mesh.bin", test::binaryOf(box));
   (void)outer.write("inner/short.bin", "too short");
@@ -161,7 +140,7 @@ TEST_CASE("glTF: no file outside of the folder is read, and no file that is not 
 }
 
 TEST_CASE("glTF: bytes after the end of the file or of a buffer are reported") {
-  const GltfFolder folder;
+  const test::GltfFolder folder;
   const test::PlainMesh box = test::box();
   CHECK(skippedOf(test::glbOf(box) + "rubbish") == "7 bytes after the end");
   (void)folder.write("mesh.bin", test::binaryOf(box) + "pad");

@@ -16,20 +16,6 @@ using asdfvk::test::holds;
 namespace {
 
 /// The text as one member of a gzip file.
-std::string gzipped(std::string_view text) {
-  z_stream stream{};
-  REQUIRE(deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK);
-  std::string bytes(deflateBound(&stream, text.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_out = static_cast<uInt>(bytes.size());
-  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
-  bytes.resize(stream.total_out);
-  deflateEnd(&stream);
-  return bytes;
-}
-
 std::string errorOfContent(std::string_view bytes, std::string_view extension = {}) {
   try {
     static_cast<void>(parseMesh(bytes, {.format = std::string(extension)}));
@@ -70,11 +56,11 @@ TEST_CASE("meshes of every format are read from gzip files, by content and by th
                                    {"mesh.gz", binaryTriangle("binary")},
                                    {"counts.off.gz", kContentOff.substr(4)}}) {
     CAPTURE(name);
-    std::ofstream(folder / name, std::ios::binary) << gzipped(text);
+    std::ofstream(folder / name, std::ios::binary) << test::gzipped(text);
     CHECK(readMesh(folder / name).faces == kOneFace);
   }
   // Without the keyword, only the extension says that the content is OFF.
-  const std::string counts = gzipped(kContentOff.substr(4));
+  const std::string counts = test::gzipped(kContentOff.substr(4));
   for (const char* extension : {"off.gz", ".off.gz", "OFF.GZ", "off"})
     CHECK(parseMesh(counts, {.format = extension}).faces == kOneFace);
   CHECK(holds(errorOfContent(counts, "gz"), "unknown format"));
@@ -84,17 +70,18 @@ TEST_CASE("meshes of every format are read from gzip files, by content and by th
 }
 
 TEST_CASE("a gzip file may have several members and zero bytes after them") {
-  const std::string packed = gzipped(kContentObj.substr(0, 10)) + gzipped("") + gzipped(kContentObj.substr(10));
+  const std::string packed =
+      test::gzipped(kContentObj.substr(0, 10)) + test::gzipped("") + test::gzipped(kContentObj.substr(10));
   CHECK(parseMesh(packed).faces == kOneFace);
   CHECK(parseMesh(packed + std::string(512, '\0')).faces == kOneFace);
   CHECK(errorOfContent(packed + "rubbish") == "is compressed by gzip and continues with 7 bytes after its end");
   std::string text = kContentObj;
   for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
-  CHECK(parseMesh(gzipped(text)).faces.size() == 100'001);
+  CHECK(parseMesh(test::gzipped(text)).faces.size() == 100'001);
 }
 
 TEST_CASE("a gzip file that is damaged, truncated, empty or packed twice is refused") {
-  const std::string packed = gzipped(kContentObj);
+  const std::string packed = test::gzipped(kContentObj);
   for (size_t size = 18; size < packed.size(); ++size)
     CHECK(errorOfContent(packed.substr(0, size)) == "is compressed by gzip and truncated");
   for (const size_t fromEnd : {1, 5, 12}) {  // The size, the checksum and the data.
@@ -102,15 +89,15 @@ TEST_CASE("a gzip file that is damaged, truncated, empty or packed twice is refu
     damaged[damaged.size() - fromEnd] ^= 1;
     CHECK(holds(errorOfContent(damaged), "is compressed by gzip and "));
   }
-  CHECK(errorOfContent(gzipped("")) == "is compressed by gzip and has no content");
-  CHECK(errorOfContent(gzipped(packed)) == "is compressed by gzip more than once; unpack it first");
+  CHECK(errorOfContent(test::gzipped("")) == "is compressed by gzip and has no content");
+  CHECK(errorOfContent(test::gzipped(packed)) == "is compressed by gzip more than once; unpack it first");
 }
 
 TEST_CASE("a gzip file with more content than the limit is refused, and limits of faces depend on the content") {
   CHECK(maxUnpackedSize(1) == uint64_t{1} << 30);
   CHECK(maxUnpackedSize(uint64_t{1} << 30) == 20 * (uint64_t{1} << 30));
   // Each member unpacks to 64 MiB.
-  const std::string member = gzipped(std::string(64 << 20, ' '));
+  const std::string member = test::gzipped(std::string(64 << 20, ' '));
   std::string bomb;
   for (int i = 0; i < 17; ++i) bomb += member;
   try {
@@ -132,7 +119,7 @@ TEST_CASE("texts in UTF-16 with a byte order mark are read") {
     for (const std::string& text :
          {kContentObj, kContentOff, kContentPly, kContentStl, "# comment\ng ply\n" + kContentObj}) {
       CHECK(parseMesh(test::utf16(text, isBig)).faces == kOneFace);
-      CHECK(parseMesh(gzipped(test::utf16(text, isBig))).faces == kOneFace);
+      CHECK(parseMesh(test::gzipped(test::utf16(text, isBig))).faces == kOneFace);
       CHECK(holds(errorOfContent(test::utf16(text, isBig) + "x"), "UTF-16 with an odd number of bytes"));
       CHECK(holds(errorOfContent(test::utf16(text, isBig).substr(2)),
                   "UTF-16 without a byte order mark; save it as UTF-8"));
@@ -190,6 +177,6 @@ TEST_CASE("files of formats without a reader are refused with the format and a r
   refused("", "is empty");
   refused("rubbish", "is a Rhino file; export", "3dm");
   refused("rubbish", "is a Parasolid file; export", "X_T");
-  refused(gzipped("BLENDER-v280...."), "is a Blender file");
+  refused(test::gzipped("BLENDER-v280...."), "is a Blender file");
   refused("rubbish", "has an unknown format; meshes are read from", "txt");
 }

@@ -7,6 +7,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Interface_Check.hxx>
+#include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
@@ -69,6 +70,21 @@ class SilentMessenger {
   Message_SequenceOfPrinters kept_;
 };
 
+/// Sets the unit of lengths that were read, a variable of the process that other users of Open CASCADE may have
+/// changed.
+class LengthsInMillimetres {
+ public:
+  LengthsInMillimetres() : kept_(Interface_Static::CVal(kName)) { Interface_Static::SetCVal(kName, "MM"); }
+  ~LengthsInMillimetres() { Interface_Static::SetCVal(kName, kept_.c_str()); }
+  LengthsInMillimetres(const LengthsInMillimetres&) = delete;
+  LengthsInMillimetres& operator=(const LengthsInMillimetres&) = delete;
+
+ private:
+  static constexpr const char* kName = "xstep.cascade.unit";
+
+  std::string kept_;
+};
+
 void require(bool continues) {
   if (!continues) throw Stopped{};
 }
@@ -97,6 +113,7 @@ class StepRead {
   explicit StepRead(StepModuleCall& call) : call_(call) {}
 
   void run() {
+    const LengthsInMillimetres lengths;
     load();
     transfer();
     const double chordError = chooseChordError();

@@ -1,3 +1,5 @@
+#include "trace/cpu/ray_walk.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <limits>
 
 #include "shared/cone_hit.h"
-#include "trace/cpu/ray_walk.h"
 
 namespace asdfvk {
 namespace {
