@@ -58,9 +58,13 @@ struct Mesh {
   double chordError = 0;
   /// Contents of the file that are not part of the surface and were left out, for example "12 points".
   std::vector<std::string> skipped = {};
-  /// Number of negative volumes of a 3MF file, which its program subtracts from the other parts. They are not part of
-  /// the mesh, so that the thickness of its walls is not known.
+  /// Number of negative volumes of a 3MF file, which its program subtracts from the other parts, and of parts of
+  /// unknown types, which may be negative volumes. They are not part of the mesh, so that the thickness of its walls is
+  /// not known.
   uint32_t negativeVolumeCount = 0;
+  /// The greatest step of neighbouring float32 values at the coordinates of the parts of the file, in the unit of the
+  /// mesh: transforms change coordinates, but not the steps that they were rounded to. 0: not float32, or no parts.
+  double float32Step = 0;
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
   /// #I: the number of faces in the file.

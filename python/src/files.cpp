@@ -88,11 +88,11 @@ py::tuple stateOf(const Mesh& mesh) {
   const Polygons& polygons = mesh.polygons;
   return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
                         bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf), mesh.unit, mesh.statedPartCount,
-                        mesh.skipped, mesh.negativeVolumeCount, mesh.chordError);
+                        mesh.skipped, mesh.negativeVolumeCount, mesh.chordError, mesh.float32Step);
 }
 
 Mesh meshOf(const py::tuple& state) {
-  if (state.size() != 10) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have ten members");
+  if (state.size() != 11) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have eleven members");
   Mesh mesh;
   readBytes(state[0], mesh.vertices);
   readBytes(state[1], mesh.faces);
@@ -104,6 +104,7 @@ Mesh meshOf(const py::tuple& state) {
   mesh.skipped = state[7].cast<std::vector<std::string>>();
   mesh.negativeVolumeCount = state[8].cast<uint32_t>();
   mesh.chordError = state[9].cast<double>();
+  mesh.float32Step = state[10].cast<double>();
   return mesh;
 }
 

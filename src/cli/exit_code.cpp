@@ -36,7 +36,7 @@ constexpr Remedy kRemedies[]{
     {ErrorCode::EquationLimit, "use --solver cpu"},
     {ErrorCode::DeviceLost, "try again", "try again", true},
     {ErrorCode::MeshTooLarge, "split the mesh"},
-    {ErrorCode::TooManyFaces, "--max-faces N allows more (a STEP file has fewer with a greater --chord-error)"},
+    {ErrorCode::TooManyFaces, "--max-faces N allows more"},
 };
 
 std::string messageOf(const Error& error, bool requiresGpu, const std::string& valueOptions) {

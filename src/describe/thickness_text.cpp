@@ -121,7 +121,10 @@ std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces) {
     case ThicknessVerdict::NotJudged:
       break;
   }
-  return begin + fmt::format("no wall thinner than {} was found{}", limit, notCounted);
+  const bool isFound = std::any_of(thickness.regions.begin(), thickness.regions.end(),
+                                   [&](const ThinRegion& region) { return thickness.counts(region.kind); });
+  return begin + fmt::format("{} thinner than {} {} found{}", isFound ? "walls" : "no wall", limit,
+                             isFound ? "were" : "was", notCounted);
 }
 
 ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling) {

@@ -168,7 +168,7 @@ Warning partCountDiffers(uint32_t requested, uint32_t found) {
 
 Warning skippedContent(const std::vector<std::string>& skipped) {
   return {WarningCode::SkippedContent,
-          fmt::format("the file also has {}, which was left out", joined(skipped, ", ")),
+          fmt::format("the mesh does not have everything that the file has: {}", joined(skipped, ", ")),
           {{"skipped", joined(skipped, ", ")}}};
 }
 

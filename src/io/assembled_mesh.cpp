@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "mesh/input_faces.h"
 #include "mesh/mesh.h"
+#include "mesh/validation.h"
 
 namespace asdfvk {
 
@@ -44,6 +45,9 @@ void AssembledMesh::add(const PartMesh& part, const Placement& placement) {
   ++partCount_;
   const auto first = static_cast<uint32_t>(vertices_.size());
   for (const Vec3d& p : part.vertices) vertices_.push_back(placement.point(p));
+  const double scale =
+      std::max({length(placement.columns[0]), length(placement.columns[1]), length(placement.columns[2])});
+  float32Step_ = std::max(float32Step_, scale * float32StepOf(part.vertices));
   const bool mirrors = placement.mirrors();
   for (const Face& face : part.faces) {
     faces_.push_back({first + face[0], first + face[1], first + face[2]});
@@ -58,6 +62,7 @@ Mesh AssembledMesh::finish() {
   faces.addTriangles(std::move(faces_));
   faces.moveTo(mesh);
   mesh.statedPartCount = partCount_;
+  mesh.float32Step = float32Step_;
   return mesh;
 }
 

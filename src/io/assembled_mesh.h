@@ -51,6 +51,7 @@ class AssembledMesh {
   std::vector<Vec3d> vertices_;
   std::vector<Face> faces_;
   uint32_t partCount_ = 0;
+  double float32Step_ = 0;
 };
 
 }  // namespace asdfvk

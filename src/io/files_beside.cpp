@@ -28,7 +28,8 @@ std::filesystem::path pathBeside(const std::filesystem::path& file, std::string_
   };
   if (!isRelativeName(name)) fail("which is not a relative name in the folder of this file; export as .glb");
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::canonical(file.has_parent_path() ? file.parent_path() : ".", error);
+  const std::filesystem::path folder =
+      std::filesystem::canonical(file.has_parent_path() ? file.parent_path() : ".", error);
   const std::filesystem::path path = error ? folder : std::filesystem::canonical(folder / name, error);
   if (error) fail(fmt::format("which cannot be opened: {}; export as .glb, or add the file", error.message()));
   if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())

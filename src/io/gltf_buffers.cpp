@@ -100,7 +100,7 @@ std::span<const char> GltfBuffers::embedded(std::string_view uri, std::string_vi
 std::span<const char> GltfBuffers::fileBeside(std::string_view name, std::string_view where) {
   if (source_.beside != nullptr) return source_.beside->read(name, where);
   failGltf(where, fmt::format("its data is in the file {}, which is read only beside a named file; export as .glb, or "
-                              "name the file instead of standard input",
+                              "read the file by its path",
                               asdfvk::quoted(name)));
 }
 

@@ -76,9 +76,6 @@ uint64_t GltfPrimitive::addDecoded(std::vector<Face>& faces, CornerWelder& welde
   const uint64_t pointSize = uint64_t{3} * gltfSizeOf(request.type);
   const GltfAccessor points(mesh.positions.size() / pointSize, {mesh.positions.data(), pointSize, request.type},
                             positions_->isNormalized());
-  if (points.count() > vertexCount())
-    failGltf(where_, fmt::format("its Draco data have {}; its accessor has {}", counted(points.count(), "point"),
-                                 groupDigits(vertexCount())));
   for (const Face& corners : mesh.faces) {
     Face face;
     for (size_t c = 0; c < 3; ++c) face[c] = welder.indexOf(points.vectorAt(corners[c]));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,10 @@ class GltfPrimitive {
   [[nodiscard]] uint64_t mode() const { return mode_; }
   /// Upper bound of the number of triangles that addTo() adds.
   [[nodiscard]] uint64_t faceCount() const;
+  /// Upper bound of the number of vertices of these triangles. Draco data may have more points than the accessor.
+  [[nodiscard]] uint64_t maxVertexCount() const {
+    return draco_ != nullptr ? 3 * faceCount() : std::min(vertexCount(), 3 * faceCount());
+  }
 
   /// Adds the triangles. Returns the number of triangles that the accessors have and the Draco data lacks.
   uint64_t addTo(std::vector<Face>& faces, CornerWelder& welder, const MeshSource& source) const;

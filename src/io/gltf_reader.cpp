@@ -49,7 +49,7 @@ class GltfReader {
         count(primitive, useCounts[mesh]);
         const uint64_t primitiveFaces = std::min(primitive.faceCount(), kTooMany);
         faces = std::min(faces + primitiveFaces, kTooMany);
-        vertices = std::min(vertices + std::min(primitive.vertexCount(), 3 * primitiveFaces), 3 * kTooMany);
+        vertices = std::min(vertices + primitive.maxVertexCount(), 3 * kTooMany);
       });
       withoutPrimitivesCount_ += primitiveCount == 0 ? useCounts[mesh] : 0;
       vertexCount = std::min(vertexCount + product(vertices, useCounts[mesh]), kTooMany);

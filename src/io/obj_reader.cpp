@@ -46,6 +46,7 @@ class ObjReader {
       failAtLine(highestIndexLine_, fmt::format("vertex index {} is out of range; the mesh has {}, numbered from 1",
                                                 highestIndex_, counted(mesh_.vertices.size(), "vertex", "vertices")));
     faces_.moveTo(mesh_);
+    mesh_.skipped = skippedGeometry();
     return std::move(mesh_);
   }
 
@@ -57,14 +58,31 @@ class ObjReader {
     } else if (keyword == "f" || keyword == "fo") {  // fo: obsolete name of f.
       readFace();
     } else if (keyword == "call") {
-      failAtLine(text_.line(), "call refers to another file; other files are never opened");
+      failAtLine(text_.line(), "call refers to another file, which is not opened; copy its content to this place");
     } else if (hasNames(keyword)) {
       text_.skipLine();
     } else if (isKeyword(keyword)) {
+      countGeometry(keyword);
       skipNumbers();
     } else {
       failAtLine(text_.line(), fmt::format("{} is not an OBJ keyword", quoted(keyword)));
     }
+  }
+
+  void countGeometry(std::string_view keyword) {
+    constexpr auto kFreeForms = std::to_array<std::string_view>({"bsp", "bzp", "cdc", "cdp", "curv", "res", "surf"});
+    if (keyword == "l") ++lineCount_;
+    if (keyword == "p") ++pointCount_;
+    if (std::find(kFreeForms.begin(), kFreeForms.end(), keyword) != kFreeForms.end()) ++freeFormCount_;
+  }
+
+  [[nodiscard]] std::vector<std::string> skippedGeometry() const {
+    std::vector<std::string> texts;
+    if (pointCount_ > 0) texts.push_back(counted(pointCount_, "point statement"));
+    if (lineCount_ > 0) texts.push_back(counted(lineCount_, "line statement"));
+    if (freeFormCount_ > 0)
+      texts.push_back(counted(freeFormCount_, "free-form curve or surface", "free-form curves or surfaces"));
+    return texts;
   }
 
   /// Refuses a continuation that begins with a keyword, because the backslash may be there by mistake.
@@ -141,6 +159,7 @@ class ObjReader {
   std::vector<uint32_t> corners_;
   uint64_t highestIndex_ = 0;
   uint64_t highestIndexLine_ = 0;
+  uint64_t pointCount_ = 0, lineCount_ = 0, freeFormCount_ = 0;
 };
 
 Match detectObj(std::span<const char> bytes) {

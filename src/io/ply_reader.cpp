@@ -54,8 +54,8 @@ class PlyBody {
   PlyBody(std::span<const char> bytes, const PlyHeader& header) : header_(header), source_(bytes, header) {}
 
   Mesh read() {
-    for (const PlyElement& element : header_.elements) readElement(element);
     mesh_.skipped = header_.skipped;
+    for (const PlyElement& element : header_.elements) readElement(element);
     if (const uint64_t size = source_.requireEnd(); size > 0)
       mesh_.skipped.push_back(counted(size, "byte") + " after the last row");
     faces_.moveTo(mesh_);
@@ -71,6 +71,8 @@ class PlyBody {
           fmt::format("{} of element {} do not fit into the remaining {}; the file is truncated or the count "
                       "is wrong",
                       counted(element.count, "row"), quoted(element.name), counted(source_.remaining(), "byte")));
+    if (element.role == PlyRole::Other && element.count > 0)
+      mesh_.skipped.push_back(fmt::format("{} of element {}", counted(element.count, "row"), quoted(element.name)));
     uint64_t row = 0;
     if (element.role == PlyRole::Vertices) {
       mesh_.vertices.resize(element.count);

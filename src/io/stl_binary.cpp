@@ -109,13 +109,29 @@ std::optional<uint64_t> endOfPayloads(std::span<const char> bytes, uint64_t face
   return at;
 }
 
-/// Whether bytes after the last face may contain faces: a further STL, or a plausible face with an area.
-bool mayHoldFacets(std::span<const char> rest) {
+/// The greatest magnitude of a coordinate.
+float greatestCoordinate(const char* at, uint64_t faceCount) {
+  float greatest = 0;
+  forEachFacet(at, faceCount, false, [&](const char* bytes) {
+    for (const Vec3f& p : stlFacetAt(bytes).corners)
+      for (size_t axis = 0; axis < 3; ++axis) greatest = std::max(greatest, std::abs(p[axis]));
+  });
+  return greatest;
+}
+
+/// Whether the bytes are a face with an area and a fitting normal, and its coordinates are not much greater than those
+/// of the other faces. Text and numbers rarely pass.
+bool isFurtherFacet(const char* at, float greatest) {
+  constexpr float kMaxRatio = 1000;
+  return areFacesBeyondDoubt(at, 1, false) && greatestCoordinate(at, 1) <= kMaxRatio * greatest;
+}
+
+/// Whether bytes after the last face may contain faces: a further STL, or a face at any offset.
+bool mayHoldFacets(std::span<const char> rest, float greatest) {
   if (hasBinaryStlSize(rest) && headerFaceCount(rest) > 0) return true;
-  bool isFound = false;
-  forEachFacet(rest.data(), rest.size() / kFaceSize, false,
-               [&](const char* at) { isFound = isFound || areFacesBeyondDoubt(at, 1, false); });
-  return isFound;
+  for (size_t at = 0; at + kFaceSize <= rest.size(); ++at)
+    if (isFurtherFacet(rest.data() + at, greatest)) return true;
+  return false;
 }
 
 /// Finds the only reading of the file. Returns nothing if there is none, or more than one.
@@ -135,14 +151,20 @@ std::optional<StlLayout> findStlLayout(std::span<const char> bytes) {
   const bool hasPayloads = faceCount > 0 && endOfPayloads(bytes, faceCount) == bytes.size() &&
                            endOfPayloads(bytes, faceCount - 1) != restAt - kFaceSize &&
                            areFacesBeyondDoubt(first, faceCount, true);
-  if (isWhole && !isPadding && areFacesBeyondDoubt(first, wholeCount, false)) {
+  // A count above 0 is overruled only if each of the further rows is a face.
+  const float greatest = greatestCoordinate(first, faceCount);
+  bool areFurtherFaces = true;
+  if (faceCount > 0 && isWhole)
+    forEachFacet(rest.data(), wholeCount - faceCount, false,
+                 [&](const char* at) { areFurtherFaces = areFurtherFaces && isFurtherFacet(at, greatest); });
+  if (isWhole && !isPadding && areFurtherFaces && areFacesBeyondDoubt(first, wholeCount, false)) {
     if (hasPayloads) return std::nullopt;
     return StlLayout{wholeCount, false, fmt::format("1 wrong face count ({} instead of {})", faceCount, wholeCount)};
   }
   const bool isPlain = faceCount > 0 && areFacesBeyondDoubt(first, faceCount, false);
   if (isPlain == hasPayloads) return std::nullopt;
   if (hasPayloads) return StlLayout{faceCount, true, counted(rest.size(), "byte") + " of data between the faces"};
-  if (mayHoldFacets(rest)) return std::nullopt;
+  if (mayHoldFacets(rest, greatest)) return std::nullopt;
   return StlLayout{faceCount, false, counted(rest.size(), "byte") + " after the last face"};
 }
 

@@ -98,7 +98,7 @@ void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, Xml
 std::string ThreeMfReader::rootPath() {
   constexpr std::string_view kRelationships = "_rels/.rels";
   const ZipEntry* const entry = archive_.find(kRelationships);
-  if (entry == nullptr) failInput("is a ZIP archive but not 3MF: it has no _rels/.rels");
+  if (entry == nullptr) failInput("is a ZIP archive but not 3MF: it has no _rels/.rels; if it has a mesh, unpack it");
   std::optional<std::string> path;
   readPart(*entry, std::string(kRelationships), XmlReader::Prefixes::Resolved, [&](XmlReader& xml) {
     for (XmlReader::Event event = xml.next(); event != XmlReader::Event::Finished; event = xml.next()) {
@@ -203,7 +203,9 @@ Mesh ThreeMfReader::read() {
   Mesh mesh = assembled.finish();
   mesh.unit = model.unit->unit;
   mesh.skipped = std::move(skipped);
-  mesh.negativeVolumeCount = static_cast<uint32_t>(roleCounts_[static_cast<size_t>(PartRole::NegativeVolume)]);
+  const auto countOf = [this](PartRole role) { return roleCounts_[static_cast<size_t>(role)]; };
+  mesh.negativeVolumeCount =
+      static_cast<uint32_t>(countOf(PartRole::NegativeVolume) + countOf(PartRole::Unknown));  // It may be negative.
   return mesh;
 }
 

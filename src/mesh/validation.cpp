@@ -133,19 +133,16 @@ MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
   return defects;
 }
 
-double float32StepOf(const TriangleMesh& mesh, const Box3d& bounds) {
-  const auto isFloat = [](double x) { return !(static_cast<double>(static_cast<float>(x)) != x) || !std::isfinite(x); };
-  if (countInParallel(mesh.vertices.size(), [&](uint32_t vertex) {
-        const Vec3d& p = mesh.vertices[vertex];
-        return !isFloat(p.x) || !isFloat(p.y) || !isFloat(p.z);
-      }) > 0)
-    return 0;
-  double largest = 0;
-  for (size_t axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
-  if (!std::isfinite(largest)) return 0;
-  const auto coordinate = static_cast<float>(largest);
-  return static_cast<double>(coordinate) - static_cast<double>(std::nextafter(coordinate, 0.0f));
+double float32StepOf(std::span<const Vec3d> vertices) {
+  float greatest = 0;
+  for (const Vec3d& p : vertices)
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto coordinate = static_cast<float>(p[axis]);
+      if (!std::isfinite(p[axis])) continue;
+      if (static_cast<double>(coordinate) != p[axis]) return 0;
+      greatest = std::max(greatest, std::abs(coordinate));
+    }
+  return static_cast<double>(greatest) - static_cast<double>(std::nextafter(greatest, 0.0f));
 }
 
 }  // namespace asdfvk

@@ -25,7 +25,7 @@ void requireValidArrays(const MeshView& view);
                                       std::span<const uint32_t> representatives, const EdgeSurvey& edges);
 
 /// The greatest distance of neighbouring float32 values at the coordinates, if all finite coordinates are float32
-/// values, as in binary STL; else 0. bounds: the bounding box of the mesh.
-[[nodiscard]] double float32StepOf(const TriangleMesh& mesh, const Box3d& bounds);
+/// values, as in binary STL; else 0.
+[[nodiscard]] double float32StepOf(std::span<const Vec3d> vertices);
 
 }  // namespace asdfvk

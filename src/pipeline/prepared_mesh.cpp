@@ -192,7 +192,8 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
     prepared.negativeVolumeCount = source->negativeVolumeCount;
     if (prepared.negativeVolumeCount > 0) prepared.warnings.push_back(negativeVolumes(prepared.negativeVolumeCount));
   }
-  prepared.float32Step = float32StepOf(mesh, prepared.geometry.bounds);
+  prepared.float32Step = float32StepOf(mesh.vertices);
+  if (view.mesh() != nullptr) prepared.float32Step = std::max(prepared.float32Step, view.mesh()->float32Step);
   if (const double share = prepared.float32Step / prepared.geometry.bounds.diagonal(); share > kMaxFloat32StepShare)
     prepared.warnings.push_back(coarseCoordinates(prepared.float32Step, share));
   control.checkpoint(0);

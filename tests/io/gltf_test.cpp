@@ -136,7 +136,7 @@ TEST_CASE("glTF: no file outside of the folder is read, and no file that is not 
   const std::string message = test::errorOf("gltf", documentWithUri(box, "mesh.bin"));
   CHECK(message ==
         "buffer 0: its data is in the file 'mesh.bin', which is read only beside a named file; export as "
-        ".glb, or name the file instead of standard input");
+        ".glb, or read the file by its path");
 }
 
 TEST_CASE("glTF: bytes after the end of the file or of a buffer are reported") {
@@ -247,6 +247,18 @@ TEST_CASE("glTF: a small file that describes many faces or sparse elements is re
   const std::string manyAccessors = test::glbOf(document, binary);
   CHECK(test::holds(test::errorOf("glb", manyAccessors), "the sparse parts of this file have more elements than"));
   CHECK(secondsToRead(manyAccessors) < 4);
+}
+
+TEST_CASE("glTF: the steps of float32 positions are those before the transform of a node") {
+  test::PlainMesh far = test::box();
+  for (size_t i = 0; i < far.positions.size(); i += 3) far.positions[i] += 5e6f;  // Steps of 0.5.
+  json document = test::documentOf(far);
+  const auto stepOf = [&] { return test::parse("glb", test::glbOf(document, test::binaryOf(far))).float32Step; };
+  CHECK(stepOf() == 0.5);
+  document["nodes"][0]["translation"] = {-5e6, 0, 0};
+  CHECK(stepOf() == 0.5);
+  document["nodes"][0]["scale"] = {0.001, 0.001, 0.001};
+  CHECK(stepOf() == doctest::Approx(0.0005));
 }
 
 }  // namespace asdfvk

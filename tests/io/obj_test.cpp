@@ -67,7 +67,7 @@ TEST_CASE("errors of an OBJ file name the line and the reason") {
   CHECK(holds(errorOf("obj", "v 0 0 0,5\n"), "line 1: expected a vertex coordinate, found '0,5'"));
   CHECK(holds(errorOf("obj", "v 1 2 3 4 5 6 7 8\n"), "more than seven numbers"));
   CHECK(holds(errorOf("obj", "v 1e400 0 0\n"), "too large"));
-  CHECK(holds(errorOf("obj", kCorners + "call other.obj\n"), "never opened"));
+  CHECK(holds(errorOf("obj", kCorners + "call other.obj\n"), "another file, which is not opened; copy its content"));
   CHECK(holds(errorOf("obj", kCorners + "f 1 \\\n 2 \\\n x\n"), "line 7: 'x' is not a corner"));
 }
 
@@ -112,4 +112,12 @@ TEST_CASE("an undefined number or a decimal comma in OBJ is an error with its ca
   CHECK(holds(errorOf("obj", "v 0 0 +1,5e-3\n"), "decimal comma"));
   CHECK(!holds(errorOf("obj", "v 0 0 1,2,3\n"), "decimal comma"));
   CHECK(parse("obj", "v 0 0 0#comment\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertices.size() == 3);
+}
+
+TEST_CASE("OBJ: geometry that is no face is reported") {
+  const Mesh mesh = parse("obj", kCorners + "f 1 2 3\np 1\nl 1 2\nl 2 3\nsurf 0 1 0 1 1 2 3 4\nend\n");
+  CHECK(mesh.faceCount() == 1);
+  CHECK(mesh.skipped ==
+        std::vector<std::string>{"1 point statement", "2 line statements", "1 free-form curve or surface"});
+  CHECK(parse("obj", kCorners + "vn 0 0 1\ns off\nf 1 2 3\n").skipped.empty());
 }

@@ -74,6 +74,15 @@ TEST_CASE("bytes after the last face of a binary STL are ignored and reported") 
   CHECK(parse("stl", stripStl(12)).skipped.empty());
 }
 
+TEST_CASE("whole rows after the last face of a binary STL that are text or zeros are no faces") {
+  for (const std::string& tail : {std::string("CREATED BY CAD TOOL 7.2, 2026-01-31, UNITS: MM    "),
+                                  std::string(49, '\0') + "x", std::string(50, ' '), std::string(100, '0')}) {
+    const Mesh mesh = parse("stl", stripStl(12) + tail);
+    CHECK(mesh.faces.size() == 12);
+    CHECK(mesh.skipped == Notes{counted(tail.size(), "byte") + " after the last face"});
+  }
+}
+
 TEST_CASE("a binary STL with face count 0 or one that is too small has the faces that its size implies") {
   for (const uint32_t count : {0, 1, 11}) {
     std::string bytes = stripStl(12);
@@ -117,6 +126,9 @@ TEST_CASE("a binary STL whose faces are in doubt is refused with the byte") {
   // A second STL after the first, and further faces with a rest, would be lost.
   CHECK(holds(errorOf("stl", good + good), expected + "1368"));
   CHECK(holds(errorOf("stl", good + good.substr(kStlHeaderSize) + "x"), expected + "1285"));
+  // Also at a position that is no multiple of the size of a face.
+  for (const size_t gap : {1, 3, 49, 57})
+    CHECK(holds(errorOf("stl", good + std::string(gap, '\0') + good.substr(kStlHeaderSize)), expected));
   // Faces without area are no evidence.
   CHECK(errorOf("stl", std::string(80, '\0') + std::string("\1\0\0\0", 4) + std::string(52, '\0')) != "no error");
   CHECK(errorOf("stl", std::string(84 + 500, '\0')) != "no error");
