@@ -110,13 +110,7 @@ void TextScanner::failAtNumber(std::string_view expected) {
   };
   while (isInWord(at_)) ++at_;
   const std::string_view word(begin, static_cast<size_t>(at_ - begin));
-  const size_t hash = std::min(word.find('#'), word.size());
-  std::string remedy;
-  if (isUndefinedNumber(word.substr(hash)))
-    remedy = ", which is not a number: the program that wrote the file had an undefined value; repair the mesh there";
-  else if (hasDecimalComma(std::string(word)))
-    remedy = ": numbers have a decimal comma; write them with a point";
-  failAtLine(line_, fmt::format("expected {}, found {}{}", printable(expected), quoted(word), remedy));
+  failAtLine(line_, fmt::format("expected {}, found {}{}", printable(expected), quoted(word), remedyOfNumber(word)));
 }
 
 int64_t TextScanner::integer(std::string_view expected) {
@@ -147,6 +141,13 @@ void TextScanner::skipLine() {
 std::string_view firstWord(std::span<const char> bytes, char comment) {
   TextScanner text(bytes, {.comment = comment});
   return text.atEnd() ? std::string_view() : text.wordOnLine();
+}
+
+std::string_view remedyOfNumber(std::string_view word) {
+  if (isUndefinedNumber(word.substr(std::min(word.find('#'), word.size()))))
+    return ", which is not a number: the program that wrote the file had an undefined value; repair the mesh there";
+  if (hasDecimalComma(std::string(word))) return ": numbers have a decimal comma; write them with a point";
+  return {};
 }
 
 }  // namespace asdfvk

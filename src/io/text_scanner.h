@@ -98,6 +98,10 @@ class TextScanner {
   uint64_t line_;
 };
 
+/// Why a word is no number, and what to do, for the end of a message: a decimal comma or an undefined value such as
+/// 1.#QNAN. Empty for other words.
+[[nodiscard]] std::string_view remedyOfNumber(std::string_view word);
+
 /// The first word of a text; empty if the text has no word.
 [[nodiscard]] std::string_view firstWord(std::span<const char> bytes, char comment = '\0');
 

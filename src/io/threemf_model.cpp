@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "io/corner_welder.h"
 #include "io/input_failure.h"
+#include "io/text_scanner.h"
 #include "mesh/dual_graph.h"
 
 namespace asdfvk {
@@ -123,7 +124,8 @@ class ModelReader {
 
   double real(std::string_view text, std::string_view what) {
     const std::optional<double> number = numberIn<double>(text.substr(text.starts_with('+') ? 1 : 0));
-    if (!number || !std::isfinite(*number)) xml_.fail(fmt::format("{} {} is not a number", what, asdfvk::quoted(text)));
+    if (!number || !std::isfinite(*number))
+      xml_.fail(fmt::format("{} {} is not a number{}", what, asdfvk::quoted(text), remedyOfNumber(text)));
     return *number;
   }
 

@@ -48,7 +48,7 @@ uint64_t findDirectoryEnd(std::span<const char> bytes) {
     const uint64_t at = bytes.size() - kDirectoryEndSize - comment;
     if (zipNumber<uint32_t>(bytes, at) == kDirectoryEnd && zipNumber<uint16_t>(bytes, at + 20) == comment) return at;
   }
-  failInput("ZIP archive is truncated: it has no directory at its end");
+  failInput("ZIP archive is truncated or continues after its end: it has no directory there; copy or export it again");
 }
 
 struct ZipDirectory {

@@ -198,7 +198,8 @@ TEST_CASE("3MF: objects that are not material by the core specification are left
   for (const auto& [type, phrase] :
        {std::pair{"support", "1 support"}, std::pair{"solidsupport", "1 support"},
         std::pair{"surface", "1 surface without volume"}, std::pair{"other", "1 object of type other"}}) {
-    CAPTURE(type);
+    const std::string shown = type;  // Clang 14 captures no structured binding.
+    CAPTURE(shown);
     const Mesh mesh = read(model(object(1, kMesh) + object(2, kMesh, std::string("type='") + type + "'"), items));
     CHECK(mesh.faceCount() == 4);
     CHECK(skippedIn(mesh) == phrase);
@@ -263,7 +264,8 @@ TEST_CASE("3MF: volumes of PrusaSlicer that are not material are left out and to
        {std::tuple{"NegativeVolume", "1 negative volume", 1u}, std::tuple{"ParameterModifier", "1 modifier", 0u},
         std::tuple{"SupportBlocker", "1 support blocker", 0u}, std::tuple{"SupportEnforcer", "1 support enforcer", 0u},
         std::tuple{"SeamPosition", "1 part of an unknown type", 1u}}) {
-    CAPTURE(type);
+    const std::string shown = type;  // Clang 14 captures no structured binding.
+    CAPTURE(shown);
     const Mesh mesh =
         read(text, {prusaSettings(volume(0, 3, "volume_type", "ModelPart") + volume(4, 7, "volume_type", type) +
                                   volume(8, 11, "volume_type", "ModelPart"))});
@@ -364,4 +366,12 @@ TEST_CASE("3MF: several names of one part are read once, and the bytes of all pa
     uses += "<item objectid='1' xmlns:q='" + kProduction + "' q:path='/big" + std::to_string(i) + "'/>";
   }
   CHECK(errorIn(model("", uses), parts) == "its files have more than 256 MiB");
+}
+
+TEST_CASE("3MF: a decimal comma and an undefined number are named") {
+  const auto withX = [](const std::string& x) {
+    return model(object(1, "<mesh><vertices><vertex x='" + x + "' y='0' z='0'/></vertices><triangles/></mesh>"));
+  };
+  CHECK(holds(errorIn(withX("0,5")), "x '0,5' is not a number: numbers have a decimal comma; write them with a point"));
+  CHECK(holds(errorIn(withX("1.#QNAN")), "the program that wrote the file had an undefined value"));
 }
