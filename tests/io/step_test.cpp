@@ -22,6 +22,30 @@ const std::string kEmptyStep =
     "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
     "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";
 
+}  // namespace
+
+TEST_CASE("STEP is recognised by its first line, and a truncated file is refused") {
+  CHECK(detectFormat(std::span(kEmptyStep.data(), kEmptyStep.size()), "stl")->name == "step");
+  for (const char* extension : {"step", "STP", ".p21"}) CHECK(formatOfExtension(extension)->name == "step");
+  CHECK(errorOf("step", kEmptyStep.substr(0, 60)) == "has no END-ISO-10303-21; the file is truncated");
+}
+
+TEST_CASE("STEP without its module is refused with a remedy") {
+  ::setenv("ASDF_VK_STEP_MODULE", "/nowhere/libasdf-vk-step.so", 1);
+  CHECK(errorOf("step", kEmptyStep) ==
+        "is STEP, which is read by a module that is not installed (libasdf-vk-step.so); export STL or 3MF, or install "
+        "asdf-vk-step (docs/formats.md)");
+  ::setenv("ASDF_VK_STEP_MODULE", ASDFVK_TEST_DIR, 1);
+  CHECK(holds(errorOf("step", kEmptyStep), "its module cannot be loaded"));
+  ::unsetenv("ASDF_VK_STEP_MODULE");
+}
+
+#ifndef ASDFVK_STEP_FILES
+TEST_CASE("bodies of STEP files" * doctest::skip()) { MESSAGE("the module that reads STEP is not built"); }
+#else
+
+namespace {
+
 /// The number of directed edges without the opposite edge.
 uint64_t openEdgeCount(const Mesh& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int64_t> edges;
@@ -55,30 +79,6 @@ std::pair<Vec3d, Vec3d> boundsOf(const Mesh& mesh) {
 void checkPoint(const Vec3d& point, const Vec3d& expected) {
   for (size_t axis = 0; axis < 3; ++axis) CHECK(point[axis] == doctest::Approx(expected[axis]).epsilon(1e-9));
 }
-
-}  // namespace
-
-TEST_CASE("STEP is recognised by its first line, and a truncated file is refused") {
-  CHECK(detectFormat(std::span(kEmptyStep.data(), kEmptyStep.size()), "stl")->name == "step");
-  for (const char* extension : {"step", "STP", ".p21"}) CHECK(formatOfExtension(extension)->name == "step");
-  CHECK(errorOf("step", kEmptyStep.substr(0, 60)) == "has no END-ISO-10303-21; the file is truncated");
-}
-
-TEST_CASE("STEP without its module is refused with a remedy") {
-  ::setenv("ASDF_VK_STEP_MODULE", "/nowhere/libasdf-vk-step.so", 1);
-  CHECK(errorOf("step", kEmptyStep) ==
-        "is STEP, which is read by a module that is not installed (libasdf-vk-step.so); export STL or 3MF, or install "
-        "asdf-vk-step (docs/formats.md)");
-  ::setenv("ASDF_VK_STEP_MODULE", ASDFVK_TEST_DIR, 1);
-  CHECK(holds(errorOf("step", kEmptyStep), "its module cannot be loaded"));
-  ::unsetenv("ASDF_VK_STEP_MODULE");
-}
-
-#ifndef ASDFVK_STEP_FILES
-TEST_CASE("bodies of STEP files" * doctest::skip()) { MESSAGE("the module that reads STEP is not built"); }
-#else
-
-namespace {
 
 struct StepModuleOfBuild {
   StepModuleOfBuild() { ::setenv("ASDF_VK_STEP_MODULE", ASDFVK_STEP_MODULE, 1); }
