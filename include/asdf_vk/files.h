@@ -18,7 +18,8 @@ struct ReadOptions {
   /// Greatest number of faces of the mesh. 0: 100 per byte of the file, and at least 100,000. Small files can describe
   /// many faces by instances.
   uint64_t maxFaces = 0;
-  /// Decides the format of an ambiguous content: "stl", ".OBJ". Empty: the extension of the path.
+  /// The extension of a format, for example "stl" or ".OBJ". It decides if the content is ambiguous. Empty: the
+  /// extension of the path.
   std::string format = {};
   /// Greatest distance between the triangles and the curved surfaces of a STEP file, in `chordErrorUnit`. 0: 1/1000 of
   /// the diagonal of the bounding box. Raised to the resolution, 2^-21 of the longest side of the bounding box. Also,

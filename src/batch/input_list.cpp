@@ -35,10 +35,7 @@ uint64_t byteCountOf(const fs::path& path) {
 }
 
 /// Whether the file is a result of this program, such as "horse.asdf.ply" or "horse.asdf.ply.gz".
-bool isResult(const fs::path& name) {
-  const fs::path unpacked = lowerCase(name.extension().string()) == ".gz" ? name.stem() : name;
-  return unpacked.stem().extension() == ".asdf";
-}
+bool isResult(const fs::path& name) { return unpackedName(name).stem().extension() == ".asdf"; }
 
 class FolderSearch {
  public:
@@ -96,12 +93,11 @@ std::vector<std::string> readList(const InputRequest& request) {
     if (!file) fail(request.list, fmt::format("cannot be opened: {}", std::strerror(errno)));
   }
   std::istream& in = isStandardInput ? std::cin : file;
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::vector<std::string> paths;
   bool isFirst = true;
   for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');) {
     if (!request.isNullSeparated) {  // In a list from Windows, lines end with "\r\n".
-      if (std::exchange(isFirst, false) && path.starts_with(kByteOrderMark)) path.erase(0, kByteOrderMark.size());
+      if (std::exchange(isFirst, false)) path = std::string(withoutByteOrderMark(path));
       if (path.ends_with('\r')) path.pop_back();
     }
     if (!path.empty()) paths.push_back(path);

@@ -39,11 +39,36 @@ template <typename Names>
   return text;
 }
 
-/// "a", "a and b", or "a, b and c".
-[[nodiscard]] inline std::string enumeration(std::span<const std::string> names) {
+/// "a", "a and b", or "a, b and c". last: the word before the last name.
+[[nodiscard]] inline std::string enumeration(std::span<const std::string> names, std::string_view last = "and") {
   std::string text;
-  for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? fmt::format(" {} ", last) : ", ";
+    text += names[i];
+  }
   return text;
+}
+
+/// Replaces "%20" by a blank, and so on. A '%' without two hexadecimal digits remains.
+[[nodiscard]] inline std::string percentDecoded(std::string_view text) {
+  std::string decoded;
+  for (size_t i = 0; i < text.size(); ++i) {
+    uint8_t code = 0;
+    const char* const digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      decoded += static_cast<char>(code);
+      i += 2;
+    } else {
+      decoded += text[i];
+    }
+  }
+  return decoded;
+}
+
+/// The text without a byte order mark of UTF-8 at its beginning.
+[[nodiscard]] inline std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  return text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
 }
 
 /// The parts between separators. An empty last part is left out.

@@ -27,7 +27,7 @@ AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, const Mes
   requireFaceCount(faceCount, source);
   // Dividing the limits avoids an overflow of the product of two counts in a hostile file.
   constexpr uint64_t kMaxBytesPerByte = 64;
-  const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * source.sizeForLimits());
+  const uint64_t limit = source.limit(kMaxInstanceBytes, kMaxBytesPerByte);
   if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||
       vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit)
     throw Error(

@@ -12,8 +12,8 @@ namespace asdfvk {
 /// system.
 [[nodiscard]] UnsetVector<char> fileBytes(const std::filesystem::path& path);
 
-/// Reads a regular file. Throws Error{UnreadableInput}, also for a device, FIFO, folder or symbolic link. The message
-/// begins with `where`.
+/// Reads a regular file. Throws Error{UnreadableInput} if the path is a device, FIFO, folder or symbolic link, or if
+/// the file cannot be read. The message begins with `where`.
 [[nodiscard]] UnsetVector<char> regularFileBytes(const std::filesystem::path& path, std::string_view where);
 
 }  // namespace asdfvk

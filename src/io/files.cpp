@@ -33,12 +33,7 @@ std::vector<std::string> namesOf(HasOperation hasOperation) {
 }
 
 /// The names of the formats that have the operation, for example "stl, ply or off".
-std::string listOf(HasOperation hasOperation) {
-  const std::vector<std::string> names = namesOf(hasOperation);
-  std::string text;
-  for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  return text;
-}
+std::string listOf(HasOperation hasOperation) { return enumeration(namesOf(hasOperation), "or"); }
 
 const FileFormat& findResultFormat(const std::filesystem::path& path, const std::string& name) {
   const FileFormat* const format = formatOfExtension(name.empty() ? path.extension().string() : name);
@@ -66,7 +61,7 @@ Mesh parse(const MeshSource& file) try {
   const std::string extension = extensionFor(file);
   if (format == nullptr) {
     if (const std::string reason = foreignContent(source.bytes); !reason.empty()) failInput(reason);
-    format = detectFormat(source.bytes, extension);
+    format = uncertainFormat(source.bytes, extension);
   }
   if (format == nullptr)
     if (const std::string reason = foreignExtension(extension); !reason.empty()) failInput(reason);

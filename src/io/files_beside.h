@@ -21,8 +21,8 @@ class FilesBeside {
   FilesBeside(std::filesystem::path file, Inspect inspect) : file_(std::move(file)), inspect_(std::move(inspect)) {}
 
   /// The bytes of the file with the relative name `name`, with '/' after each folder. Valid as long as this object.
-  /// Throws Error{UnreadableInput} if the file is no regular file in the folder, also by a symbolic link. The message
-  /// begins with `where`.
+  /// Throws Error{UnreadableInput} if there is no such regular file, or if it is not in the folder after all symbolic
+  /// links are followed. The message begins with `where`.
   [[nodiscard]] std::span<const char> read(std::string_view name, std::string_view where);
   /// The number of bytes of all files that were read.
   [[nodiscard]] uint64_t byteCount() const { return byteCount_; }

@@ -142,9 +142,7 @@ std::string formatWithoutMagic(std::span<const char> bytes, std::string_view tex
 }  // namespace
 
 std::string foreignContent(std::span<const char> bytes) {
-  std::string_view text(bytes.data(), bytes.size());
-  if (constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf"; text.starts_with(kByteOrderMark))
-    text.remove_prefix(kByteOrderMark.size());
+  const std::string_view text = withoutByteOrderMark({bytes.data(), bytes.size()});
   const std::string element = rootElement(text);
   for (const ForeignFormat& format : kForeignFormats) {
     if (!element.empty() && element == format.element) return reasonOf(format);

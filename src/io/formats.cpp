@@ -36,7 +36,7 @@ uint64_t MeshSource::sizeForLimits() const {
 
 uint64_t MeshSource::maxFaceCount() const {
   constexpr uint64_t kFacesPerByte = 100, kSmallestLimit = 100'000;
-  return options.maxFaces != 0 ? options.maxFaces : std::max(kSmallestLimit, kFacesPerByte * sizeForLimits());
+  return options.maxFaces != 0 ? options.maxFaces : limit(kSmallestLimit, kFacesPerByte);
 }
 
 void requireFaceCount(uint64_t faceCount, const MeshSource& source) {
@@ -61,15 +61,20 @@ const FileFormat* formatOfExtension(std::string_view extension) {
   return nullptr;
 }
 
-std::string meshExtension(const std::filesystem::path& name) {
-  std::string extension = name.extension().string();
-  return lowerCase(extension) == ".gz" ? name.stem().extension().string() : extension;
+std::filesystem::path unpackedName(const std::filesystem::path& name) {
+  return lowerCase(name.extension().string()) == ".gz" ? name.parent_path() / name.stem() : name;
 }
+
+std::string meshExtension(const std::filesystem::path& name) { return unpackedName(name).extension().string(); }
 
 const FileFormat* certainFormat(std::span<const char> bytes) { return firstWith(Match::Certain, bytes); }
 
 const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension) {
-  if (const FileFormat* const certain = certainFormat(bytes)) return certain;
+  const FileFormat* const certain = certainFormat(bytes);
+  return certain != nullptr ? certain : uncertainFormat(bytes, extension);
+}
+
+const FileFormat* uncertainFormat(std::span<const char> bytes, std::string_view extension) {
   const FileFormat* const named = formatOfExtension(extension);
   return named != nullptr ? named : firstWith(Match::Possible, bytes);
 }

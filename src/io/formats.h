@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <span>
@@ -32,6 +33,10 @@ struct MeshSource {
   /// The size on which limits depend: the number of bytes with those of files beside, but for a compressed file at most
   /// kMaxUnpackRatio times the packed size.
   [[nodiscard]] uint64_t sizeForLimits() const;
+  /// A limit that grows with this size.
+  [[nodiscard]] uint64_t limit(uint64_t least, uint64_t perByte) const {
+    return std::max(least, perByte * sizeForLimits());
+  }
 
   /// The greatest number of faces that the reader may return.
   [[nodiscard]] uint64_t maxFaceCount() const;
@@ -77,14 +82,20 @@ struct FileFormat {
 /// extension: in upper or lower case, with or without the dot. Null if unknown.
 [[nodiscard]] const FileFormat* formatOfExtension(std::string_view extension);
 
+/// The name without the extension of gzip: "part.stl" for "part.stl.gz". Other names stay as they are.
+[[nodiscard]] std::filesystem::path unpackedName(const std::filesystem::path& name);
+
 /// The extension that names the format of a mesh: ".stl" for "part.stl" and for "part.stl.gz".
 [[nodiscard]] std::string meshExtension(const std::filesystem::path& name);
 
 /// The first format with Match::Certain, or null.
 [[nodiscard]] const FileFormat* certainFormat(std::span<const char> bytes);
 
-/// Tests in this order: certainFormat(), the format of the extension, the first format with Match::Possible. Returns
-/// null if there is none of these.
+/// The format of the extension, else the first format with Match::Possible. Null if there is neither. Precondition:
+/// certainFormat() is null.
+[[nodiscard]] const FileFormat* uncertainFormat(std::span<const char> bytes, std::string_view extension);
+
+/// certainFormat(), else uncertainFormat().
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 
 }  // namespace asdfvk

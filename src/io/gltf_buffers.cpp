@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
+#include "core/text.h"
 #include "io/base64_text.h"
 #include "io/files_beside.h"
 #include "io/input_failure.h"
@@ -21,22 +21,6 @@ const GltfJson* meshoptOf(const GltfJson& json, std::string_view where) {
   for (const char* const name : kMeshoptExtensions)
     if (const GltfJson* const extension = gltfExtension(json, name, where)) return extension;
   return nullptr;
-}
-
-/// Replaces %20 by a blank, and so on. Leaves a '%' without two hexadecimal digits as it is.
-std::string percentDecoded(std::string_view uri) {
-  std::string text;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    uint8_t code = 0;
-    const char* const digits = uri.data() + i + 1;
-    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-      text += static_cast<char>(code);
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
 }
 
 MeshoptView meshoptViewOf(const GltfJson& json, const std::string& where) {
@@ -123,7 +107,7 @@ GltfView GltfBuffers::view(uint64_t index, std::string_view where) {
   const GltfJson& json = gltfItem(document_, "bufferViews", index, where);
   const std::string name = fmt::format("buffer view {}", index);
   if (const GltfJson* const compression = meshoptOf(json, name)) {
-    // The view itself may have the same elements without compression, for programs without a decoder.
+    // For programs without a decoder, the view itself may have the elements without compression.
     const uint64_t buffer = gltfWhole(json, "buffer", std::nullopt, name);
     const GltfJson& bufferJson = gltfItem(document_, "buffers", buffer, name);
     const bool isPlain = hasData(buffer, bufferJson, name) && !requiresDecoding_ &&
@@ -141,7 +125,7 @@ GltfView GltfBuffers::decoded(uint64_t index, const GltfJson& compression, const
   if (isNew) {
     const std::span<const char> bytes = range(compression, where);
     constexpr uint64_t kLeastLimit = uint64_t{64} << 20, kDecodedBytesPerByte = 64;
-    const uint64_t limit = std::max(kLeastLimit, kDecodedBytesPerByte * source_.sizeForLimits());
+    const uint64_t limit = source_.limit(kLeastLimit, kDecodedBytesPerByte);
     if (view.count > (limit - decodedByteCount_) / view.stride)
       failGltf(where, fmt::format("the compressed views of this file need more than {} MiB; export without compression",
                                   limit >> 20));

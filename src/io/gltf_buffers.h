@@ -13,7 +13,7 @@
 
 namespace asdfvk {
 
-/// The bytes of a buffer view. stride: its byteStride, if it has one; always for a view that was compressed.
+/// The bytes of a buffer view. stride: set if the view states byteStride, or if it was decoded.
 struct GltfView {
   std::span<const char> bytes;
   std::optional<uint64_t> stride;

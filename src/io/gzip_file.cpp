@@ -1,16 +1,15 @@
 #include "io/gzip_file.h"
 
 #include <fmt/core.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <string_view>
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
 #include "io/formats.h"
+#include "io/inflater.h"
 #include "io/input_failure.h"
 
 namespace asdfvk {
@@ -18,32 +17,18 @@ namespace {
 
 constexpr size_t kMinGzipSize = 18;  // A member of no bytes: 10 bytes of header, 2 of data and 8 of checksum and size.
 
-/// Inflates one member after the other.
-class GzipInflater {
+/// Reads one member after the other.
+class GzipReader {
  public:
-  explicit GzipInflater(std::span<const char> bytes) : rest_(bytes) {
-    constexpr int kGzipHeader = 16;
-    if (inflateInit2(&stream_, MAX_WBITS + kGzipHeader) != Z_OK) throw std::bad_alloc();
-  }
-  ~GzipInflater() { inflateEnd(&stream_); }
-  GzipInflater(const GzipInflater&) = delete;
-  GzipInflater& operator=(const GzipInflater&) = delete;
+  explicit GzipReader(std::span<const char> bytes) : inflater_(MAX_WBITS + kGzipHeader), rest_(bytes) {}
 
   /// Reads up to `size` bytes; fewer only at the end of the file.
   size_t read(char* to, size_t size) {
     size_t count = 0;
     while (count < size && beginMember()) {
-      constexpr size_t kMaxStep = size_t{1} << 30;  // zlib counts in 32 bits.
-      const size_t given = std::min(rest_.size(), kMaxStep), wanted = std::min(size - count, kMaxStep);
-      stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));
-      stream_.avail_in = static_cast<uInt>(given);
-      stream_.next_out = reinterpret_cast<Bytef*>(to + count);
-      stream_.avail_out = static_cast<uInt>(wanted);
-      const int result = inflate(&stream_, Z_NO_FLUSH);
-      rest_ = rest_.subspan(given - stream_.avail_in);
-      count += wanted - stream_.avail_out;
+      count += inflater_.inflatePiece(rest_, to + count, size - count);
+      const int result = inflater_.result();
       isInMember_ = result != Z_STREAM_END;
-      if (result == Z_MEM_ERROR) throw std::bad_alloc();
       if (result == Z_BUF_ERROR) failInput("is compressed by gzip and truncated");
       if (result != Z_OK && result != Z_STREAM_END) endDamagedMember();
     }
@@ -51,6 +36,8 @@ class GzipInflater {
   }
 
  private:
+  static constexpr int kGzipHeader = 16;  // Makes zlib expect the header of gzip.
+
   /// Returns false at the end of the file.
   bool beginMember() {
     if (isInMember_) return true;
@@ -58,14 +45,14 @@ class GzipInflater {
     if (!isGzip(rest_))
       failInput(
           fmt::format("is compressed by gzip and continues with {} after its end", counted(rest_.size(), "byte")));
-    inflateReset(&stream_);
+    inflater_.reset();
     isInMember_ = hasMember_ = true;
     return true;
   }
 
   void endDamagedMember() {
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // A fuzzer cannot guess checksums.
-    if (stream_.msg != nullptr && std::string_view(stream_.msg).ends_with("check")) {
+    if (inflater_.message().ends_with("check")) {
       rest_ = {};
       isInMember_ = false;
       return;
@@ -74,7 +61,7 @@ class GzipInflater {
     failInput("is compressed by gzip and damaged; copy or download it again");
   }
 
-  z_stream stream_{};
+  Inflater inflater_;
   std::span<const char> rest_;
   bool isInMember_ = false, hasMember_ = false;
 };
@@ -100,11 +87,11 @@ uint64_t maxUnpackedSize(uint64_t packedSize) {
 
 UnsetVector<char> unpackGzip(std::span<const char> bytes) {
   const uint64_t limit = maxUnpackedSize(bytes.size());
-  GzipInflater inflater(bytes);
+  GzipReader reader(bytes);
   // One byte more than expected, so that the read that detects the end needs no larger buffer.
   UnsetVector<char> unpacked(std::min(expectedSize(bytes), limit) + 1);
   for (size_t size = 0;;) {
-    size += inflater.read(unpacked.data() + size, unpacked.size() - size);
+    size += reader.read(unpacked.data() + size, unpacked.size() - size);
     if (size > limit)
       throw Error(
           ErrorCode::InputTooLarge,

@@ -147,11 +147,11 @@ std::optional<StlLayout> findStlLayout(std::span<const char> bytes) {
   const std::span<const char> rest = bytes.subspan(restAt);
   const bool isPadding = std::all_of(rest.begin(), rest.end(), [](char c) { return c == '\0'; });
 
-  // If only the last face has a payload, the faces are the same with and without payloads.
+  // If only the last face has a payload, both readings give the same faces.
   const bool hasPayloads = faceCount > 0 && endOfPayloads(bytes, faceCount) == bytes.size() &&
                            endOfPayloads(bytes, faceCount - 1) != restAt - kFaceSize &&
                            areFacesBeyondDoubt(first, faceCount, true);
-  // A count above 0 is overruled only if each of the further rows is a face.
+  // A count above 0 is wrong only if each row after the counted ones is a face.
   const float greatest = greatestCoordinate(first, faceCount);
   bool areFurtherFaces = true;
   if (faceCount > 0 && isWhole)

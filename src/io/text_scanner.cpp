@@ -13,8 +13,6 @@
 namespace asdfvk {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
 /// Whether a decimal number outside of the range of double is too small (and not too large). from_chars reports the
 /// same error for both.
 bool isTiny(std::string_view number) {
@@ -57,7 +55,7 @@ TextScanner::TextScanner(std::span<const char> bytes, TextSyntax syntax, uint64_
   for (const char c : {'\n', '\r'}) classes_[static_cast<unsigned char>(c)] = CharClass::LineBreak;
   if (syntax.comment != '\0') classes_[static_cast<unsigned char>(syntax.comment)] = CharClass::Comment;
   if (syntax.backslashContinues) classes_['\\'] = CharClass::Backslash;
-  if (std::string_view(at_, bytes.size()).starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
+  at_ += bytes.size() - withoutByteOrderMark({at_, bytes.size()}).size();
 }
 
 bool TextScanner::isContinuation(const char* p) const {

@@ -40,21 +40,21 @@ struct ObjectCounts {
   }
 };
 
-uint64_t memoryLimit(uint64_t archiveBytes) {
+uint64_t memoryLimit(const MeshSource& source) {
   constexpr uint64_t kMaxBytesPerByte = 20;  // A growing array temporarily needs three times its size.
-  return std::max(kMaxInstanceBytes, kMaxBytesPerByte * archiveBytes);
+  return source.limit(kMaxInstanceBytes, kMaxBytesPerByte);
 }
 
 /// Markup rarely deflates to less than a tenth.
-uint64_t inflatedLimit(uint64_t archiveBytes) {
+uint64_t inflatedLimit(const MeshSource& source) {
   constexpr uint64_t kMinLimit = uint64_t{256} << 20, kMaxInflatedBytesPerByte = 100;
-  return std::max(kMinLimit, kMaxInflatedBytesPerByte * archiveBytes);
+  return source.limit(kMinLimit, kMaxInflatedBytesPerByte);
 }
 
 class ThreeMfReader {
  public:
   explicit ThreeMfReader(const MeshSource& source)
-      : source_(source), archive_(source.bytes), models_(memoryLimit(source.sizeForLimits())) {}
+      : source_(source), archive_(source.bytes), models_(memoryLimit(source)) {}
 
   Mesh read();
 
@@ -87,7 +87,7 @@ void ThreeMfReader::readPart(const ZipEntry& entry, const std::string& path, Xml
   const auto read = [&](char* to, size_t size) {
     const size_t count = stream.read(to, size);
     inflatedBytes_ += count;
-    if (const uint64_t limit = inflatedLimit(source_.sizeForLimits()); inflatedBytes_ > limit)
+    if (const uint64_t limit = inflatedLimit(source_); inflatedBytes_ > limit)
       throw Error(ErrorCode::InputTooLarge, fmt::format("its files have more than {} MiB", limit >> 20));
     return count;
   };

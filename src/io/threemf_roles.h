@@ -43,7 +43,7 @@ using RoleCounts = std::array<uint64_t, kPartRoleCount>;
 struct PartSetting {
   std::string_view source;     ///< File or element, for messages.
   std::optional<uint64_t> id;  ///< The object that is the part: a component, or the object itself.
-  bool isRange = false;        ///< The part is the triangles first .. last of the object.
+  bool isRange = false;        ///< The part has the triangles from `first` to `last` of the object.
   uint64_t first = 0, last = 0;
   PartRole role = PartRole::Material;
 
@@ -65,8 +65,8 @@ void readPartSettings(XmlReader& xml, std::string_view file, const std::function
 /// Reads the attributes of an element slic3r:volume of Slic3r.
 [[nodiscard]] PartSetting slic3rVolume(const XmlReader& xml);
 
-/// Removes the triangles of the ranges that are not material, and the vertices that only these triangles have. Adds
-/// the ranges to the counts. Throws Error{UnreadableInput} if a range is not within the mesh or overlaps another range.
+/// Removes the triangles of the ranges that are not material, and the vertices that no other triangle has. Adds the
+/// ranges to the counts. Throws Error{UnreadableInput} if a range is not within the mesh or overlaps another range.
 void removeRanges(std::vector<PartSetting> ranges, PartMesh& mesh, RoleCounts& counts);
 
 }  // namespace asdfvk

@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <limits>
-#include <new>
-#include <optional>
 #include <string>
 
 #include "core/text.h"
+#include "io/inflater.h"
 #include "io/input_failure.h"
 
 namespace asdfvk {
@@ -103,24 +101,13 @@ void requireDisjoint(std::span<const ZipEntry> entries, uint64_t directoryOffset
   }
 }
 
-std::optional<char> byteOfHex(std::string_view digits) {
-  uint8_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-  if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2) return std::nullopt;
-  return static_cast<char>(value);
-}
-
 }  // namespace
 
 std::string partName(std::string_view name) {
-  std::string decoded;
   if (name.starts_with('/') || name.starts_with('\\')) name.remove_prefix(1);
-  for (size_t i = 0; i < name.size(); ++i) {
-    const std::optional<char> byte = name[i] == '%' ? byteOfHex(name.substr(i + 1, 2)) : std::nullopt;
-    decoded += byte ? *byte : name[i] == '\\' ? '/' : name[i];
-    if (byte) i += 2;
-  }
-  return lowerCase(decoded);
+  std::string path(name);
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return lowerCase(percentDecoded(path));
 }
 
 ZipArchive::ZipArchive(std::span<const char> bytes) : bytes_(bytes) {
@@ -158,18 +145,6 @@ const ZipEntry* ZipArchive::find(std::string_view name) const {
   return entry;
 }
 
-struct ZipStream::Inflater {
-  z_stream stream{};
-  bool isAtEnd = false;
-
-  Inflater() {
-    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
-  }
-  ~Inflater() { inflateEnd(&stream); }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-};
-
 ZipStream::ZipStream(const ZipArchive& archive, const ZipEntry& entry) : entry_(entry) {
   const std::span<const char> header = zipPart(archive.bytes(), entry.headerOffset, kLocalHeaderSize);
   if (zipNumber<uint32_t>(header, 0) != kLocalHeader)
@@ -178,7 +153,7 @@ ZipStream::ZipStream(const ZipArchive& archive, const ZipEntry& entry) : entry_(
                          uint64_t{zipNumber<uint16_t>(header, 28)};
   stored_ = zipPart(archive.bytes(), begin, entry.storedSize);
   if (entry.method == kDeflated)
-    inflater_ = std::make_unique<Inflater>();
+    inflater_ = std::make_unique<Inflater>(-MAX_WBITS);
   else if (entry.method != kStored)
     failInput(
         fmt::format("ZIP archive: {} is encrypted, or compressed by a method other than deflate", zipName(entry)));
@@ -193,20 +168,9 @@ size_t ZipStream::read(char* to, size_t size) {
     if (count > 0) std::memcpy(to, stored_.data(), count);
     stored_ = stored_.subspan(count);
   } else {
-    z_stream& stream = inflater_->stream;
-    constexpr size_t kMaxStep = size_t{1} << 30;  // zlib counts in 32 bits.
-    while (count < size && !inflater_->isAtEnd) {
-      const size_t given = std::min(stored_.size(), kMaxStep), wanted = std::min(size - count, kMaxStep);
-      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(stored_.data()));
-      stream.avail_in = static_cast<uInt>(given);
-      stream.next_out = reinterpret_cast<Bytef*>(to + count);
-      stream.avail_out = static_cast<uInt>(wanted);
-      const int result = inflate(&stream, Z_NO_FLUSH);
-      stored_ = stored_.subspan(given - stream.avail_in);
-      count += wanted - stream.avail_out;
-      inflater_->isAtEnd = result == Z_STREAM_END;
-      if (result == Z_MEM_ERROR) throw std::bad_alloc();
-      if (result != Z_OK && result != Z_STREAM_END)
+    while (count < size && inflater_->result() != Z_STREAM_END) {
+      count += inflater_->inflatePiece(stored_, to + count, size - count);
+      if (inflater_->result() != Z_OK && inflater_->result() != Z_STREAM_END)
         failInput(fmt::format("ZIP archive: {} is damaged", zipName(entry_)));
     }
   }

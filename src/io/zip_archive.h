@@ -11,6 +11,8 @@
 
 namespace asdfvk {
 
+class Inflater;
+
 struct ZipEntry {
   std::string_view name;
   uint64_t headerOffset = 0;
@@ -55,7 +57,6 @@ class ZipStream {
   [[nodiscard]] size_t read(char* to, size_t size);
 
  private:
-  struct Inflater;
   void finish();
 
   const ZipEntry& entry_;
