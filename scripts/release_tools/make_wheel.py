@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import re
 import shutil
@@ -17,15 +18,18 @@ from licences import add_licences
 
 # Packages whose headers are compiled into the module.
 _HEADER_PACKAGES = ("libeigen3-dev", "libvulkan-dev", "libvulkan-volk-dev", "nlohmann-json3-dev", "python3-pybind11")
+# Optional in other builds. A wheel contains the same libraries wherever it is built.
+_REQUIRED = ("draco", "meshoptimizer")
 
 
 def _say(text: str) -> None:
     print(f"wheel: {text}", file=sys.stderr, flush=True)
 
 
-def _run(log: pathlib.Path, *command: str | pathlib.Path) -> None:
+def _run(log: pathlib.Path, *command: str | pathlib.Path, cmake_args: str = "") -> None:
+    environment = {**os.environ, "CMAKE_ARGS": f"{cmake_args} {os.environ.get('CMAKE_ARGS', '')}"}
     with log.open("a") as output:
-        subprocess.run(command, check=True, stdout=output, stderr=subprocess.STDOUT)
+        subprocess.run(command, check=True, stdout=output, stderr=subprocess.STDOUT, env=environment)
 
 
 def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
@@ -34,7 +38,8 @@ def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
     for left in pathlib.Path("build").glob("lib.*"):
         shutil.rmtree(left)
     options = ["--no-build-isolation", "--no-deps", "--no-index", f"--wheel-dir={folder}"]
-    _run(log, sys.executable, "-m", "pip", "wheel", ".", *options)
+    required = " ".join(f"-DCMAKE_REQUIRE_FIND_PACKAGE_{name}=ON" for name in _REQUIRED)
+    _run(log, sys.executable, "-m", "pip", "wheel", ".", *options, cmake_args=required)
     return next(folder.glob("*.whl"))
 
 

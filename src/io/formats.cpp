@@ -45,7 +45,8 @@ void requireFaceCount(uint64_t faceCount, const MeshSource& source) {
   const std::string which =
       source.options.maxFaces != 0 ? "" : fmt::format(" for a file of {}", counted(source.sizeForLimits(), "byte"));
   throw Error(ErrorCode::TooManyFaces,
-              fmt::format("has {}; the limit{} is {}", counted(faceCount, "face"), which, groupDigits(limit)),
+              fmt::format("has {}{}; the limit{} is {}", faceCount == kSaturatedCount ? "at least " : "",
+                          counted(faceCount, "face"), which, groupDigits(limit)),
               {{"limit", std::to_string(limit)}});
 }
 

@@ -42,6 +42,9 @@ struct MeshSource {
   [[nodiscard]] uint64_t maxFaceCount() const;
 };
 
+/// Counts of faces and vertices saturate at this number, which is far above any limit.
+inline constexpr uint64_t kSaturatedCount = uint64_t{1} << 50;
+
 /// Throws Error{TooManyFaces} if faceCount is greater than source.maxFaceCount().
 void requireFaceCount(uint64_t faceCount, const MeshSource& source);
 

@@ -54,18 +54,21 @@ GltfFile::GltfFile(const MeshSource& source) : source_(source) {
 /// Returns the binary chunk.
 std::optional<std::span<const char>> GltfFile::readChunks() {
   const std::span<const char> bytes = source_.bytes;
-  if (bytes.size() < kGlbHeaderSize + kChunkGlbHeaderSize) failInput("binary glTF is truncated in its header");
+  if (bytes.size() < kGlbHeaderSize + kChunkGlbHeaderSize)
+    failInput("binary glTF is truncated in its header; copy or export it again");
   if (const uint32_t version = glbWordAt(bytes, 4); version != 2)
     failInput(fmt::format("binary glTF version {}; version 2 is read: convert the file", version));
   const uint64_t length = glbWordAt(bytes, 8);
   if (length > bytes.size())
-    failInput(
-        fmt::format("binary glTF has {} bytes by its header; this file has {} and is truncated", length, bytes.size()));
+    failInput(fmt::format(
+        "binary glTF has {} bytes by its header; this file has {} and is truncated; copy or export it again", length,
+        bytes.size()));
   trailingByteCount_ = bytes.size() - length;
   std::optional<std::span<const char>> binary;
   uint64_t at = kGlbHeaderSize;
   for (uint32_t chunk = 0; chunk == 0 || at < length; ++chunk) {
-    if (length < at + kChunkGlbHeaderSize) failAtByte(at, "truncated in the header of a chunk");
+    if (length < at + kChunkGlbHeaderSize)
+      failAtByte(at, "truncated in the header of a chunk; copy or export the file again");
     const uint64_t chunkLength = glbWordAt(bytes, at);
     const uint32_t type = glbWordAt(bytes, at + 4);
     at += kChunkGlbHeaderSize;

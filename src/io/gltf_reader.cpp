@@ -47,13 +47,13 @@ class GltfReader {
       uint64_t vertices = 0, faces = 0;
       const uint64_t primitiveCount = forEachPrimitive(mesh, [&](const GltfPrimitive& primitive) {
         count(primitive, useCounts[mesh]);
-        const uint64_t primitiveFaces = std::min(primitive.faceCount(), kTooMany);
-        faces = std::min(faces + primitiveFaces, kTooMany);
-        vertices = std::min(vertices + primitive.maxVertexCount(), 3 * kTooMany);
+        const uint64_t primitiveFaces = std::min(primitive.faceCount(), kSaturatedCount);
+        faces = std::min(faces + primitiveFaces, kSaturatedCount);
+        vertices = std::min(vertices + primitive.maxVertexCount(), 3 * kSaturatedCount);
       });
       withoutPrimitivesCount_ += primitiveCount == 0 ? useCounts[mesh] : 0;
-      vertexCount = std::min(vertexCount + product(vertices, useCounts[mesh]), kTooMany);
-      faceCount = std::min(faceCount + product(faces, useCounts[mesh]), kTooMany);
+      vertexCount = std::min(vertexCount + product(vertices, useCounts[mesh]), kSaturatedCount);
+      faceCount = std::min(faceCount + product(faces, useCounts[mesh]), kSaturatedCount);
     }
     if (faceCount == 0) failWithoutFaces(meshCount);
     AssembledMesh assembled(vertexCount, faceCount, source_);
@@ -70,9 +70,9 @@ class GltfReader {
   }
 
  private:
-  /// Counts saturate at this number, which is far above any limit.
-  static constexpr uint64_t kTooMany = uint64_t{1} << 50;
-  static uint64_t product(uint64_t a, uint64_t b) { return b != 0 && a > kTooMany / b ? kTooMany : a * b; }
+  static uint64_t product(uint64_t a, uint64_t b) {
+    return b != 0 && a > kSaturatedCount / b ? kSaturatedCount : a * b;
+  }
 
   [[noreturn]] void failWithoutFaces(uint64_t meshCount) const {
     std::string found = joined(skipped(), " and ");

@@ -29,7 +29,7 @@ class GzipReader {
       count += inflater_.inflatePiece(rest_, to + count, size - count);
       const int result = inflater_.result();
       isInMember_ = result != Z_STREAM_END;
-      if (result == Z_BUF_ERROR) failInput("is compressed by gzip and truncated");
+      if (result == Z_BUF_ERROR) failInput("is compressed by gzip and truncated; copy or download it again");
       if (result != Z_OK && result != Z_STREAM_END) endDamagedMember();
     }
     return count;

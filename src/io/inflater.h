@@ -17,8 +17,8 @@ class Inflater {
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  /// Inflates a piece of `from` into at most `size` bytes at `to`. Removes the bytes that were used from `from`. Returns
-  /// the number of bytes that were written. Throws std::bad_alloc.
+  /// Inflates a piece of `from` into at most `size` bytes at `to`. Removes the bytes that were used from `from`.
+  /// Returns the number of bytes that were written. Throws std::bad_alloc.
   [[nodiscard]] size_t inflatePiece(std::span<const char>& from, char* to, size_t size);
   /// The result of inflate() for the last piece: Z_OK, Z_STREAM_END, or an error.
   [[nodiscard]] int result() const { return result_; }

@@ -167,7 +167,8 @@ class PlyBinarySource {
   Out take(PlyType type, std::string_view expected) {
     last_ = at_;
     if (remaining() < sizeOf(type))
-      fail(fmt::format("the file ends where {} is expected; it is truncated", printable(expected)));
+      fail(fmt::format("the file ends where {} is expected; it is truncated; copy or export it again",
+                       printable(expected)));
     const Out value = loadPly<Out, kIsSwapped>(bytes_.data() + at_, type);
     at_ += sizeOf(type);
     return value;

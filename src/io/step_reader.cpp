@@ -153,7 +153,8 @@ std::vector<std::string> StepReader::skippedOf(const StepModuleCall& call) const
 
 Mesh StepReader::read() {
   const std::string_view text(source_.bytes.data(), source_.bytes.size());
-  if (text.find(kStepEnd) == text.npos) failInput(fmt::format("has no {}; the file is truncated", kStepEnd));
+  if (text.find(kStepEnd) == text.npos)
+    failInput(fmt::format("has no {}; the file is truncated; copy or export it again", kStepEnd));
   const StepModuleFunction readStep = stepModule();
   StepModuleCall call{.version = kStepModuleVersion,
                       .bytes = source_.bytes.data(),

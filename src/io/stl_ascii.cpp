@@ -141,6 +141,15 @@ class AsciiStlReader {
     }
     return true;
   }
+  /// Skips the numbers after the word `color` within a face.
+  void skipColour() {
+    ++textLineCount_;
+    while (!text_.atLineEnd()) {
+      TextScanner ahead = text_;
+      if (!numberIn<double>(ahead.wordOnLine())) return;
+      text_ = ahead;
+    }
+  }
   void skipComment() {
     ++commentCount_;
     text_.skipLine();
@@ -161,11 +170,15 @@ class AsciiStlReader {
   /// keyword: also `endloop` or `endfacet`, which may be divided into two words.
   void requireKeyword(std::string_view keyword) {
     std::string_view word = text_.word(keyword);
-    if (isStlWord(word, keyword)) return;
-    if (beginsStlComment(word)) {
-      skipComment();
-      word = nextWord(keyword);
+    for (; !isStlWord(word, keyword); word = text_.word(keyword)) {
+      if (beginsStlComment(word))
+        skipComment();
+      else if (isStlWord(word, "color"))
+        skipColour();
+      else
+        break;
     }
+    if (isStlWord(word, keyword)) return;
     if (!isStlWord(word, keyword) && !(keyword.starts_with("end") && isEnd(word, keyword.substr(3))))
       failAtLine(text_.line(), fmt::format("expected '{}', found {}", keyword, quoted(word)));
   }

@@ -180,7 +180,7 @@ std::optional<StlLayout> findStlLayout(std::span<const char> bytes) {
   const uint64_t faceCount = headerFaceCount(bytes), expectedSize = kHeaderSize + faceCount * kFaceSize;
   const std::string sizes = fmt::format("binary STL with {} must have {} bytes; this file has {}",
                                         counted(faceCount, "face"), expectedSize, bytes.size());
-  if (expectedSize > bytes.size()) failInput(sizes + " and is truncated");
+  if (expectedSize > bytes.size()) failInput(sizes + " and is truncated; copy or export it again");
   failAtByte(expectedSize, sizes +
                                " and continues after the last face, so that the number and the places of its faces "
                                "are in doubt; export it again");

@@ -73,7 +73,8 @@ std::string_view TextScanner::scanWord() {
 
 void TextScanner::requireWord(std::string_view expected) {
   if (atEnd())
-    failAtLine(line_, fmt::format("the file ends where {} is expected; it is truncated", printable(expected)));
+    failAtLine(line_, fmt::format("the file ends where {} is expected; it is truncated; copy or export it again",
+                                  printable(expected)));
 }
 
 std::string_view TextScanner::word(std::string_view expected) {

@@ -34,9 +34,8 @@ struct ObjectCounts {
   uint32_t height = 1;  ///< Levels of components, the object included.
 
   void add(const ObjectCounts& other) {
-    constexpr uint64_t kTooMany = uint64_t{1} << 50;
-    vertices = std::min(vertices + other.vertices, kTooMany);
-    faces = std::min(faces + other.faces, kTooMany);
+    vertices = std::min(vertices + other.vertices, kSaturatedCount);
+    faces = std::min(faces + other.faces, kSaturatedCount);
   }
 };
 
@@ -193,6 +192,8 @@ Mesh ThreeMfReader::read() {
   if (model.unprintedCount > 0)
     skipped.push_back(counted(model.unprintedCount, "build item that is not to be printed",
                               "build items that are not to be printed"));
+  if (const uint64_t count = archive_.trailingByteCount(); count > 0)
+    skipped.push_back(counted(count, "byte") + " after the end of the archive");
   if (all.faces == 0)
     failInput(skipped.empty() && model.items.empty()
                   ? "builds nothing: it has no build item"

@@ -57,7 +57,8 @@ bool isUtf16Text(std::span<const char> bytes) {
 }
 
 std::string utf8Of(std::span<const char> utf16) {
-  if (utf16.size() % 2 != 0) failInput("is a text in UTF-16 with an odd number of bytes; it is truncated");
+  if (utf16.size() % 2 != 0)
+    failInput("is a text in UTF-16 with an odd number of bytes; it is truncated; copy or export it again");
   const Utf16Units units(utf16);
   constexpr uint32_t kHigh = 0xd800, kLow = 0xdc00, kReplacement = 0xfffd;
   std::string text;

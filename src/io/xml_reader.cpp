@@ -158,7 +158,8 @@ void XmlReader::parsePiece() {
     const XML_Error error = XML_GetErrorCode(parser_.get());
     if (error == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
     const bool isCut = isAtEnd_ && (error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN);
-    failure_ = isCut && depth_ > 0 ? "truncated: an element has no end" : XML_ErrorString(error);
+    failure_ = isCut && depth_ > 0 ? "truncated: an element has no end; copy or export the file again"
+                                   : XML_ErrorString(error);
     failureByte_ = currentByte();
   } else if (readBytes_ - std::min(currentByte(), readBytes_) > kMaxToken) {
     stop(fmt::format("a tag or comment of more than {} KiB", kMaxToken >> 10));

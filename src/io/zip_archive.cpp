@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "core/text.h"
@@ -26,43 +27,55 @@ constexpr uint16_t kStored = 0, kDeflated = 8;
 constexpr uint16_t kIsEncrypted = 1;
 constexpr uint32_t kIsWide = std::numeric_limits<uint32_t>::max();
 
+[[noreturn]] void failDamagedZip() {
+  failInput("ZIP archive is damaged: a number points beyond its end; copy or export it again");
+}
+
 template <typename T>
 T zipNumber(std::span<const char> bytes, uint64_t at) {
-  if (at > bytes.size() || sizeof(T) > bytes.size() - at) failInput("ZIP archive is truncated");
+  if (at > bytes.size() || sizeof(T) > bytes.size() - at) failDamagedZip();
   T value;
   std::memcpy(&value, bytes.data() + at, sizeof value);
   return value;
 }
 
 std::span<const char> zipPart(std::span<const char> bytes, uint64_t at, uint64_t size) {
-  if (at > bytes.size() || size > bytes.size() - at) failInput("ZIP archive is truncated");
+  if (at > bytes.size() || size > bytes.size() - at) failDamagedZip();
   return bytes.subspan(at, size);
 }
 
-/// The offset of the end-of-directory record. A comment may follow the record.
+/// The offset of the last end-of-directory record whose comment ends at the end of the file. If there is none, the last
+/// record that other bytes follow.
 uint64_t findDirectoryEnd(std::span<const char> bytes) {
-  constexpr size_t kMaxComment = std::numeric_limits<uint16_t>::max();
-  for (size_t comment = 0; comment <= kMaxComment && comment + kDirectoryEndSize <= bytes.size(); ++comment) {
-    const uint64_t at = bytes.size() - kDirectoryEndSize - comment;
-    if (zipNumber<uint32_t>(bytes, at) == kDirectoryEnd && zipNumber<uint16_t>(bytes, at + 20) == comment) return at;
+  constexpr size_t kMaxRest = std::numeric_limits<uint16_t>::max();
+  std::optional<uint64_t> last;
+  for (size_t rest = 0; rest <= kMaxRest && rest + kDirectoryEndSize <= bytes.size(); ++rest) {
+    const uint64_t at = bytes.size() - kDirectoryEndSize - rest;
+    if (zipNumber<uint32_t>(bytes, at) != kDirectoryEnd) continue;
+    const auto comment = zipNumber<uint16_t>(bytes, at + 20);
+    if (comment == rest) return at;
+    if (comment < rest && !last) last = at;
   }
-  failInput("ZIP archive is truncated or continues after its end: it has no directory there; copy or export it again");
+  if (last) return *last;
+  failInput("ZIP archive is truncated: it has no directory at its end; copy or export it again");
 }
 
 struct ZipDirectory {
   uint64_t count = 0, size = 0, offset = 0;
+  uint64_t trailingByteCount = 0;
 };
 
 ZipDirectory findDirectory(std::span<const char> bytes) {
   const uint64_t end = findDirectoryEnd(bytes);
+  const uint64_t trailing = bytes.size() - end - kDirectoryEndSize - zipNumber<uint16_t>(bytes, end + 20);
   if (end >= kWideLocatorSize && zipNumber<uint32_t>(bytes, end - kWideLocatorSize) == kWideLocator) {
     const auto at = zipNumber<uint64_t>(bytes, end - kWideLocatorSize + 8);
     const std::span<const char> wide = zipPart(bytes, at, kWideDirectoryEndSize);
     if (zipNumber<uint32_t>(wide, 0) != kWideDirectoryEnd) failInput("ZIP archive has a wrong offset of its directory");
-    return {zipNumber<uint64_t>(wide, 32), zipNumber<uint64_t>(wide, 40), zipNumber<uint64_t>(wide, 48)};
+    return {zipNumber<uint64_t>(wide, 32), zipNumber<uint64_t>(wide, 40), zipNumber<uint64_t>(wide, 48), trailing};
   }
   return {zipNumber<uint16_t>(bytes, end + 10), zipNumber<uint32_t>(bytes, end + 12),
-          zipNumber<uint32_t>(bytes, end + 16)};
+          zipNumber<uint32_t>(bytes, end + 16), trailing};
 }
 
 /// Replaces numbers that do not fit into 32 bits by the numbers of the ZIP64 extra field.
@@ -112,6 +125,7 @@ std::string partName(std::string_view name) {
 
 ZipArchive::ZipArchive(std::span<const char> bytes) : bytes_(bytes) {
   const ZipDirectory directory = findDirectory(bytes);
+  trailingByteCount_ = directory.trailingByteCount;
   std::span<const char> rest = zipPart(bytes, directory.offset, directory.size);
   if (directory.count > rest.size() / kDirectoryHeaderSize)
     failInput(fmt::format("ZIP archive: its directory is too small for {}", counted(directory.count, "file")));

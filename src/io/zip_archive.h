@@ -37,9 +37,12 @@ class ZipArchive {
   /// several.
   [[nodiscard]] const ZipEntry* find(std::string_view name) const;
   [[nodiscard]] std::span<const char> bytes() const { return bytes_; }
+  /// Number of bytes after the end of the archive, at most 65,535.
+  [[nodiscard]] uint64_t trailingByteCount() const { return trailingByteCount_; }
 
  private:
   std::span<const char> bytes_;
+  uint64_t trailingByteCount_ = 0;
   std::vector<ZipEntry> entries_;
   std::map<std::string, std::pair<const ZipEntry*, uint32_t>> entriesOf_;  ///< First entry and their number, by name.
 };

@@ -84,7 +84,7 @@ TEST_CASE("a gzip file may have several members and zero bytes after them") {
 TEST_CASE("a gzip file that is damaged, truncated, empty or packed twice is refused") {
   const std::string packed = test::gzipped(kContentObj);
   for (size_t size = 18; size < packed.size(); ++size)
-    CHECK(errorOfContent(packed.substr(0, size)) == "is compressed by gzip and truncated");
+    CHECK(errorOfContent(packed.substr(0, size)) == "is compressed by gzip and truncated; copy or download it again");
   for (const size_t fromEnd : {1, 5, 12}) {  // The size, the checksum and the data.
     std::string damaged = packed;
     damaged[damaged.size() - fromEnd] ^= 1;

@@ -27,7 +27,8 @@ const std::string kEmptyStep =
 TEST_CASE("STEP is recognised by its first line, and a truncated file is refused") {
   CHECK(detectFormat(std::span(kEmptyStep.data(), kEmptyStep.size()), "stl")->name == "step");
   for (const char* extension : {"step", "STP", ".p21"}) CHECK(formatOfExtension(extension)->name == "step");
-  CHECK(errorOf("step", kEmptyStep.substr(0, 60)) == "has no END-ISO-10303-21; the file is truncated");
+  CHECK(errorOf("step", kEmptyStep.substr(0, 60)) ==
+        "has no END-ISO-10303-21; the file is truncated; copy or export it again");
 }
 
 TEST_CASE("STEP without its module is refused with a remedy") {

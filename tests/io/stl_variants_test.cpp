@@ -154,6 +154,11 @@ TEST_CASE("text of an ASCII STL that is no face is ignored and reported") {
                {"2 lines of text between the faces"});
   requireFaces("solid a\ncolor 0.5 0.5 1\n" + facetAt(0) + "endsolid a\n", 1, line);
   requireFaces("solid a\n" + facetAt(0) + "  color 1 0 0\n" + facetAt(1) + "endsolid a\n", 2, line);
+  std::string within = facetAt(0);
+  within.insert(within.find("outer"), "color .5 1 0 ");
+  requireFaces("solid a\n" + within + "endsolid\n", 1, line);
+  within.insert(within.find("outer"), "\n");
+  requireFaces("solid a\n" + within + "endsolid\n", 1, line);
   requireFaces("solid a name\nof two lines\n" + facetAt(0) + "endsolid a name\nof two lines\n", 1,
                {"2 lines of text between the faces"});
   requireFaces("; from CAD\nsolid a\n// all of it\n" + facetAt(0) + "# facet normal 0 0 1\n" + facetAt(1) +

@@ -77,7 +77,7 @@ TEST_CASE("the XML reader resolves namespaces, also below the root") {
 TEST_CASE("the XML reader refuses what is not well-formed, after the tags before it") {
   CHECK(tagsOf("") == "!d, byte 0: no element found");
   CHECK(tagsOf("<a><b></a>") == "<a<b!d, byte 8: mismatched tag");
-  CHECK(tagsOf("<a><b") == "<a!d, byte 3: truncated: an element has no end");
+  CHECK(tagsOf("<a><b") == "<a!d, byte 3: truncated: an element has no end; copy or export the file again");
   CHECK(tagsOf("<a><b/>").starts_with("<a<b>!d, byte 7: truncated"));
   CHECK(tagsOf("<a/><b/>") == "<a>!d, byte 4: junk after document element");
   CHECK(tagsOf("<a b='1' b='2'/>") == "!d, byte 9: duplicate attribute");

@@ -116,6 +116,18 @@ TEST_CASE("a ZIP archive that is cut at any byte is refused") {
   }
 }
 
+TEST_CASE("bytes after the end of a ZIP archive are counted") {
+  for (const std::string_view comment : {"", "comment"})
+    for (const size_t count : {size_t{1}, size_t{30}, size_t{65535 - 7}}) {
+      CAPTURE(count);
+      const std::string bytes = madeArchive(kTwoFiles, comment) + std::string(count, '\n');
+      CHECK(contentsIn(bytes, "b.txt") == kLongText);
+      CHECK(ZipArchive(bytes).trailingByteCount() == count);
+    }
+  CHECK(contentsIn(madeArchive(kTwoFiles) + std::string(65536, '\n'), "b.txt")
+            .starts_with("error: ZIP archive is trunc"));
+}
+
 TEST_CASE("a changed byte of a ZIP archive never gives other contents") {
   const std::string good = madeArchive(kTwoFiles, "comment");
   for (size_t at = 0; at < good.size(); ++at)
