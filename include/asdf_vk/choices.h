@@ -36,8 +36,13 @@ inline constexpr ChoiceNames<Postprocess, 2> kPostprocesses{{{"none", Postproces
 inline constexpr ChoiceNames<Segmentation, 3> kSegmentations{
     {{"none", Segmentation::None}, {"parts", Segmentation::Parts}, {"cgal", Segmentation::Cgal}}};
 
-inline constexpr ChoiceNames<Measure, 3> kMeasures{
-    {{"sdf", Measure::ShapeDiameter}, {"thickness", Measure::Thickness}, {"both", Measure::Both}}};
+inline constexpr ChoiceNames<Measure, 7> kMeasures{{{"sdf", Measure::ShapeDiameter},
+                                                    {"thickness", Measure::Thickness},
+                                                    {"both", Measure::Both},
+                                                    {"gap", Measure::Gap},
+                                                    {"sdf,gap", Measure::DiameterAndGap},
+                                                    {"thickness,gap", Measure::ThicknessAndGap},
+                                                    {"sdf,thickness,gap", Measure::All}}};
 
 inline constexpr ChoiceNames<CgalExpansion, 2> kCgalExpansions{
     {{"all", CgalExpansion::All}, {"first", CgalExpansion::First}}};

@@ -131,28 +131,51 @@ struct PartsOptions {
 inline constexpr uint32_t kMaxPartCount = 100;
 inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 
-/// Quantities that are measured at each face.
-enum class Measure {
-  ShapeDiameter,  ///< Fields "sdf" and "seed".
-  Thickness,      ///< Fields "thickness" and "least_thickness" (docs/thickness.md). Traces no rays.
-  Both,
+/// Quantities that are measured at each face, as a set of bits.
+enum class Measure : uint8_t {
+  ShapeDiameter = 1,  ///< Fields "sdf" and "seed".
+  Thickness = 2,      ///< Fields "thickness" and "least_thickness" (docs/thickness.md). Traces no rays.
+  Both = 3,
+  Gap = 4,  ///< Fields "gap" and "least_gap": the width of the space in front of the face. Traces no rays.
+  DiameterAndGap = 5,
+  ThicknessAndGap = 6,
+  All = 7,
 };
+[[nodiscard]] constexpr bool includes(Measure set, Measure measure) {
+  return (static_cast<uint8_t>(set) & static_cast<uint8_t>(measure)) != 0;
+}
+[[nodiscard]] constexpr Measure united(Measure a, Measure b) {
+  return static_cast<Measure>(static_cast<uint8_t>(a) | static_cast<uint8_t>(b));
+}
 
 enum class LengthUnit { OfMesh, Micrometre, Millimetre, Centimetre, Metre, Inch, Foot };
+
+/// A length above 0. Units other than OfMesh require a mesh with a unit (Mesh::unit).
+struct LengthLimit {
+  double value = 0;
+  LengthUnit unit = LengthUnit::OfMesh;
+
+  LengthLimit(double value_, LengthUnit unit_ = LengthUnit::OfMesh)  // NOLINT: implicit by design
+      : value(value_), unit(unit_) {}
+  bool operator==(const LengthLimit&) const = default;
+};
 
 /// Wall thickness at a point of the surface: the diameter of the largest ball that touches the point from inside and
 /// contains no point of an opposing wall (docs/thickness.md). All faces are measured; Options::seeds has no effect.
 struct ThicknessOptions {
   /// Two faces are opposing walls if their normals differ by at least this angle; above 90 and at most 180.
   double wallAngleDegrees = 120;
-  /// Limit of the thickness, above 0, in `limitUnit`. The report lists the connected parts of the surface that are
-  /// thinner than the limit. Implies Measure::Thickness.
-  std::optional<double> thinnerThan;
-  /// Unit of thinnerThan. Units other than OfMesh require a mesh with a unit (Mesh::unit).
-  LengthUnit limitUnit = LengthUnit::OfMesh;
-  /// Whether details fail the check, too (ThinKind). Requires thinnerThan.
+  /// Limit of the thickness. The report lists the connected parts of the surface that are thinner than the limit.
+  /// Implies Measure::Thickness.
+  std::optional<LengthLimit> thinnerThan;
+  /// Limit of the greatest section of each body. Implies Measure::Thickness.
+  std::optional<LengthLimit> thickerThan;
+  /// Limit of the gaps within a body and between bodies: as thinnerThan, with inside and outside exchanged. Implies
+  /// Measure::Gap.
+  std::optional<LengthLimit> closerThan;
+  /// Whether details fail the checks, too (ThinKind). Requires thinnerThan or closerThan.
   bool countsDetails = false;
-  /// Whether details and edges fail the check, too. Requires thinnerThan.
+  /// Whether details and edges fail the checks, too. Requires thinnerThan or closerThan.
   bool countsEdges = false;
   /// Whether the next wall, or without a limit the least wall (ThicknessReport::min), is searched to the end. If not,
   /// the search ends where it would take longer than a check usually does.
@@ -220,11 +243,12 @@ struct Options {
   [[nodiscard]] bool postprocesses() const {
     return postprocess == Postprocess::Cgal || segmentation == Segmentation::Cgal;
   }
-  [[nodiscard]] bool measuresThickness() const { return measure != Measure::ShapeDiameter; }
+  [[nodiscard]] bool measuresThickness() const { return includes(measure, Measure::Thickness); }
+  [[nodiscard]] bool measuresGap() const { return includes(measure, Measure::Gap); }
   /// Also true if segments, skeleton points, a check or RoundOptions need the shape diameter.
   [[nodiscard]] bool measuresDiameter() const {
-    return measure != Measure::Thickness || postprocesses() || segmentation != Segmentation::None || computesCentres ||
-           checkCount || rounds.areSet();
+    return includes(measure, Measure::ShapeDiameter) || postprocesses() || segmentation != Segmentation::None ||
+           computesCentres || checkCount || rounds.areSet();
   }
 };
 

@@ -194,9 +194,11 @@ struct PartsReport {
   std::vector<double> areaShares;  ///< Share of each part in the area of all faces; the sum is 1.
 };
 
-/// What a thin place is. L is the limit (docs/thickness.md).
+/// What a thin place is. L is the limit (docs/thickness.md). In a report on gaps, the space between two surfaces is
+/// thin.
 enum class ThinKind {
   Wall,    ///< A point whose surroundings are all thin, and nowhere much thinner than the point. Fails the check.
+  Gap,     ///< A wall of the space: a slot of a body, or a clearance between bodies. Fails the check.
   Detail,  ///< Too small for a wall at L, but a wall at a smaller limit, such as a low rib or a letter.
   Edge,    ///< Any other thin place: the shape tapers off there.
 };
@@ -209,8 +211,12 @@ struct ThinRegion {
   ThinKind kind = ThinKind::Edge;  ///< The greatest kind of all points of the region: a wall if a point is a wall.
   /// The least thickness of all points of this kind. Beside a wall that tapers, its surface is thinner than this.
   double min = 0;
-  uint64_t minFace = 0;     ///< Input face with this thickness.
-  Vec3d place, opposite;    ///< Point of this thickness on the face, and its counterpart on the opposing wall.
+  uint64_t minFace = 0;   ///< Input face with this thickness.
+  Vec3d place, opposite;  ///< Point of this thickness on the face, and its counterpart on the opposing wall.
+  /// Input face of the counterpart; unset if a body is thin as a whole.
+  std::optional<uint64_t> oppositeFace;
+  /// Names of the one or two bodies at the place, or "component 3"; empty if the mesh has one body without a name.
+  std::vector<std::string> bodies;
   double least = 0;         ///< The least thickness of all points of the region; 0 at a sharp edge.
   double angleDegrees = 0;  ///< Angle between the two surfaces at the place of `least`; 0 if they are parallel.
   double width = 0;         ///< Mean width of the thin surface, on both sides of an edge together.
@@ -219,10 +225,24 @@ struct ThinRegion {
   double areaShare = 0;     ///< `area` divided by the area of the mesh, or of the computed region.
 };
 
-/// The largest ball inside of a closed component.
+/// The largest ball inside of a closed component, or of the space in a sealed void.
 struct SectionBall {
   double diameter = 0;  ///< Diameter of the ball.
   Vec3d centre;         ///< Centre of the ball.
+};
+
+/// A part of the space without a way out. Lengths are in the unit of the mesh.
+struct SealedVoid {
+  double volume = 0;                     ///< Without the bodies inside.
+  uint64_t face = 0;                     ///< An input face of its boundary.
+  Vec3d place;                           ///< The barycentre of a triangle of this face.
+  Vec3d size;                            ///< Sides of the bounding box.
+  std::vector<std::string> looseBodies;  ///< Names of the bodies that lie loose inside.
+};
+
+/// Two bodies that touch, cross or overlap: there is no gap, also not of width 0.
+struct BodyContact {
+  std::vector<std::string> bodies;  ///< Their names, see ThinRegion::bodies.
 };
 
 /// Result of comparing the thickness with a limit.
@@ -233,6 +253,25 @@ enum class ThicknessVerdict {
 };
 /// The name of an enumerator with a small first letter, for example "notJudged".
 [[nodiscard]] ASDFVK_API const char* nameOf(ThicknessVerdict verdict);
+
+/// A body whose largest ball inside is greater than ThicknessOptions::thickerThan.
+struct ThickBody {
+  std::vector<std::string> bodies;  ///< Its name, see ThinRegion::bodies.
+  double diameter = 0;              ///< Diameter of a large ball inside; the largest has at least this diameter.
+  Vec3d centre;                     ///< Centre of the ball.
+};
+
+/// The largest balls inside of the bodies. The diameter of the largest ball of a body is its greatest thickness.
+struct ThickReport {
+  double thickerThan = 0;  ///< The limit.
+  /// Failed: a ball is greater than 1.001 of the limit. NotJudged: none was found, but a component is not closed, or
+  /// the search ended early.
+  ThicknessVerdict verdict = ThicknessVerdict::Passed;
+  std::string sentence;  ///< The verdict in one sentence.
+  /// The diameter of the largest ball that was found, divided by ThicknessReport::min; NaN if one of them is not known.
+  double ratio = kNoValue;
+  std::vector<ThickBody> bodies;  ///< The bodies that are thicker than the limit, the thickest first.
+};
 
 /// Why faces cannot be compared with a limit.
 enum class UnjudgedCause {
@@ -275,12 +314,14 @@ struct UnjudgedFaces {
   [[nodiscard]] bool preventVerdict() const { return !reasons.empty(); }
 };
 
-/// The wall thickness (docs/thickness.md). Lengths are in the unit of the mesh.
+/// The wall thickness (docs/thickness.md), or the width of gaps. Lengths are in the unit of the mesh. In a report on
+/// gaps, the thickness is that of the space, walls are gaps, and ThinKind::Gap replaces ThinKind::Wall.
 struct ThicknessReport {
+  bool isOfGaps = false;                    ///< The report is on gaps.
   std::optional<ThicknessVerdict> verdict;  ///< Unset without a limit.
   /// The first line of the text report: the verdict in one sentence. Without a limit, the least wall.
   std::string sentence;
-  std::optional<double> thinnerThan;  ///< The limit.
+  std::optional<double> thinnerThan;  ///< The limit: ThicknessOptions::thinnerThan or closerThan.
   bool countsDetails = false;         ///< Details fail the check, too.
   bool countsEdges = false;           ///< Details and edges fail the check, too.
   /// Failed: the least thickness of all thin regions that count. Otherwise: the next wall, which is the least wall at
@@ -302,9 +343,11 @@ struct ThicknessReport {
   double thinArea = kNoValue, thinAreaShare = kNoValue;
   /// Thin regions: walls, then details, then edges, each by ascending `min`. Empty without a limit.
   std::vector<ThinRegion> regions;
+  std::optional<ThickReport> thick;  ///< Set with ThicknessOptions::thickerThan.
 
   [[nodiscard]] bool counts(ThinKind kind) const {
-    return kind == ThinKind::Wall || countsEdges || (countsDetails && kind == ThinKind::Detail);
+    return kind == ThinKind::Wall || kind == ThinKind::Gap || countsEdges ||
+           (countsDetails && kind == ThinKind::Detail);
   }
 };
 
@@ -349,6 +392,9 @@ struct Report {
   std::optional<uint32_t> segmentCount;
   std::optional<PartsReport> parts;             ///< Set if the segmentation is "parts".
   std::optional<ThicknessReport> thickness;     ///< Set if the result has the field "thickness".
+  std::optional<ThicknessReport> gap;           ///< Set if the result has the field "gap".
+  std::vector<SealedVoid> voids;                ///< Sealed voids, if the result has the field "gap".
+  std::vector<BodyContact> contacts;            ///< Bodies in contact, if the result has the field "gap".
   std::optional<ErrorEstimate> estimatedError;  ///< Unset if every face is a seed or no estimate was requested.
   std::optional<CheckReport> check;             ///< Unset if no check was requested.
   MeshDefects defects;                          ///< Defects of the mesh.

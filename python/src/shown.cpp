@@ -72,14 +72,15 @@ Result shownResult(const MeshView& mesh, const RunControl& control) {
 /// What pages and pictures show of the report of a computation.
 struct ShownReport {
   ReportTexts texts;
-  ThicknessReport thickness;  ///< Has no limit if the thickness was not measured.
+  std::optional<ThicknessReport> thickness, gap;
   ThinSurface thinSurface;
 };
 
 /// Sets the fields and, from the report, the thin places.
 void setShown(Result& result, std::vector<Field>&& fields, const std::optional<ShownReport>& report) {
   result.fields = std::move(fields);
-  result.report.thickness = report ? report->thickness : ThicknessReport();
+  result.report.thickness = report ? report->thickness : std::nullopt;
+  result.report.gap = report ? report->gap : std::nullopt;
   result.thinSurface = report ? report->thinSurface : ThinSurface();
 }
 
@@ -101,8 +102,8 @@ void writePicture(const std::filesystem::path& path, const py::object& mesh, con
 }
 
 ShownReport shownReport(const Result& result) {
-  return {reportTexts(result.report, true, OptionSpelling::SnakeCase),
-          result.report.thickness.value_or(ThicknessReport()), result.thinSurface};
+  return {reportTexts(result.report, true, OptionSpelling::SnakeCase), result.report.thickness, result.report.gap,
+          result.thinSurface};
 }
 
 py::list summaryOf(const ShownReport& shown) {
@@ -111,34 +112,74 @@ py::list summaryOf(const ShownReport& shown) {
   return rows;
 }
 
+Json jsonOf(const Vec3d& p) { return {p.x, p.y, p.z}; }
+Vec3d pointOf(const Json& json) { return {json[0], json[1], json[2]}; }
+
+Json stateOf(const ThinRegion& r) {
+  return {r.kind,         r.min,   r.minFace,   jsonOf(r.place), jsonOf(r.opposite), r.bodies, r.least,
+          r.angleDegrees, r.width, r.faceCount, r.area,          r.areaShare};
+}
+
+ThinRegion regionOf(const Json& s) {
+  return {.kind = s[0],
+          .min = s[1],
+          .minFace = s[2],
+          .place = pointOf(s[3]),
+          .opposite = pointOf(s[4]),
+          .bodies = s[5],
+          .least = s[6],
+          .angleDegrees = s[7],
+          .width = s[8],
+          .faceCount = s[9],
+          .area = s[10],
+          .areaShare = s[11]};
+}
+
+/// What pages and pictures show of a measure that was compared with a limit; null if it was not.
+Json stateOf(const std::optional<ThicknessReport>& report) {
+  if (!report || !report->thinnerThan) return nullptr;
+  Json least;  // NaN is no number of JSON.
+  if (report->minFace) least = {report->min, *report->minFace, jsonOf(*report->minPlace)};
+  Json regions = Json::array();
+  for (const ThinRegion& region : report->regions) regions.push_back(stateOf(region));
+  return {report->isOfGaps,    *report->thinnerThan, *report->verdict,  report->countsDetails,
+          report->countsEdges, std::move(least),     std::move(regions)};
+}
+
+std::optional<ThicknessReport> thicknessOf(const Json& s) {
+  if (s.is_null()) return std::nullopt;
+  ThicknessReport report;
+  report.isOfGaps = s[0];
+  report.thinnerThan = s[1].get<double>();
+  report.verdict = s[2].get<ThicknessVerdict>();
+  report.countsDetails = s[3];
+  report.countsEdges = s[4];
+  if (!s[5].is_null()) {
+    report.min = s[5][0];
+    report.minFace = s[5][1].get<uint64_t>();
+    report.minPlace = pointOf(s[5][2]);
+  }
+  for (const Json& region : s[6]) report.regions.push_back(regionOf(region));
+  return report;
+}
+
 /// The report as text for pickle. Bytes that are not UTF-8 are replaced.
 py::tuple stateOfShown(const ShownReport& shown) {
-  const auto& [texts, thickness, surface] = shown;
-  const Json json = Json::array({texts.summary, texts.errorSentence, texts.warnings, texts.defects});
-  std::vector<Vec3d> places;
-  if (thickness.minPlace) places.push_back(*thickness.minPlace);
-  return py::make_tuple(json.dump(-1, ' ', true, Json::error_handler_t::replace), thickness.thinnerThan,
-                        static_cast<int>(thickness.verdict.value_or(ThicknessVerdict::Passed)), thickness.min,
-                        bytesOf(thickness.regions), bytesOf(surface.triangles), bytesOf(surface.regions),
-                        thickness.countsDetails, thickness.countsEdges, thickness.minFace, bytesOf(places));
+  const auto& [texts, thickness, gap, surface] = shown;
+  const Json json = Json::array(
+      {texts.summary, texts.errorSentence, texts.warnings, texts.defects, stateOf(thickness), stateOf(gap)});
+  return py::make_tuple(json.dump(-1, ' ', true, Json::error_handler_t::replace), bytesOf(surface.triangles),
+                        bytesOf(surface.regions));
 }
 
 ShownReport shownReportOf(const py::tuple& state) {
   ShownReport shown;
   const Json json = Json::parse(state[0].cast<std::string>());
   shown.texts = {json[0], json[1], json[2], json[3]};
-  shown.thickness.thinnerThan = state[1].cast<std::optional<double>>();
-  shown.thickness.verdict = static_cast<ThicknessVerdict>(state[2].cast<int>());
-  shown.thickness.min = state[3].cast<double>();
-  readBytes(state[4], shown.thickness.regions);
-  shown.thickness.countsDetails = state[7].cast<bool>();
-  shown.thickness.countsEdges = state[8].cast<bool>();
-  shown.thickness.minFace = state[9].cast<std::optional<uint64_t>>();
-  std::vector<Vec3d> places;
-  readBytes(state[10], places);
-  if (!places.empty()) shown.thickness.minPlace = places.front();
-  readBytes(state[5], shown.thinSurface.triangles);
-  readBytes(state[6], shown.thinSurface.regions);
+  shown.thickness = thicknessOf(json[4]);
+  shown.gap = thicknessOf(json[5]);
+  readBytes(state[1], shown.thinSurface.triangles);
+  readBytes(state[2], shown.thinSurface.regions);
   return shown;
 }
 

@@ -71,9 +71,10 @@ ComputationSettings computationSettings(const asdf_vk_options* options) {
 
 Options pointOptions(const asdf_vk_options* handle) {
   Options options = computationSettings(handle).options;
-  if (options.measure == Measure::Both)
+  if (options.measure != Measure::ShapeDiameter && options.measure != Measure::Thickness)
     throw Error(ErrorCode::OptionConflict,
-                "measure=both is for faces only; at points, measure either the diameter or the thickness");
+                fmt::format("measure={} is for faces only; at points, measure either the diameter or the thickness",
+                            nameOf(kMeasures, options.measure)));
   if (handle == nullptr) return options;
   const bool isThickness = options.measure == Measure::Thickness;
   const auto hasEffect = [&](const OptionRow& row) {

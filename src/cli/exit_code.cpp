@@ -72,7 +72,7 @@ Failure internalFailure(const char* reason) {
 ExitCode exitCodeOf(ErrorKind kind) { return static_cast<ExitCode>(rowOf(kind).code); }
 
 bool hasResult(ExitCode ofMesh) {
-  return ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::TooThin;
+  return ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::OverLimit;
 }
 
 void SharedExitCode::add(ExitCode ofMesh) {
@@ -87,11 +87,6 @@ ExitCode SharedExitCode::code() const {
 }
 
 ExitCode exitCodeOf(const CheckReport& check) { return check.passed == false ? ExitCode::CheckFailed : ExitCode::Done; }
-
-ExitCode exitCodeOf(const ThicknessReport& thickness) {
-  if (thickness.verdict == ThicknessVerdict::Passed) return ExitCode::Done;
-  return thickness.verdict == ThicknessVerdict::Failed ? ExitCode::TooThin : ExitCode::CheckFailed;
-}
 
 Failure timeLimitFailure(double timeoutSeconds) {
   return {ExitCode::Limit, fmt::format("took longer than --timeout {:g}", timeoutSeconds), "timeLimit"};

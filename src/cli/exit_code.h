@@ -13,15 +13,16 @@ namespace asdfvk {
 /// Exit status of the program. If a mesh has several failures, the first one determines the code.
 enum class ExitCode : int {
   Done = 0,
-  Usage = 1,        ///< The command line is invalid.
-  Input = 2,        ///< A mesh is unreadable, invalid or too large, or no value can be computed.
-  Device = 3,       ///< There is no usable device or the device was lost, and no fallback is allowed.
-  Output = 4,       ///< A result or report cannot be written.
-  CheckFailed = 5,  ///< --check failed or had no traced face to compare; or --fail-if-thinner could not be judged.
-  TooThin = 6,      ///< A wall is thinner than --fail-if-thinner.
-  SomeFailed = 7,   ///< Some of several meshes failed; the others are done.
-  Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
-  Internal = 70,    ///< A defect of the program.
+  Usage = 1,   ///< The command line is invalid.
+  Input = 2,   ///< A mesh is unreadable, invalid or too large, or no value can be computed.
+  Device = 3,  ///< There is no usable device or the device was lost, and no fallback is allowed.
+  Output = 4,  ///< A result or report cannot be written.
+  CheckFailed =
+      5,          ///< --check failed or had no traced face to compare; or a limit of --fail-if-... could not be judged.
+  OverLimit = 6,  ///< Thinner, thicker or closer than --fail-if-..., or a sealed void.
+  SomeFailed = 7,  ///< Some of several meshes failed; the others are done.
+  Limit = 8,       ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
+  Internal = 70,   ///< A defect of the program.
   Cancelled = kCancelledCode,  ///< SIGINT, SIGTERM or SIGHUP ended the run.
 };
 
@@ -32,7 +33,7 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
      {ExitCode::Device, "no device or device lost"},
      {ExitCode::Output, "output not writable"},
      {ExitCode::CheckFailed, "a requested check failed or was not possible"},
-     {ExitCode::TooThin, "thinner than --fail-if-thinner"},
+     {ExitCode::OverLimit, "thinner, thicker or closer than a limit of --fail-if-..., or a sealed void"},
      {ExitCode::SomeFailed, "some of several meshes failed, the others are done"},
      {ExitCode::Limit,
       "a mesh exceeded --timeout or --memory-limit, or the system allows no further open file or thread"},
@@ -58,9 +59,6 @@ class SharedExitCode {
 };
 /// Returns CheckFailed if the check failed, else Done. A check that is not CheckReport::independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
-
-/// Returns Done or TooThin; CheckFailed if the limit could not be judged. Precondition: the report has a limit.
-[[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness);
 
 struct Failure {
   ExitCode code = ExitCode::Internal;

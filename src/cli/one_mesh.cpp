@@ -20,6 +20,7 @@
 #include "core/background_task.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "describe/unjudged_text.h"
 #include "io/grouped_files.h"
 #include "io/inspected_mesh.h"
 #include "mesh/orientation.h"
@@ -79,13 +80,23 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
   std::vector<Failure> failures;
   if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
     failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
-  if (!computation.failIfThinner) return failures;
-  const ExitCode code = exitCodeOf(*report.thickness);
-  const bool isTooThin = code == ExitCode::TooThin;
-  const ReportRows rows = shortThicknessRows(*report.thickness, OptionSpelling::Flag);
-  std::string message = rows.front().second;
-  if (!isTooThin && rows.size() > 1) message += fmt::format("; {} {}", rows[1].first, rows[1].second);
-  if (code != ExitCode::Done) failures.push_back({code, message, isTooThin ? "tooThin" : "notJudged"});
+  const auto add = [&](ThicknessVerdict verdict, std::string message, const UnjudgedFaces& unjudged, const char* name) {
+    if (verdict == ThicknessVerdict::Passed) return;
+    const bool isFailed = verdict == ThicknessVerdict::Failed;
+    const ReportRows reasons = shortUnjudgedRows(unjudged, OptionSpelling::Flag);
+    if (!isFailed && !reasons.empty()) message += fmt::format("; {} {}", reasons[0].first, reasons[0].second);
+    failures.push_back(
+        {isFailed ? ExitCode::OverLimit : ExitCode::CheckFailed, message, isFailed ? name : "notJudged"});
+  };
+  if (computation.failIfThinner)
+    add(*report.thickness->verdict, report.thickness->sentence, report.thickness->unjudged, "tooThin");
+  if (computation.failIfThicker)
+    add(report.thickness->thick->verdict, report.thickness->thick->sentence, report.thickness->unjudged, "tooThick");
+  if (computation.failIfCloser) add(*report.gap->verdict, report.gap->sentence, report.gap->unjudged, "tooClose");
+  if (computation.failsIfVoids) {
+    const auto [verdict, sentence] = voidsVerdict(report);
+    add(verdict, sentence, report.gap->unjudged, "sealedVoids");
+  }
   return failures;
 }
 

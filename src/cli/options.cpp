@@ -163,19 +163,20 @@ void completeFields(CommandLine& line) {
 void completeResult(CommandLine& line, const GivenOptions& given) {
   constexpr std::array kAboutResult{"output", "format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
   line.outputs.writesResult =
-      !line.computation.failIfThinner ||
+      !line.computation.isCheck() ||
       std::any_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
   if (!line.outputs.writesResult && line.batch.skipsExisting)
-    refuseOptions("--skip-existing looks for results, but --fail-if-thinner writes none without -o; give -o");
+    refuseOptions("--skip-existing looks for results, but --fail-if-... writes none without -o; give -o");
 }
 
 /// The chord error of a check is a share of the limit.
 void completeReading(CommandLine& line) {
   constexpr double kChordErrorShare = 1.0 / 50;
   const ThicknessOptions& thickness = line.computation.options.thickness;
-  if (line.reading.chordError > 0 || !thickness.thinnerThan) return;
-  line.reading.chordError = kChordErrorShare * *thickness.thinnerThan;
-  line.reading.chordErrorUnit = thickness.limitUnit;
+  const std::optional<LengthLimit>& limit = thickness.thinnerThan ? thickness.thinnerThan : thickness.closerThan;
+  if (line.reading.chordError > 0 || !limit) return;
+  line.reading.chordError = kChordErrorShare * limit->value;
+  line.reading.chordErrorUnit = limit->unit;
 }
 
 void completePage(CommandLine& line) {
@@ -280,7 +281,8 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   complete(line.computation, given);
   requireValid(line.session, given.spelling);
   for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
-  if (Options& options = line.computation.options; line.outputs.verbose && options.measuresThickness())
+  if (Options& options = line.computation.options;
+      line.outputs.verbose && (options.measuresThickness() || options.measuresGap()))
     options.thickness.findsNextWall = true;
   completeFields(line);
   completeReading(line);

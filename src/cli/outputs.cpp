@@ -104,6 +104,7 @@ std::vector<std::string> fieldNames(const Outputs& outputs, const Options& optio
   if (!outputs.fields.empty()) return outputs.fields;
   std::vector<std::string> names;
   if (options.measuresThickness()) names.insert(names.end(), {"thickness", "least_thickness"});
+  if (options.measuresGap()) names.insert(names.end(), {"gap", "least_gap"});
   if (options.measuresDiameter()) names.insert(names.end(), {"sdf", "seed"});
   if (options.postprocesses()) names.emplace_back("normalized");
   if (options.segmentation != Segmentation::None) names.emplace_back("segment");

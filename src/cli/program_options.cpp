@@ -82,15 +82,17 @@ std::vector<std::string> pictureFields() {
 
 bool readChordError(void* target, const OptionValue& value) {
   auto& reading = *static_cast<ReadOptions*>(target);
-  std::optional<double> length;
-  if (!readLength(value, length, reading.chordErrorUnit)) return false;
-  reading.chordError = *length;
+  std::optional<LengthLimit> length;
+  if (!readLength(value, length)) return false;
+  reading.chordError = length->value;
+  reading.chordErrorUnit = length->unit;
   return true;
 }
 
 OptionValue chordErrorValue(const void* target) {
   const auto& reading = *static_cast<const ReadOptions*>(target);
-  return lengthValue(reading.chordError > 0 ? std::optional(reading.chordError) : std::nullopt, reading.chordErrorUnit);
+  if (!(reading.chordError > 0)) return {};
+  return lengthValue(LengthLimit(reading.chordError, reading.chordErrorUnit));
 }
 
 bool readMemory(void* target, const OptionValue& value) {

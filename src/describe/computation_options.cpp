@@ -15,6 +15,12 @@ constexpr const char* kSegmentGroup = "Segments";
 constexpr const char* kThicknessGroup = "Thickness";
 constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clocks.
 
+constexpr const char* kNeedsThickness = "measure=thickness|both|gap|sdf,gap|thickness,gap|sdf,thickness,gap";
+
+// Columns of an option that is a limit of a length.
+#define ASDFVK_LIMIT(letter, keywordOrNull, member)                                                  \
+  .placeholder = letter, .defaultText = "-", .keyword = keywordOrNull, .keywordType = "float | str", \
+  .wanted = kLengthWanted, .read = readLimit<member>, .write = writeLimit<member>
 #define COMPUTATION_MEMBER(path) ASDFVK_MEMBER(ComputationSettings, path)
 #define COMPUTATION_CHOICE(path, names) ASDFVK_CHOICE(ComputationSettings, path, names)
 
@@ -191,9 +197,11 @@ const std::array kComputationRows{
               .group = kThicknessGroup,
               .access = COMPUTATION_CHOICE(options.measure, kMeasures),
               .text = "Quantity to measure. sdf: the shape diameter, with the fields sdf and seed. thickness: the wall "
-                      "thickness, with the fields thickness and least_thickness. both: all four fields",
-              .more = "The wall thickness is the diameter of the largest ball that touches the face from inside. The "
-                      "thickness is measured at all faces, whatever `--seeds` is. `thickness` traces no rays.",
+                      "thickness, with the fields thickness and least_thickness. both: all four fields. gap: the width "
+                      "of the space in front of the faces, with the fields gap and least_gap, and sealed voids",
+              .more = "The wall thickness is the diameter of the largest ball that touches the face from inside; the "
+                      "gap is that of the largest ball outside. Both are measured at all faces, whatever `--seeds` is, "
+                      "and trace no rays.",
               .atPoints = AtPoints::Both},
     OptionRow{.name = "thinner-than",
               .range = above(0),
@@ -201,59 +209,54 @@ const std::array kComputationRows{
                       "--measure thickness",
               .more =
                   "If the file states its unit (3MF, glTF, STEP), T may have a unit, as in `0.8mm`: `um`, `mm`, `cm`, "
-                  "`m`, `in` or `ft`.",
-              .placeholder = "T",
-              .defaultText = "-",
-              .keywordType = "float | str",
-              .wanted = kLengthWanted,
-              .read =
-                  [](void* target, const OptionValue& value) {
-                    ThicknessOptions& thickness = optionsOf(target).thickness;
-                    return readLength(value, thickness.thinnerThan, thickness.limitUnit);
-                  },
-              .write =
-                  [](const void* target) {
-                    const ThicknessOptions& thickness = optionsOf(target).thickness;
-                    return lengthValue(thickness.thinnerThan, thickness.limitUnit);
-                  }},
+                  "`m`, `in` or `ft`. The other limits may have one, too.",
+              ASDFVK_LIMIT("T", nullptr, &ThicknessOptions::thinnerThan)},
     OptionRow{.name = "fail-if-thinner",
               .range = above(0),
               .text = "Like --thinner-than, but with exit codes: 6 if a wall is thinner than T, 5 if parts of the "
                       "surface cannot be judged. Without -o, no result is written",
-              .placeholder = "T",
-              .defaultText = "-",
-              .keyword = "",
-              .wanted = kLengthWanted,
-              .read =
-                  [](void* target, const OptionValue& value) {
-                    auto& settings = *static_cast<ComputationSettings*>(target);
-                    return readLength(value, settings.failIfThinner, settings.failIfThinnerUnit);
-                  },
-              .write =
-                  [](const void* target) {
-                    const auto& settings = *static_cast<const ComputationSettings*>(target);
-                    return lengthValue(settings.failIfThinner, settings.failIfThinnerUnit);
-                  }},
+              ASDFVK_LIMIT("T", "", &ComputationSettings::failIfThinner)},
+    OptionRow{.name = "thicker-than",
+              .range = above(0),
+              .text = "Report which bodies are thicker than T: the largest ball inside; implies --measure thickness",
+              ASDFVK_LIMIT("T", nullptr, &ThicknessOptions::thickerThan)},
+    OptionRow{.name = "fail-if-thicker",
+              .range = above(0),
+              .text = "Like --thicker-than, with the exit codes of --fail-if-thinner",
+              ASDFVK_LIMIT("T", "", &ComputationSettings::failIfThicker)},
+    OptionRow{.name = "closer-than",
+              .range = above(0),
+              .text = "Report gaps that are narrower than D: slots of a body, and clearances between bodies; implies "
+                      "--measure gap",
+              ASDFVK_LIMIT("D", nullptr, &ThicknessOptions::closerThan)},
+    OptionRow{.name = "fail-if-closer",
+              .range = above(0),
+              .text = "Like --closer-than, with the exit codes of --fail-if-thinner",
+              ASDFVK_LIMIT("D", "", &ComputationSettings::failIfCloser)},
+    OptionRow{.name = "fail-if-voids",
+              .access = COMPUTATION_MEMBER(failsIfVoids),
+              .text = "Exit code 6 if the mesh has a sealed void, 5 if that cannot be judged; implies --measure gap",
+              .keyword = ""},
     OptionRow{.name = "count-details",
               .access = COMPUTATION_MEMBER(options.thickness.countsDetails),
               .text = "Details fail the check, too: thin places that are too small for a wall, such as low ribs. The "
                       "report lists them",
-              .needs = "thinner-than"},
+              .needs = "thinner-than|closer-than"},
     OptionRow{.name = "count-edges",
               .access = COMPUTATION_MEMBER(options.thickness.countsEdges),
               .text = "Details and edges fail the check, too: each point that is thinner than T",
-              .needs = "thinner-than"},
+              .needs = "thinner-than|closer-than"},
     OptionRow{.name = "next-wall",
               .access = COMPUTATION_MEMBER(options.thickness.findsNextWall),
               .text = "Search the next wall, or without a limit the least wall, to the end, however long it takes. "
                       "Without this option, a long search ends early",
-              .needs = "measure=thickness|both"},
+              .needs = kNeedsThickness},
     OptionRow{.name = "wall-angle",
               .access = COMPUTATION_MEMBER(options.thickness.wallAngleDegrees),
               .range = aboveUpTo(90, 180),
               .text = "Two faces are opposing walls if their normals differ by at least this angle",
               .placeholder = "DEGREES",
-              .needs = "measure=thickness|both",
+              .needs = kNeedsThickness,
               .atPoints = AtPoints::Thickness},
     OptionRow{.name = "check",
               .group = kOutputGroup,

@@ -8,9 +8,12 @@ namespace asdfvk {
 struct ComputationSettings {
   Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before all other options.
   Options options;
-  /// Limit that also determines the exit code. complete() copies this limit to options.thickness.thinnerThan.
-  std::optional<double> failIfThinner;
-  LengthUnit failIfThinnerUnit = LengthUnit::OfMesh;
+  /// Limits that also determine the exit code. complete() copies them to options.thickness.
+  std::optional<LengthLimit> failIfThinner, failIfThicker, failIfCloser;
+  bool failsIfVoids = false;  ///< Sealed voids determine the exit code. Implies Measure::Gap.
+
+  /// Whether the exit code depends on a measure.
+  [[nodiscard]] bool isCheck() const { return failIfThinner || failIfThicker || failIfCloser || failsIfVoids; }
 };
 
 struct SessionSettings : SessionOptions {

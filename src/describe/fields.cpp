@@ -14,10 +14,9 @@ namespace {
 bool postprocesses(const Options& options) { return options.postprocesses(); }
 bool segments(const Options& options) { return options.segmentation != Segmentation::None; }
 bool measuresThickness(const Options& options) { return options.measuresThickness(); }
+bool measuresGap(const Options& options) { return options.measuresGap(); }
 
-void requestDiameter(Options& options) {
-  if (options.measuresThickness()) options.measure = Measure::Both;
-}
+void requestDiameter(Options& options) { options.measure = united(options.measure, Measure::ShapeDiameter); }
 
 void requestCentres(Options& options) { options.computesCentres = true; }
 
@@ -63,6 +62,19 @@ constexpr std::array kFields{
              .needs = "measure thickness",
              .isComputed = measuresThickness,
              .meaning = "least wall thickness over all points of the face"},
+    FieldRow{.name = "gap",
+             .label = "gap",
+             .unit = "length",
+             .needs = "measure gap",
+             .isComputed = measuresGap,
+             .meaning = "width of the space in front of the face, at the barycentre; no value if no other face is "
+                        "opposite; for a polygon, the least value of its triangles ([thickness.md](thickness.md))"},
+    FieldRow{.name = "least_gap",
+             .label = "least gap",
+             .unit = "length",
+             .needs = "measure gap",
+             .isComputed = measuresGap,
+             .meaning = "least width of the space over all points of the face"},
     FieldRow{.name = "centre",
              .label = "skeleton point",
              .unit = "length",

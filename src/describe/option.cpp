@@ -277,8 +277,13 @@ bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target) {
   const std::string_view needs = row.needs;
   if (needs.empty()) return true;
   const size_t sign = std::min(needs.find('='), needs.size());
-  const OptionValue value = valueOf(*findOption(rows, needs.substr(0, sign)), target);
-  if (sign == needs.size()) return !std::holds_alternative<std::monostate>(value);
+  const auto valueAt = [&](std::string_view name) { return valueOf(*findOption(rows, name), target); };
+  if (sign == needs.size()) {
+    const std::vector<std::string> names = splitAt(needs, '|');
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return !std::holds_alternative<std::monostate>(valueAt(name)); });
+  }
+  const OptionValue value = valueAt(needs.substr(0, sign));
   const std::vector<std::string> wanted = splitAt(needs.substr(sign + 1), '|');
   return std::find(wanted.begin(), wanted.end(), toText(value)) != wanted.end();
 }

@@ -100,8 +100,8 @@ struct OptionRow {
   const char* more = "";  ///< Further sentences for the man page and docs/options.md.
   /// Stands for the value in the help. Empty if the option has no value or if its values have names.
   const char* placeholder = "";
-  /// The option that this option needs, with the values that it may have, for example "measure=thickness|both" or
-  /// "thinner-than".
+  /// The option that this option needs, with the values that it may have, for example "measure=thickness|both"; or one
+  /// of several options: "thinner-than|closer-than".
   const char* needs = "";
   AtPoints atPoints = AtPoints::None;
   const char* defaultText = nullptr;  ///< Shown instead of the default value.

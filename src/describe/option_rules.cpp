@@ -1,4 +1,6 @@
 // Rules of implication and exclusion between options, for all front ends.
+#include <fmt/core.h>
+
 #include "asdf_vk/error.h"
 #include "describe/computation_options.h"
 
@@ -11,20 +13,41 @@ constexpr uint32_t kCgalRayCount = 25;  // The default of CGAL's sdf_values().
   refuse(computationRows(), message, spelling);
 }
 
-/// A limit of the thickness implies Measure::Thickness.
-void applyLimit(ComputationSettings& computation, const GivenOptions& given) {
-  Options& options = computation.options;
-  std::optional<double>& limit = options.thickness.thinnerThan;
-  if (computation.failIfThinner) {
-    if (limit && (*limit != *computation.failIfThinner || options.thickness.limitUnit != computation.failIfThinnerUnit))
-      refuseOption("{thinner-than} and {fail-if-thinner} have different limits; give one of them", given.spelling);
-    limit = computation.failIfThinner;
-    options.thickness.limitUnit = computation.failIfThinnerUnit;
+/// A limit implies the measure that it limits: names are "thinner-than" and "fail-if-thinner".
+void applyLimit(std::optional<LengthLimit>& limit, const std::optional<LengthLimit>& failIf, std::string_view reports,
+                std::string_view fails, Measure measure, std::optional<Measure>& implied, const GivenOptions& given) {
+  if (failIf) {
+    if (limit && *limit != *failIf)
+      refuseOption(fmt::format("{{{}}} and {{{}}} have different limits; give one of them", reports, fails),
+                   given.spelling);
+    limit = failIf;
   }
-  if (!limit || options.measuresThickness()) return;
-  if (given.has("measure"))
-    refuseOption("{thinner-than} contradicts {measure=sdf}; drop one of the two", given.spelling);
-  options.measure = Measure::Thickness;
+  if (!limit) return;
+  implied = implied ? united(*implied, measure) : measure;
+}
+
+/// Without the option "measure", only what the limits need is measured.
+void applyLimits(ComputationSettings& computation, const GivenOptions& given) {
+  Options& options = computation.options;
+  ThicknessOptions& limits = options.thickness;
+  std::optional<Measure> implied;
+  applyLimit(limits.thinnerThan, computation.failIfThinner, "thinner-than", "fail-if-thinner", Measure::Thickness,
+             implied, given);
+  applyLimit(limits.thickerThan, computation.failIfThicker, "thicker-than", "fail-if-thicker", Measure::Thickness,
+             implied, given);
+  applyLimit(limits.closerThan, computation.failIfCloser, "closer-than", "fail-if-closer", Measure::Gap, implied,
+             given);
+  if (computation.failsIfVoids) implied = implied ? united(*implied, Measure::Gap) : Measure::Gap;
+  if (!implied) return;
+  if (given.has("measure") && options.measure == Measure::ShapeDiameter)
+    refuseOption(
+        fmt::format("{{{}}} contradicts {{measure=sdf}}; drop one of the two", limits.thinnerThan   ? "thinner-than"
+                                                                               : limits.thickerThan ? "thicker-than"
+                                                                               : limits.closerThan  ? "closer-than"
+                                                                                                    : "fail-if-voids"),
+        given.spelling);
+  options.measure =
+      given.has("measure") || options.measure != Measure::ShapeDiameter ? united(options.measure, *implied) : *implied;
 }
 
 void applySegmentation(Options& options, const GivenOptions& given) {
@@ -88,7 +111,7 @@ void applyDefinition(Definition definition, Options& options) {
 
 void complete(ComputationSettings& computation, const GivenOptions& given) {
   Options& options = computation.options;
-  applyLimit(computation, given);
+  applyLimits(computation, given);
   applySegmentation(options, given);
   if (options.rounds.areSet() && !options.seeds.isChosen) options.seeds = SeedCount::ofShare(kFirstRoundShare);
   ComputationSettings copy = computation;
@@ -99,7 +122,8 @@ void complete(ComputationSettings& computation, const GivenOptions& given) {
 
 Options completed(const Options& options) {
   const ComputationSettings defaults;
-  ComputationSettings computation{.recipe = Recipe::Balanced, .options = options, .failIfThinner = {}};
+  ComputationSettings computation;
+  computation.options = options;
   GivenOptions given;
   for (const OptionRow& row : computationRows())
     if (valueOf(row, &computation) != valueOf(row, &defaults)) given.names.insert(row.name);

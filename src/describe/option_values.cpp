@@ -28,7 +28,7 @@ std::string_view textIn(const OptionValue& value) {
 
 }  // namespace
 
-bool readLength(const OptionValue& value, std::optional<double>& length, LengthUnit& unit) {
+bool readLength(const OptionValue& value, std::optional<LengthLimit>& length) {
   std::string_view text = textIn(value);
   const LengthUnitRow* found = nullptr;
   for (const LengthUnitRow& known : kLengthUnits)
@@ -39,15 +39,14 @@ bool readLength(const OptionValue& value, std::optional<double>& length, LengthU
   if (const auto* real = std::get_if<double>(&value)) number = *real;
   if (const auto* whole = std::get_if<uint64_t>(&value)) number = static_cast<double>(*whole);
   if (!number || !(*number > 0) || !std::isfinite(*number)) return false;
-  length = number;
-  unit = found != nullptr ? found->unit : LengthUnit::OfMesh;
+  length = {*number, found != nullptr ? found->unit : LengthUnit::OfMesh};
   return true;
 }
 
-OptionValue lengthValue(const std::optional<double>& length, LengthUnit unit) {
+OptionValue lengthValue(const std::optional<LengthLimit>& length) {
   if (!length) return {};
-  const LengthUnitRow* const row = findLengthUnit(unit);
-  return row == nullptr ? OptionValue(*length) : OptionValue(fmt::format("{}{}", *length, row->name));
+  const LengthUnitRow* const row = findLengthUnit(length->unit);
+  return row == nullptr ? OptionValue(length->value) : OptionValue(fmt::format("{}{}", length->value, row->name));
 }
 
 bool readSeeds(void* target, const OptionValue& value) {

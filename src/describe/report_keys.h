@@ -17,7 +17,7 @@ inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents"
     "missingValues", "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged",
     "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "negativeVolumes",
     "coarseCoordinates", "uncertainParts", "coarseParts"};
-inline constexpr std::array kThinKindNames{"wall", "detail", "edge"};
+inline constexpr std::array kThinKindNames{"wall", "gap", "detail", "edge"};
 inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
 inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided",
     "negativeVolumes", "coarseCoordinates"};
@@ -49,10 +49,15 @@ ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShare
 ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable, amount)
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
-ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, least, angleDegrees, width, faceCount, area, areaShare)
-ASDFVK_KEYS(ThicknessReport, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace, minPlace,
-            minOpposite, percentile1, percentile5, median, percentile95, max, noValueCount, unjudged, greatestSection,
-            thinArea, thinAreaShare, regions)
+ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, oppositeFace, bodies, least, angleDegrees, width,
+            faceCount, area, areaShare)
+ASDFVK_KEYS(ThickBody, bodies, diameter, centre)
+ASDFVK_KEYS(ThickReport, thickerThan, verdict, sentence, ratio, bodies)
+ASDFVK_KEYS(ThicknessReport, isOfGaps, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace,
+            minPlace, minOpposite, percentile1, percentile5, median, percentile95, max, noValueCount, unjudged,
+            greatestSection, thinArea, thinAreaShare, regions, thick)
+ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies)
+ASDFVK_KEYS(BodyContact, bodies)
 ASDFVK_KEYS(WorstFace, face, error)
 ASDFVK_KEYS(ErrorEstimate, average, standardError, robustAverage, relativeMedian, relativePercentile90,
             relativeMedianStandardError, heldOutCount, worstFaces)
@@ -66,7 +71,7 @@ ASDFVK_KEYS(Warning, code, message, details)
 ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, chordError,
             seedCount, rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount,
             backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, solver, sdf, postprocess,
-            segmentCount, parts, thickness, estimatedError, check, defects, warnings)
+            segmentCount, parts, thickness, gap, voids, contacts, estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
 
 }  // namespace asdfvk

@@ -160,7 +160,7 @@ std::string timeRow(const StageSeconds& seconds) {
 /// row is appended to that row.
 ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spelling) {
   ReportRows summary;
-  constexpr std::array kListed{"walls", "details", "edges"};
+  constexpr std::array kListed{"walls", "gaps", "details", "edges"};
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
     if (!showsTimes && (title == "time" || title == "rate")) continue;
@@ -177,7 +177,7 @@ ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spe
 }
 
 std::string errorSentence(const Report& report) {
-  if (report.thickness && report.seedCount == 0)
+  if ((report.thickness || report.gap) && report.seedCount == 0)
     return "The thickness is measured at every face, so no value is interpolated.";
   if (report.seedCount >= report.triangleCount) return "Every face cast rays, so no value is interpolated.";
   if (!report.estimatedError)
@@ -197,8 +197,9 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
   constexpr size_t kMaxRows = 5;
   ReportRows rows;
   bool hasDiameter = true;
-  if (report.thickness) {
-    rows = shortThicknessRows(*report.thickness, spelling);
+  if (report.thickness || report.gap) {
+    rows = shortThicknessRows(report.thickness ? *report.thickness : *report.gap, spelling);
+    for (auto& row : spaceRows(report)) rows.push_back(std::move(row));
     if (std::string question = unitQuestion(report); !question.empty())
       rows.emplace_back("unit", std::move(question));
     else
@@ -221,9 +222,10 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
 }
 
 ReportRows reportRows(const Report& report, OptionSpelling spelling) {
-  ReportRows rows = report.thickness ? thicknessRows(report, spelling) : shortReportRows(report, spelling);
+  const bool isMeasured = report.thickness || report.gap;
+  ReportRows rows = isMeasured ? thicknessRows(report, spelling) : shortReportRows(report, spelling);
   const bool hasDiameter = report.seedCount > 0;
-  if (report.thickness) {
+  if (isMeasured) {
     rows.emplace_back("mesh", meshRow(report));
     if (hasDiameter) rows.emplace_back("diameter", shortValueRow(report));
     if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));

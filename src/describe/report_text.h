@@ -36,12 +36,15 @@ struct ReportTexts {
 /// A point of an input face: "at (1, 2, 3), face 4".
 [[nodiscard]] std::string placeText(const Vec3d& point, uint64_t face);
 
-/// Verdict, unjudged faces, size, thin regions and more. Precondition: report.thickness is set.
+/// Verdict, unjudged faces, size, thin regions and more. Precondition: report.thickness or report.gap is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report, OptionSpelling spelling);
 
 /// The verdict, such as "FAIL: 2 walls thinner than 0.8: 0.3 at (0, 1, 2), face 12"; without a limit, the least wall.
 /// hasPlaces: if false, the sentence has no coordinates, for pictures.
 [[nodiscard]] std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces = true);
+
+/// The verdict on thick bodies. Precondition: thickness.thick is set.
+[[nodiscard]] std::string thickSentence(const ThicknessReport& thickness);
 
 /// The word "PASS", "FAIL" or "NOT JUDGED", with which verdictSentence() begins.
 [[nodiscard]] const char* verdictWord(ThicknessVerdict verdict);
@@ -50,8 +53,14 @@ struct ReportTexts {
 /// any. The last has the thickness and the share of the thin area.
 [[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling);
 
+/// The verdict on sealed voids, and its sentence. Precondition: report.gap is set.
+[[nodiscard]] std::pair<ThicknessVerdict, std::string> voidsVerdict(const Report& report);
+
+/// Verdicts on thick bodies and, beside a thickness, on gaps; sealed voids, and bodies in contact.
+[[nodiscard]] ReportRows spaceRows(const Report& report);
+
 /// The question for the unit if the check fails at nearly the whole surface and the file states no unit: "the part is 2
-/// x 1 x 0.05: inches or metres?". Empty otherwise. Precondition: report.thickness is set.
+/// x 1 x 0.05: inches or metres?". Empty otherwise.
 [[nodiscard]] std::string unitQuestion(const Report& report);
 
 /// One line: "the check failed: " and the reason.

@@ -17,10 +17,22 @@ constexpr size_t kListedCount = 5;
 /// Relative difference of thicknesses that are reported as different.
 constexpr double kEqualThickness = 0.01;
 
+/// ", between lid and base", ", in lid", or nothing.
+std::string bodiesText(const std::vector<std::string>& bodies) {
+  if (bodies.empty()) return "";
+  return bodies.size() == 1 ? fmt::format(", in {}", bodies[0])
+                            : fmt::format(", between {} and {}", bodies[0], bodies[1]);
+}
+
 /// The least thickness: "0.3 at (1, 2, 3), face 12", or "0.3". Precondition: there is one.
 std::string leastText(const ThicknessReport& thickness, bool hasPlace) {
   const std::string value = lengthText(thickness.min, thickness.thinnerThan);
-  return hasPlace ? fmt::format("{} {}", value, placeText(*thickness.minPlace, *thickness.minFace)) : value;
+  if (!hasPlace) return value;
+  const std::string place = fmt::format("{} {}", value, placeText(*thickness.minPlace, *thickness.minFace));
+  const auto least = std::find_if(thickness.regions.begin(), thickness.regions.end(), [&](const ThinRegion& region) {
+    return region.minFace == *thickness.minFace && region.min == thickness.min;
+  });
+  return least == thickness.regions.end() ? place : place + bodiesText(least->bodies);
 }
 
 struct KindCount {
@@ -29,8 +41,8 @@ struct KindCount {
   double least = kNoValue;
 };
 
-std::array<KindCount, 3> countKinds(const ThicknessReport& thickness) {
-  std::array<KindCount, 3> counts{{{ThinKind::Wall}, {ThinKind::Detail}, {ThinKind::Edge}}};
+std::array<KindCount, 4> countKinds(const ThicknessReport& thickness) {
+  std::array<KindCount, 4> counts{{{ThinKind::Wall}, {ThinKind::Gap}, {ThinKind::Detail}, {ThinKind::Edge}}};
   for (const ThinRegion& region : thickness.regions) {
     KindCount& of = counts[static_cast<size_t>(region.kind)];
     if (of.count++ == 0) of.least = region.min;
@@ -56,11 +68,12 @@ std::string regionText(const ThinRegion& region, const ThicknessReport& thicknes
                                        lengthText(region.area), 100 * region.areaShare);
   if (region.kind == ThinKind::Edge)
     return fmt::format("edge of {:.3g} degrees, thin over {}, {} {}; {}", region.angleDegrees, lengthText(region.width),
-                       lengthOf(region.min), placeText(region.place, region.minFace), size);
+                       lengthOf(region.min), placeText(region.place, region.minFace) + bodiesText(region.bodies), size);
   const std::string beside =
       region.least < region.min * (1 - kEqualThickness) ? fmt::format(", {} beside it", lengthOf(region.least)) : "";
   return fmt::format("{} {} from {} to {}, face {}{}; {}", nameOf(region.kind), lengthOf(region.min),
-                     pointText(region.place), pointText(region.opposite), region.minFace, beside, size);
+                     pointText(region.place), pointText(region.opposite), region.minFace,
+                     bodiesText(region.bodies) + beside, size);
 }
 
 /// Adds a row with title and heading, then rows for at most kListedCount items.
@@ -78,8 +91,9 @@ void addList(const std::string& title, const std::string& heading, const std::ve
 /// One list for each kind of thin regions.
 void addRegions(const ThicknessReport& thickness, OptionSpelling spelling, ReportRows& rows) {
   if (thickness.regions.empty()) return;
-  rows.emplace_back("thin", fmt::format("area {} ({:.3g} %) below {}", lengthText(thickness.thinArea),
-                                        100 * thickness.thinAreaShare, limitText(*thickness.thinnerThan)));
+  rows.emplace_back(thickness.isOfGaps ? "narrow" : "thin",
+                    fmt::format("area {} ({:.3g} %) below {}", lengthText(thickness.thinArea),
+                                100 * thickness.thinAreaShare, limitText(*thickness.thinnerThan)));
   for (const KindCount& of : countKinds(thickness)) {
     if (of.count == 0) continue;
     std::vector<ThinRegion> regions;
@@ -88,6 +102,40 @@ void addRegions(const ThicknessReport& thickness, OptionSpelling spelling, Repor
     const std::string heading = counted(of.count, nameOf(of.kind)) + (thickness.counts(of.kind) ? "" : ", not counted");
     addList(fmt::format("{}s", nameOf(of.kind)), heading, regions, regionText, thickness, spelling, rows);
   }
+}
+
+/// Lists of regions, the greatest section and percentiles.
+void addValues(const ThicknessReport& thickness, OptionSpelling spelling, ReportRows& rows) {
+  addRegions(thickness, spelling, rows);
+  if (const auto& ball = thickness.greatestSection)
+    rows.emplace_back(thickness.isOfGaps ? "void" : "section",
+                      fmt::format("{}, the diameter of the largest ball found inside, centre {}",
+                                  lengthText(ball->diameter), pointText(ball->centre)));
+  if (std::isnan(thickness.median)) return;
+  std::string text = fmt::format("by area p1 {}, p5 {}, p50 {}, p95 {}, max {}", lengthText(thickness.percentile1),
+                                 lengthText(thickness.percentile5), lengthText(thickness.median),
+                                 lengthText(thickness.percentile95), lengthText(thickness.max));
+  if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
+  rows.emplace_back(thickness.isOfGaps ? "gap" : "thickness", text);
+}
+
+/// The first names, and the number of the others.
+std::string listed(const std::vector<std::string>& names) {
+  const size_t count = std::min(names.size(), kListedCount);
+  const std::string first =
+      joined(std::vector<std::string>(names.begin(), names.begin() + static_cast<ptrdiff_t>(count)), ", ");
+  return names.size() == count ? first : fmt::format("{} and {} more", first, groupDigits(names.size() - count));
+}
+
+/// "2 sealed voids, greatest volume 3.2 at (1, 2, 3), face 12; loose inside: ball".
+std::string voidsText(const std::vector<SealedVoid>& voids) {
+  const auto largest = std::max_element(voids.begin(), voids.end(),
+                                        [](const SealedVoid& a, const SealedVoid& b) { return a.volume < b.volume; });
+  std::vector<std::string> loose;
+  for (const SealedVoid& each : voids) loose.insert(loose.end(), each.looseBodies.begin(), each.looseBodies.end());
+  return fmt::format("{}, {}volume {} {}{}", counted(voids.size(), "sealed void"), voids.size() > 1 ? "greatest " : "",
+                     lengthText(largest->volume), placeText(largest->place, largest->face),
+                     loose.empty() ? "" : fmt::format("; loose inside: {}", listed(loose)));
 }
 
 }  // namespace
@@ -105,26 +153,48 @@ const char* verdictWord(ThicknessVerdict verdict) {
 
 std::string verdictSentence(const ThicknessReport& thickness, bool hasPlaces) {
   const std::string least = std::isnan(thickness.min) ? "" : leastText(thickness, hasPlaces);
+  const char* const noun = thickness.isOfGaps ? "gap" : "wall";
   if (!thickness.verdict)
-    return !least.empty()                 ? "least wall " + least
-           : std::isnan(thickness.median) ? "no thickness"
-                                          : "the least wall was not found";
-  const std::string limit = limitText(*thickness.thinnerThan), others = kindsText(thickness, false);
+    return !least.empty()                  ? fmt::format("least {} {}", noun, least)
+           : !std::isnan(thickness.median) ? fmt::format("the least {} was not found", noun)
+                                           : fmt::format("no {}", thickness.isOfGaps ? noun : "thickness");
+  const std::string limit =
+      fmt::format("{} than {}", thickness.isOfGaps ? "closer" : "thinner", limitText(*thickness.thinnerThan));
+  const std::string others = kindsText(thickness, false);
   const std::string begin = std::string(verdictWord(*thickness.verdict)) + ": ";
   const std::string notCounted = others.empty() ? "" : fmt::format("; {} not counted", others);
   switch (*thickness.verdict) {
     case ThicknessVerdict::Failed:
-      return begin + fmt::format("{} thinner than {}: {}", kindsText(thickness, true), limit, least);
+      return begin + fmt::format("{} {}: {}", kindsText(thickness, true), limit, least);
     case ThicknessVerdict::Passed:
-      return begin + fmt::format("{} thinner than {}{}{}", thickness.countsEdges ? "nowhere" : "no wall", limit,
+      return begin + fmt::format("{} {}{}{}", thickness.countsEdges ? "nowhere" : fmt::format("no {}", noun), limit,
                                  least.empty() ? "" : "; the next is " + least, notCounted);
     case ThicknessVerdict::NotJudged:
       break;
   }
   const bool isFound = std::any_of(thickness.regions.begin(), thickness.regions.end(),
                                    [&](const ThinRegion& region) { return thickness.counts(region.kind); });
-  return begin + fmt::format("{} thinner than {} {} found{}", isFound ? "walls" : "no wall", limit,
+  return begin + fmt::format("{} {} {} found{}", isFound ? fmt::format("{}s", noun) : fmt::format("no {}", noun), limit,
                              isFound ? "were" : "was", notCounted);
+}
+
+std::string thickSentence(const ThicknessReport& thickness) {
+  const ThickReport& thick = *thickness.thick;
+  const std::string limit = limitText(thick.thickerThan);
+  const std::string ratio = std::isnan(thick.ratio) ? "" : fmt::format("; {:.3g} times the least wall", thick.ratio);
+  const auto ballText = [&](double diameter, const Vec3d& centre) {
+    return fmt::format("{} around {}", lengthText(diameter, thick.thickerThan), pointText(centre));
+  };
+  const std::string begin = std::string(verdictWord(thick.verdict)) + ": ";
+  if (!thick.bodies.empty()) {
+    const ThickBody& first = thick.bodies.front();
+    return begin + fmt::format("{} thicker than {}: {}{}{}", counted(thick.bodies.size(), "body", "bodies"), limit,
+                               ballText(first.diameter, first.centre), bodiesText(first.bodies), ratio);
+  }
+  const std::optional<SectionBall>& greatest = thickness.greatestSection;
+  return begin + fmt::format("no body thicker than {}{}{}", limit,
+                             greatest ? "; the thickest has " + ballText(greatest->diameter, greatest->centre) : "",
+                             ratio);
 }
 
 ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling spelling) {
@@ -136,37 +206,52 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness, OptionSpelling s
   if (!thickness.regions.empty())
     text += fmt::format("; {:.3g} % of the area below {}{}", 100 * thickness.thinAreaShare,
                         limitText(*thickness.thinnerThan), spelling == OptionSpelling::Flag ? " (--verbose)" : "");
-  rows.emplace_back("thickness", text);
+  rows.emplace_back(thickness.isOfGaps ? "gap" : "thickness", text);
   return rows;
 }
 
 std::string unitQuestion(const Report& report) {
   constexpr double kThinEverywhere = 0.9;
-  const ThicknessReport& thickness = *report.thickness;
-  const bool isSuspect = report.unit.empty() && thickness.verdict == ThicknessVerdict::Failed &&
-                         thickness.thinAreaShare >= kThinEverywhere;
+  const bool isSuspect = report.thickness && report.unit.empty() &&
+                         report.thickness->verdict == ThicknessVerdict::Failed &&
+                         report.thickness->thinAreaShare >= kThinEverywhere;
   return isSuspect ? fmt::format("the part is {:.6g} x {:.6g} x {:.6g}: inches or metres?", report.size.x,
                                  report.size.y, report.size.z)
                    : "";
 }
 
+std::pair<ThicknessVerdict, std::string> voidsVerdict(const Report& report) {
+  ThicknessVerdict verdict = ThicknessVerdict::Passed;
+  if (report.gap->unjudged.preventVerdict()) verdict = ThicknessVerdict::NotJudged;
+  if (!report.voids.empty()) verdict = ThicknessVerdict::Failed;
+  return {verdict, fmt::format("{}: {}", verdictWord(verdict),
+                               report.voids.empty() ? "no sealed void" : voidsText(report.voids))};
+}
+
+ReportRows spaceRows(const Report& report) {
+  ReportRows rows;
+  if (report.thickness && report.thickness->thick) rows.emplace_back("thick", report.thickness->thick->sentence);
+  if (report.thickness && report.gap) rows.emplace_back("clearance", verdictSentence(*report.gap));
+  if (!report.voids.empty()) rows.emplace_back("voids", voidsText(report.voids));
+  if (!report.contacts.empty()) {
+    std::vector<std::string> pairs;
+    for (const BodyContact& contact : report.contacts)
+      pairs.push_back(fmt::format("{} and {}", contact.bodies[0], contact.bodies[1]));
+    rows.emplace_back("contact", fmt::format("{} of bodies: {}", counted(pairs.size(), "pair"), listed(pairs)));
+  }
+  return rows;
+}
+
 ReportRows thicknessRows(const Report& report, OptionSpelling spelling) {
-  const ThicknessReport& thickness = *report.thickness;
-  ReportRows rows{{"verdict", verdictSentence(thickness)}};
+  const ThicknessReport& first = report.thickness ? *report.thickness : *report.gap;
+  ReportRows rows{{"verdict", verdictSentence(first)}};
   if (std::string question = unitQuestion(report); !question.empty()) rows.emplace_back("unit", std::move(question));
-  for (auto& row : unjudgedRows(thickness.unjudged, spelling)) rows.push_back(std::move(row));
+  for (auto& row : unjudgedRows(first.unjudged, spelling)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));
-  addRegions(thickness, spelling, rows);
-  if (const auto& ball = thickness.greatestSection)
-    rows.emplace_back("section", fmt::format("{}, the diameter of the largest ball found inside, centre {}",
-                                             lengthText(ball->diameter), pointText(ball->centre)));
-  if (std::isnan(thickness.median)) return rows;
-  std::string text = fmt::format("by area p1 {}, p5 {}, p50 {}, p95 {}, max {}", lengthText(thickness.percentile1),
-                                 lengthText(thickness.percentile5), lengthText(thickness.median),
-                                 lengthText(thickness.percentile95), lengthText(thickness.max));
-  if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
-  rows.emplace_back("thickness", text);
+  if (report.thickness) addValues(*report.thickness, spelling, rows);
+  for (auto& row : spaceRows(report)) rows.push_back(std::move(row));
+  if (report.gap) addValues(*report.gap, spelling, rows);
   return rows;
 }
 

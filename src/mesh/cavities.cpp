@@ -148,8 +148,9 @@ std::vector<Containers> allContainers(const ClosedComponents& closed) {
 
 Nesting findCavities(const TriangleMesh& mesh, const Components& components) {
   const size_t count = components.components.size();
-  Nesting nesting{std::vector<uint8_t>(count, 0), std::vector<uint32_t>(count)};
+  Nesting nesting{std::vector<uint8_t>(count, 0), std::vector<uint32_t>(count), {}};
   std::iota(nesting.bodyOf.begin(), nesting.bodyOf.end(), 0u);
+  nesting.parentOf = nesting.bodyOf;
   const auto isClosed = [](const Component& component) { return component.isClosed; };
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return nesting;
   const ClosedComponents closed(mesh, components);
@@ -170,6 +171,7 @@ Nesting findCavities(const TriangleMesh& mesh, const Components& components) {
       if (innermost == inner || rankOf(outer) > rankOf(innermost)) innermost = outer;
       if (nesting.isCavity[outer] == 0 && (body == inner || rankOf(outer) > rankOf(body))) body = outer;
     }
+    nesting.parentOf[inner] = innermost;
     if (innermost == inner) continue;
     const Component& component = components.components[inner];
     const bool hasWinding = component.isConsistentlyWound && component.signedVolume != 0;

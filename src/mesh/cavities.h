@@ -13,6 +13,7 @@ struct Nesting {
   std::vector<uint8_t> isCavity;  ///< #components
   /// #components. For a cavity: the innermost body around the cavity. For any other component: its own index.
   std::vector<uint32_t> bodyOf;
+  std::vector<uint32_t> parentOf;  ///< #components: the innermost component around each, its own index if none.
 };
 
 /// Finds the cavities among the closed components. Component A is in component B if all samples of A

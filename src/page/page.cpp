@@ -17,9 +17,15 @@ namespace asdfvk {
 namespace {
 
 Json describe(const PageThinPlaces& thin) {
-  Json json{{"limit", number(thin.limit)},         {"verdict", thin.verdict},         {"sentence", thin.sentence},
-            {"countsDetails", thin.countsDetails}, {"countsEdges", thin.countsEdges}, {"regions", Json::array()}};
-  for (const ThinRegion& region : thin.regions)
+  const ShownPlaces& shown = thin.shown;
+  Json json{{"limit", number(shown.limit)},
+            {"title", shown.title},
+            {"verdict", nameOf(shown.verdict)},
+            {"sentence", shown.sentence},
+            {"countsDetails", shown.countsDetails},
+            {"countsEdges", shown.countsEdges},
+            {"regions", Json::array()}};
+  for (const ThinRegion& region : shown.regions)
     json["regions"].push_back({{"face", region.minFace},
                                {"value", number(region.min)},
                                {"least", number(region.least)},
@@ -29,6 +35,7 @@ Json describe(const PageThinPlaces& thin) {
                                {"areaShare", number(region.areaShare)},
                                {"faceCount", region.faceCount},
                                {"kind", nameOf(region.kind)},
+                               {"bodies", region.bodies},
                                {"place", arrayOf(region.place)},
                                {"opposite", arrayOf(region.opposite)}});
   return json;

@@ -15,6 +15,7 @@
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
 #include "describe/report_text.h"
+#include "describe/shown_places.h"
 #include "mesh/mesh.h"
 #include "page/page_arrays.h"
 
@@ -26,13 +27,9 @@ struct View;
 
 using FieldSpan = std::span<const std::reference_wrapper<const Field>>;
 
-/// Result of comparing the thickness with a limit.
+/// Thin places and gaps.
 struct PageThinPlaces {
-  double limit = 0;
-  std::string verdict;   ///< "passed", "failed" or "notJudged".
-  std::string sentence;  ///< ThicknessReport::sentence.
-  bool countsDetails = false, countsEdges = false;
-  std::vector<ThinRegion> regions;
+  ShownPlaces shown;
   ThinSurface surface;
 };
 
@@ -51,7 +48,7 @@ struct PageTexts {
   ReportTexts report;
   std::string up = "y";                               ///< Upright axis of the first view: x, y, z, -x, -y or -z.
   double azimuthDegrees = 30, elevationDegrees = 18;  ///< Direction of the first view.
-  std::optional<PageThinPlaces> thin;                 ///< Unset without a limit of the thickness.
+  std::optional<PageThinPlaces> thin;                 ///< Unset without a limit.
   std::vector<PageSegment> segments;
   std::vector<char> picture;  ///< PNG file for browsers without WebGL 2; may be empty.
 };

@@ -42,16 +42,8 @@ void writePage(AtomicFiles& files, const std::filesystem::path& path, const Page
 
 void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
                const RunControl& control) {
-  if (comparesThickness(result)) {
-    const ThicknessReport& thickness = *result.report.thickness;
-    texts.thin = {.limit = *thickness.thinnerThan,
-                  .verdict = nameOf(*thickness.verdict),
-                  .sentence = verdictSentence(thickness),
-                  .countsDetails = thickness.counts(ThinKind::Detail),
-                  .countsEdges = thickness.countsEdges,
-                  .regions = thickness.regions,
-                  .surface = result.thinSurface};
-  }
+  if (std::optional<ShownPlaces> shown = shownPlaces(result.report))
+    texts.thin = {.shown = *std::move(shown), .surface = result.thinSurface};
   texts.up = nameOf(kUps, view.up);
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;

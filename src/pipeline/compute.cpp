@@ -103,20 +103,58 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
   return fields;
 }
 
-void measureThickness(Result& result, const Computation& ofMesh, const PreparedScene& preparedScene,
-                      const RunControl& control) {
-  const auto scope = ofMesh.clock.time(Stage::Thickness);
-  const JudgedSurface surface(preparedScene, ofMesh.options.orientation == Orientation::Flip,
-                              control.withoutProgress());
+/// Measures a surface, and adds the fields "thickness" and "least_thickness", or "gap" and "least_gap".
+void measureSurface(Result& result, const Computation& ofMesh, const JudgedSurface& surface, const BodyNames& names,
+                    const RunControl& control) {
   const TraceScene scene = surface.scene().view();
   const Computation computation{ofMesh.options, surface.scene().prepared, ofMesh.domain, scene,          ofMesh.cone,
                                 ofMesh.backend, ofMesh.solvers,           ofMesh.clock,  ofMesh.warnings};
   const FaceThickness thickness = measureThickness(computation, surface, control);
   const TriangleMesh& mesh = computation.prepared.mesh;
-  result.fields.push_back(makeField("thickness", thicknessOfInputFaces(mesh, thickness.atBarycentre)));
-  result.fields.push_back(makeField("least_thickness", thicknessOfInputFaces(mesh, thickness.least)));
-  result.report.thickness = describeThickness(computation, thickness, result.thinSurface);
-  result.report.thickness->sentence = verdictSentence(*result.report.thickness);
+  const std::string name = surface.isSpace() ? "gap" : "thickness";
+  result.fields.push_back(makeField(name, thicknessOfInputFaces(mesh, thickness.atBarycentre)));
+  result.fields.push_back(makeField("least_" + name, thicknessOfInputFaces(mesh, thickness.least)));
+  Report& report = result.report;
+  const auto firstRegion = static_cast<uint32_t>(report.thickness ? report.thickness->regions.size() : 0);
+  std::optional<ThicknessReport>& described = surface.isSpace() ? report.gap : report.thickness;
+  described = describeThickness(computation, surface, thickness, names, firstRegion, result.thinSurface);
+  described->sentence = verdictSentence(*described);
+  if (described->thick) described->thick->sentence = thickSentence(*described);
+}
+
+void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& names) {
+  const PreparedMesh& prepared = space.scene().prepared;
+  std::vector<Box3d> boxes(space.solids().isClosed.size());
+  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
+    for (const uint32_t vertex : prepared.mesh.faces[face])
+      boxes[space.solids().solidOf[face]].add(prepared.mesh.vertices[vertex]);
+  for (const EnclosedSpace& each : space.voids()) {
+    SealedVoid found{each.volume,
+                     prepared.mesh.inputFaceOf(each.firstFace),
+                     prepared.geometry.barycentres[each.firstFace],
+                     boxes[each.part].size(),
+                     {}};
+    for (const uint32_t loose : each.looseFaces) {
+      const uint32_t triangle = space.triangleOf(loose);
+      for (std::string& name : names.of(triangle, triangle)) found.looseBodies.push_back(std::move(name));
+    }
+    report.voids.push_back(std::move(found));
+  }
+  report.contacts = names.contacts();
+}
+
+void measureThickness(Result& result, const Computation& ofMesh, const PreparedScene& preparedScene,
+                      const RunControl& control) {
+  const auto scope = ofMesh.clock.time(Stage::Thickness);
+  const Options& options = ofMesh.options;
+  const JudgedSurface material(preparedScene, options.orientation == Orientation::Flip, control.withoutProgress());
+  const BodyNames names(material);
+  const double end = options.measuresThickness() && options.measuresGap() ? 0.5 : 1;
+  if (options.measuresThickness()) measureSurface(result, ofMesh, material, names, control.part(0, end));
+  if (!options.measuresGap()) return;
+  const JudgedSurface space(material, JudgedSurface::Space{});
+  measureSurface(result, ofMesh, space, names, control.part(options.measuresThickness() ? end : 0, 1));
+  describeSpace(result.report, space, names);
 }
 
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
@@ -205,18 +243,17 @@ std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>&
   return std::make_shared<SceneData>(SceneData{scene, scene->view()});
 }
 
-/// Converts the limit to the unit of the mesh.
-ThicknessOptions inUnitOfMesh(ThicknessOptions thickness, const std::string& unit) {
-  const LengthUnitRow *const from = findLengthUnit(thickness.limitUnit), *const to = findLengthUnit(unit);
-  if (!thickness.thinnerThan || from == nullptr) return thickness;
+/// Converts a limit to the unit of the mesh.
+void convertToUnit(std::optional<LengthLimit>& limit, const std::string& unit) {
+  if (!limit) return;
+  const LengthUnitRow *const from = findLengthUnit(limit->unit), *const to = findLengthUnit(unit);
+  if (from == nullptr) return;
   if (to == nullptr)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("the limit is in {}, and the mesh states no unit; give a plain number, in the unit of the "
                             "mesh (3MF, glTF and STEP files state a unit)",
                             from->name));
-  thickness.thinnerThan = *thickness.thinnerThan * from->micrometres / to->micrometres;
-  thickness.limitUnit = LengthUnit::OfMesh;
-  return thickness;
+  limit = limit->value * from->micrometres / to->micrometres;
 }
 
 /// Sets SeedCount::all() if every face becomes a seed: then nothing is interpolated, and no hit has to be kept.
@@ -244,7 +281,9 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   // The backend may have changed.
   if (session.named.backend->device() == nullptr) (void)completedFor(session, requested);
   Options options = withAllSeeds(requested, domain);
-  options.thickness = inUnitOfMesh(options.thickness, prepared.unit);
+  for (std::optional<LengthLimit>* const limit :
+       {&options.thickness.thinnerThan, &options.thickness.thickerThan, &options.thickness.closerThan})
+    convertToUnit(*limit, prepared.unit);
   const Cone cone = makeCone(options.cone);
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
@@ -256,10 +295,10 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const Computation computation{options, prepared,        domain, scene,          cone,
                                 backend, session.solvers, clock,  report.warnings};
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
-                          options.segmentation == Segmentation::Parts;
+                          options.measuresGap() || options.segmentation == Segmentation::Parts;
   if (options.measuresDiameter())
     measureDiameter(result, computation, *sharedScene, input.tracers, keepsNodes, control);
-  if (options.measuresThickness()) {
+  if (options.measuresThickness() || options.measuresGap()) {
     sharedScene->requireHierarchy(bvhOptionsFor(backend), clock, control.withoutProgress());
     measureThickness(result, computation, *sharedScene,
                      options.measuresDiameter() ? control.withoutProgress() : control);

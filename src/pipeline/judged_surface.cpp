@@ -106,16 +106,70 @@ class SurfaceBuilder {
   std::map<std::array<double, 3>, uint32_t> vertices_;
 };
 
+/// The same faces, in the same order, with the opposite orientation.
+PreparedMesh reversed(const PreparedMesh& prepared) {
+  PreparedMesh result;
+  const TriangleMesh& mesh = prepared.mesh;
+  result.storage.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
+  for (const auto& [a, b, c] : mesh.faces) result.storage.faces.push_back({a, c, b});
+  Polygons& polygons = result.storage.polygons;
+  polygons.firstCorner.assign(mesh.polygons.firstCorner.begin(), mesh.polygons.firstCorner.end());
+  polygons.corners.assign(mesh.polygons.corners.begin(), mesh.polygons.corners.end());
+  polygons.inputFaceOf.assign(mesh.polygons.inputFaceOf.begin(), mesh.polygons.inputFaceOf.end());
+  result.mesh = result.storage;
+  result.geometry = prepared.geometry;
+  for (Vec3d& normal : result.geometry.normals) normal = -normal;
+  result.components = prepared.components;
+  result.representatives = prepared.representatives;
+  result.unit = prepared.unit;
+  result.openEdges = prepared.openEdges;
+  result.traceableFaces = prepared.traceableFaces;
+  return result;
+}
+
 }  // namespace
 
 JudgedSurface::JudgedSurface(const PreparedScene& scene, bool isFlipped, const RunControl& control)
     : original_(scene), solids_(findSolids(scene.prepared.mesh, scene.prepared.components)) {
   const Material material(scene.view(), scene.prepared.graph, scene.prepared.components, isFlipped, control);
+  keepBodies(material);
   joinSolids(scene.prepared.components, material.meetingComponents(), solids_);
   if (material.hasCuts() || material.hasKind(FaceKind::Inside) || scene.prepared.hasTJunctions)
     divide(material);
   else
     adopt(material);
+}
+
+JudgedSurface::JudgedSurface(const JudgedSurface& material, Space)
+    : original_(material.original_),
+      commonKind_(material.commonKind_),
+      kinds_(material.kinds_),
+      triangles_(material.triangles_),
+      crossedCount_(material.crossedCount_),
+      insideCount_(material.insideCount_),
+      isSpace_(true),
+      bodyOfComponent_(material.bodyOfComponent_),
+      meetingBodies_(material.meetingBodies_) {
+  // A sheet without thickness is a wall of the space on both sides.
+  std::replace(kinds_.begin(), kinds_.end(), FaceKind::NoThickness, FaceKind::Boundary);
+  if (commonKind_ == FaceKind::NoThickness) commonKind_ = FaceKind::Boundary;
+  own_ = std::make_unique<PreparedScene>(reversed(material.scene().prepared));
+  own_->bvh = material.scene().bvh;
+  SpaceParts space = findSpaceParts(*own_, !triangles_.empty());
+  solids_ = std::move(space.solids);
+  voids_ = std::move(space.voids);
+}
+
+/// Bodies of components, before solids that meet are joined.
+void JudgedSurface::keepBodies(const Material& material) {
+  for (const Component& component : original_.prepared.components.components)
+    bodyOfComponent_.push_back(solids_.solidOf[component.firstFace]);
+  for (const auto& [first, second] : material.meetingComponents()) {
+    const std::pair<uint32_t, uint32_t> bodies = std::minmax(bodyOfComponent_[first], bodyOfComponent_[second]);
+    if (bodies.first != bodies.second) meetingBodies_.push_back(bodies);
+  }
+  std::sort(meetingBodies_.begin(), meetingBodies_.end());
+  meetingBodies_.erase(std::unique(meetingBodies_.begin(), meetingBodies_.end()), meetingBodies_.end());
 }
 
 void JudgedSurface::adopt(const Material& material) {

@@ -63,7 +63,7 @@ UnjudgedFaces Judgement::unjudged() const {
   const PreparedMesh& prepared = surface_.original().prepared;
   if (prepared.negativeVolumeCount > 0)
     addReasonOfMesh(unjudged, UnjudgedCause::NegativeVolumes, prepared.negativeVolumeCount);
-  const std::optional<double>& limit = computation_.options.thickness.thinnerThan;
+  const std::optional<double> limit = surface_.limitIn(computation_.options.thickness);
   if (limit && prepared.float32Step > kMaxStepShareOfLimit * *limit)
     addReasonOfMesh(unjudged, UnjudgedCause::CoarseCoordinates, prepared.float32Step);
   return unjudged;

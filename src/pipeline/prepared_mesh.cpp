@@ -187,6 +187,7 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   if (const Mesh* const source = view.mesh()) {
     prepared.unit = source->unit;
     prepared.chordError = source->chordError;
+    prepared.objects = source->objects;
     prepared.statedPartCount = source->statedPartCount;
     if (!source->skipped.empty()) prepared.warnings.push_back(skippedContent(source->skipped));
     prepared.negativeVolumeCount = source->negativeVolumeCount;

@@ -36,6 +36,7 @@ struct PreparedMesh {
   uint32_t statedPartCount = 0;      ///< Mesh::statedPartCount.
   uint32_t negativeVolumeCount = 0;  ///< Mesh::negativeVolumeCount.
   double float32Step = 0;            ///< float32StepOf() of the mesh or of the parts of its file.
+  std::vector<NamedFaces> objects;   ///< Mesh::objects.
   std::vector<Warning> warnings;
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };

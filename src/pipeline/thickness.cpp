@@ -37,8 +37,9 @@ class Measurement {
         unit_(scene_.bvh.normalization),
         opposing_(makeOpposingWalls(computation.options.thickness)),
         solids_(surface.solids()),
+        isSpace_(surface.isSpace()),
         fans_(mesh_) {
-    if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
+    if (const std::optional<double> limit = surface.limitIn(computation.options.thickness))
       limit_ = std::max(*limit * unit_.scale, kLeastLimit);
   }
 
@@ -47,6 +48,7 @@ class Measurement {
     thickness_ = {std::vector<double>(count, kNoValue),
                   std::vector<double>(count, kNoValue),
                   std::vector<uint8_t>(count),
+                  {},
                   {},
                   {},
                   {},
@@ -71,6 +73,8 @@ class Measurement {
     if (!thickness_.unjudged.preventVerdict() &&
         std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
       keepNextWall(tree, sections, control.withoutProgress());
+    if (const auto& limit = computation_.options.thickness.thickerThan; limit && !isSpace_)
+      findThickBodies(limit->value * unit_.scale / kThinShare, sections, control.withoutProgress());
     control.checkpoint(1);
     return std::move(thickness_);
   }
@@ -156,12 +160,27 @@ class Measurement {
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
         computation_.options.thickness.findsNextWall ? kFullNextWall : quickNextWall(mesh_.faceCount()), control);
     thickness_.nextWall = next.wall;
-    const bool isFound = thinnest->bound <= kSectionAccuracy * thinnest->diameter;
+    const bool isFound = thinnest->bound < kUnlimited && thinnest->bound <= kSectionAccuracy * thinnest->diameter;
     if (next.isKnown && !next.wall && isFound) thickness_.nextWall = placeOf(*thinnest);
+  }
+
+  /// Searches the greatest section of each body as far as the limit needs, and farther in bodies that exceed it.
+  void findThickBodies(double limit, std::vector<GreatestSection>& sections, const RunControl& control) {
+    searchAgain(sections, solids_.isClosed, {.enough = limit}, control);
+    std::vector<GreatestSection> further = sections;
+    std::vector<uint8_t> isThick(sections.size());
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      isThick[solid] = solids_.isClosed[solid] != 0 && sections[solid].diameter > limit ? 1 : 0;
+    searchAgain(further, isThick, kQuickSection, control);
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      if (isThick[solid] != 0 && further[solid].diameter > sections[solid].diameter) sections[solid] = further[solid];
+    keepGreatest(sections);
+    thickness_.sections = std::move(sections);
   }
 
   void keepGreatest(std::span<const GreatestSection> sections) {
     std::optional<GreatestSection>& greatest = thickness_.greatestSection;
+    greatest.reset();
     for (const GreatestSection& section : sections)
       if (section.diameter < kUnlimited && !(greatest && section.diameter <= greatest->diameter)) greatest = section;
     if (greatest)
@@ -245,6 +264,7 @@ class Measurement {
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
       double &atBarycentre = thickness_.atBarycentre[face], &least = thickness_.least[face];
       if (std::isnan(least)) continue;
+      if (isSpace_ && judgement_.isJudged(face)) thickness_.isJudged[face] = 1;  // Also without a wall in front of it.
       const GreatestSection& section = sections[solids_.solidOf[face]];
       const bool isUnresolved = least <= kUnresolved;
       for (double* value : {&atBarycentre, &least}) {
@@ -264,6 +284,7 @@ class Measurement {
   const Normalization& unit_;
   OpposingWalls opposing_;
   const Solids& solids_;
+  bool isSpace_;
   PointFans fans_;
   std::optional<double> limit_;   ///< Normalised.
   std::vector<FaceWalls> walls_;  ///< #F

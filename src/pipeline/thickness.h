@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
+#include "pipeline/body_names.h"
 #include "pipeline/computation.h"
 #include "pipeline/judged_surface.h"
 #include "trace/greatest_section.h"
@@ -22,6 +23,8 @@ struct FaceThickness {
   UnjudgedFaces unjudged;
   std::vector<ConnectedThinParts> regions;  ///< Normalised. Empty without a limit.
   std::optional<WallPlace> nextWall;        ///< Normalised. Unset without a limit, if there is a wall, or if not found.
+  /// With ThicknessOptions::thickerThan: the greatest section of each solid, normalised; infinite for those not closed.
+  std::vector<GreatestSection> sections;
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
@@ -33,8 +36,10 @@ struct FaceThickness {
 /// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
-/// Percentiles and, with a limit, the verdict and the thin regions. surface: receives the thin parts.
-[[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
-                                                ThinSurface& surface);
+/// Percentiles and, with a limit, the verdict and the thin regions. thin: receives the thin parts, with indices of
+/// regions from firstRegion on.
+[[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const JudgedSurface& surface,
+                                                const FaceThickness& thickness, const BodyNames& names,
+                                                uint32_t firstRegion, ThinSurface& thin);
 
 }  // namespace asdfvk

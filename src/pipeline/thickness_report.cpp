@@ -19,25 +19,30 @@ constexpr double kPlaceResolution = 64;
 
 class Description {
  public:
-  Description(const Computation& computation, const FaceThickness& thickness)
+  Description(const Computation& computation, const JudgedSurface& surface, const FaceThickness& thickness,
+              const BodyNames& names)
       : computation_(computation),
+        surface_(surface),
         thickness_(thickness),
+        names_(names),
         prepared_(computation.prepared),
         unit_(computation.scene.bvh.normalization) {}
 
-  ThicknessReport run(ThinSurface& surface) {
+  ThicknessReport run(uint32_t firstRegion, ThinSurface& thin) {
     const ThicknessOptions& options = computation_.options.thickness;
+    report_.isOfGaps = surface_.isSpace();
     describePercentiles();
     report_.noValueCount =
         countWithoutValue(computation_.domain, thicknessOfInputFaces(prepared_.mesh, thickness_.least));
     if (thickness_.greatestSection)
       report_.greatestSection = {thickness_.greatestSection->diameter, thickness_.greatestSection->centre};
     report_.unjudged = thickness_.unjudged;
-    report_.thinnerThan = options.thinnerThan;
+    report_.thinnerThan = surface_.limitIn(options);
     report_.countsDetails = options.countsDetails;
     report_.countsEdges = options.countsEdges;
-    if (report_.thinnerThan) describeRegions(surface);
+    if (report_.thinnerThan) describeRegions(firstRegion, thin);
     describeLeast();
+    if (options.thickerThan && !surface_.isSpace()) report_.thick = describeThick(options.thickerThan->value);
     if (!report_.thinnerThan) return std::move(report_);
     report_.verdict = verdict();
     ASDFVK_CHECK(report_.verdict != ThicknessVerdict::Passed || !(report_.min < kThinShare * *report_.thinnerThan));
@@ -73,7 +78,7 @@ class Description {
     report_.max = sample.max();
   }
 
-  void describeRegions(ThinSurface& surface) {
+  void describeRegions(uint32_t firstRegion, ThinSurface& thin) {
     const std::span<const ConnectedThinParts> found = thickness_.regions;
     std::vector<ThinRegion> regions;
     for (const ConnectedThinParts& region : found) regions.push_back(describeRegion(region));
@@ -91,10 +96,10 @@ class Description {
       report_.thinArea += region.area;
       report_.thinAreaShare += region.areaShare;
       for (const ThinPart* part : shownParts(found[i])) {
-        surface.triangles.push_back({toMesh(part->corners[0]), toMesh(part->corners[1]), toMesh(part->corners[2])});
-        surface.regions.push_back(static_cast<uint32_t>(report_.regions.size()));
+        thin.triangles.push_back({toMesh(part->corners[0]), toMesh(part->corners[1]), toMesh(part->corners[2])});
+        thin.regions.push_back(firstRegion + static_cast<uint32_t>(report_.regions.size()));
       }
-      report_.regions.push_back(region);
+      report_.regions.push_back(std::move(region));
     }
   }
 
@@ -109,11 +114,14 @@ class Description {
 
   [[nodiscard]] ThinRegion describeRegion(const ConnectedThinParts& found) const {
     ThinRegion region;
-    region.kind = found.kind;
+    region.kind = surface_.isSpace() && found.kind == ThinKind::Wall ? ThinKind::Gap : found.kind;
     region.min = thicknessOf(found.place);
     region.minFace = prepared_.mesh.inputFaceOf(found.place.face);
     region.place = placeInMesh(found.place.ball.ball.onFace);
     region.opposite = placeInMesh(found.place.ball.ball.onWall);
+    const uint32_t wall = found.place.ball.wall, triangle = surface_.triangleOf(found.place.face);
+    if (wall != kNoFace) region.oppositeFace = prepared_.mesh.inputFaceOf(wall);
+    region.bodies = names_.of(triangle, wall == kNoFace ? triangle : surface_.triangleOf(wall));
     region.least = std::min(region.min, thicknessOf(found.leastPlace));
     region.angleDegrees = angleAt(found.leastPlace);
     std::set<uint64_t> inputFaces;
@@ -165,18 +173,48 @@ class Description {
     report_.minOpposite = opposite;
   }
 
-  [[nodiscard]] ThicknessVerdict verdict() const {
+  /// The verdict if no place that counts was found, or if there is one.
+  [[nodiscard]] ThicknessVerdict verdictIf(bool isFound) const {
     for (const UnjudgedReason& reason : report_.unjudged.reasons)
       if (concernsWholeMesh(reason.cause)) return ThicknessVerdict::NotJudged;
-    for (const ThinRegion& region : report_.regions)
-      if (report_.counts(region.kind)) return ThicknessVerdict::Failed;
+    if (isFound) return ThicknessVerdict::Failed;
     const bool hasValue =
         std::find(thickness_.isJudged.begin(), thickness_.isJudged.end(), 1) != thickness_.isJudged.end();
     return !hasValue || report_.unjudged.preventVerdict() ? ThicknessVerdict::NotJudged : ThicknessVerdict::Passed;
   }
 
+  [[nodiscard]] ThicknessVerdict verdict() const {
+    return verdictIf(std::any_of(report_.regions.begin(), report_.regions.end(),
+                                 [&](const ThinRegion& region) { return report_.counts(region.kind); }));
+  }
+
+  [[nodiscard]] ThickReport describeThick(double limit) const {
+    ThickReport thick{.thickerThan = limit};
+    const double tooThick = limit / kThinShare;
+    bool isDecided = true;
+    for (uint32_t solid = 0; solid < thickness_.sections.size(); ++solid) {
+      const GreatestSection& section = thickness_.sections[solid];
+      if (!std::isfinite(section.diameter)) continue;
+      const double diameter = unit_.toMeshLength(section.diameter);
+      if (diameter > tooThick) {
+        const uint32_t triangle = surface_.original().prepared.components.components[solid].firstFace;
+        thick.bodies.push_back({names_.of(triangle, triangle), diameter, placeInMesh(section.centre)});
+      } else if (unit_.toMeshLength(section.bound) > tooThick * (1 + kSectionTolerance)) {
+        isDecided = false;
+      }
+    }
+    std::stable_sort(thick.bodies.begin(), thick.bodies.end(),
+                     [](const ThickBody& a, const ThickBody& b) { return a.diameter > b.diameter; });
+    thick.verdict = verdictIf(!thick.bodies.empty());
+    if (thick.verdict == ThicknessVerdict::Passed && !isDecided) thick.verdict = ThicknessVerdict::NotJudged;
+    if (report_.greatestSection && report_.min > 0) thick.ratio = report_.greatestSection->diameter / report_.min;
+    return thick;
+  }
+
   const Computation& computation_;
+  const JudgedSurface& surface_;
   const FaceThickness& thickness_;
+  const BodyNames& names_;
   const PreparedMesh& prepared_;
   const Normalization& unit_;
   ThicknessReport report_;
@@ -184,9 +222,10 @@ class Description {
 
 }  // namespace
 
-ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
-                                  ThinSurface& surface) {
-  return Description(computation, thickness).run(surface);
+ThicknessReport describeThickness(const Computation& computation, const JudgedSurface& surface,
+                                  const FaceThickness& thickness, const BodyNames& names, uint32_t firstRegion,
+                                  ThinSurface& thin) {
+  return Description(computation, surface, thickness, names).run(firstRegion, thin);
 }
 
 }  // namespace asdfvk

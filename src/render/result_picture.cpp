@@ -9,6 +9,7 @@
 
 #include "core/text.h"
 #include "describe/report_text.h"
+#include "describe/shown_places.h"
 #include "io/formats.h"
 #include "render/picture.h"
 #include "trace/scene_data.h"
@@ -33,21 +34,13 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// The legend of the thin places: the sentence of the report without verdict and coordinates, for example "2 walls
-/// thinner than 0.8: 0.3 (pale: behind a wall)", or "no wall thinner than 0.8; the next is 1.2".
-std::string legendOf(const ThicknessReport& thickness) {
-  const std::string sentence = verdictSentence(thickness, false);
-  const size_t begin = std::string(verdictWord(*thickness.verdict)).size() + 2;
-  return sentence.substr(begin) + (thickness.regions.empty() ? "" : " (pale: behind a wall)");
-}
-
-/// Callouts of the first kMaxCount regions. In ThicknessReport::regions, walls are first.
-std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
+/// Callouts of the first kMaxCount regions. In ShownPlaces::regions, walls are first.
+std::vector<Callout> calloutsOf(const ShownPlaces& shown) {
   constexpr size_t kMaxCount = 8;
   std::vector<Callout> callouts;
-  for (const ThinRegion& region : thickness.regions) {
+  for (const ThinRegion& region : shown.regions) {
     if (callouts.size() == kMaxCount) break;
-    const std::string value = lengthText(region.min, thickness.thinnerThan);
+    const std::string value = lengthText(region.min, shown.limit);
     callouts.push_back({region.place, region.opposite,
                         region.kind == ThinKind::Wall ? value : fmt::format("{} {}", nameOf(region.kind), value)});
   }
@@ -55,23 +48,24 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
 }
 
 Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style, const RunControl& control) {
-  const ThicknessReport& thickness = *result.report.thickness;
+  const ShownPlaces shown = *shownPlaces(result.report);
   ThinPlaces places{.surface = result.thinSurface.triangles,
-                    .callouts = calloutsOf(thickness),
-                    .verdict = verdictWord(*thickness.verdict),
-                    .isFailure = thickness.verdict != ThicknessVerdict::Passed};
-  Picture picture = pictureWith(result, legendOf(thickness), view, style);
+                    .callouts = calloutsOf(shown),
+                    .verdict = verdictWord(shown.verdict),
+                    .isFailure = shown.verdict != ThicknessVerdict::Passed};
+  Picture picture =
+      pictureWith(result, shown.legend + (shown.regions.empty() ? "" : " (pale: behind a wall)"), view, style);
   picture.thinPlaces = std::move(places);
   return render(picture, control);
 }
 
 }  // namespace
 
-bool comparesThickness(const Result& result) { return result.report.thickness && result.report.thickness->thinnerThan; }
+bool comparesThickness(const Result& result) { return shownPlaces(result.report).has_value(); }
 
 const Field* shownField(const Result& result) {
   if (comparesThickness(result)) return nullptr;
-  for (const char* const name : {"thickness", "segment"})
+  for (const char* const name : {"thickness", "gap", "segment"})
     if (const Field* const field = result.field(name)) return field;
   return &result.fields.front();
 }

@@ -48,7 +48,7 @@ export function drawLegend(context, legend, height, size, ink) {
   if (look.noValueCount) drawSwatch(context, cssColour(packedColour(legend.none)), 'no value', height - 14, size, ink);
 }
 
-const thinTitle = (thin) => `${thin.share > 0 ? 'thinner' : 'nowhere thinner'} than ${formatValue(thin.limit)}`;
+const thinTitle = (thin) => `${thin.share > 0 ? '' : 'nowhere '}${thin.title ?? `thinner than ${formatValue(thin.limit)}`}`;
 
 /** Whether thin faces are visible through other faces. */
 const showsBehind = ({ share, rest }) => share > 0 && rest === 'glass';

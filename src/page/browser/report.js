@@ -35,22 +35,23 @@ function link(text, id, action) {
 }
 
 // Captions of the lists of thin regions.
-const kKinds = { wall: 'Walls, thinnest first', detail: 'Details', edge: 'Edges' };
+const kKinds = { wall: 'Walls, thinnest first', gap: 'Gaps, narrowest first', detail: 'Details', edge: 'Edges' };
 
-/** The verdict of a result and its thin regions: walls, then details, then edges. */
+/** The verdict of a result and its thin regions: walls, gaps, details, edges. */
 function thinReport(mesh, index, hasOthers, visits) {
   const { limit, verdict, sentence, regions, countsDetails, countsEdges } = mesh.thin;
-  const counts = { wall: true, detail: countsDetails, edge: countsEdges };
+  const counts = { wall: true, gap: true, detail: countsDetails, edge: countsEdges };
   const [word, ...rest] = sentence.split(':');
   const row = (region, i) => {
     const value = link(formatValue(region.value, limit), `thin-${index}-${i}`, visits && (() => visits.region(index, i)));
     const area = `${formatValue(region.area)} (${formatShare(region.areaShare)})`, count = formatCount(region.faceCount);
     if (region.kind === 'edge') return [value, `${formatValue(region.angleDegrees)}°`, formatValue(region.width), area, count];
-    return [value, formatValue(region.least, limit), area, count];
+    return [value, formatValue(region.least, limit), area, count, ...(region.kind === 'gap' ? [region.bodies.join(' and ')] : [])];
   };
   const list = (kind) => {
     const rows = regions.flatMap((region, i) => region.kind === kind ? [row(region, i)] : []);
-    const heads = kind === 'edge' ? ['least', 'angle', 'width', 'thin area', 'faces'] : ['thickness', 'least beside it', 'thin area', 'faces'];
+    const heads = kind === 'edge' ? ['least', 'angle', 'width', 'thin area', 'faces']
+      : kind === 'gap' ? ['width', 'least beside it', 'area', 'faces', 'bodies'] : ['thickness', 'least beside it', 'thin area', 'faces'];
     return rows.length ? table(kKinds[kind] + (counts[kind] ? '' : ', not counted'), heads, rows) : [];
   };
   return [

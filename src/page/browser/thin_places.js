@@ -3,18 +3,22 @@ import { formatValue } from './format.js';
 import { countHits } from './picking.js';
 import { add, cross, dot, scaled, subtract, unit } from './vectors.js';
 
-const kField = 'least_thickness', kMarkerCount = 8;
+const kMarkerCount = 8;
+
+/** The field that is compared with the limit of the results. */
+const comparedField = (layers) => ['least_thickness', 'least_gap'].find((name) => layers.has(name));
 
 /** The limit that the results of the page were compared with; null without a limit. */
 export const givenLimit = (models) => models.find((model) => model.thin)?.thin.limit ?? null;
 
-// The limit {limit, isGiven, name} below which a state shows thin places, or null. If isGiven is true, the view shows
+// The limit {limit, title, isGiven, name} below which a state shows thin places, or null. If isGiven is true, the view shows
 // the exact thin surface of each result. If isGiven is false, the view shows the faces whose value of the field `name`
 // is below the limit.
 export function thinShown(state, look, layers) {
   if (!state.thin) return null;
-  const given = givenLimit(layers.models), name = given !== null && layers.has(kField) ? kField : look.name;
-  if (given !== null && (state.thinAt === null || state.thinAt === given)) return { limit: given, isGiven: true, name };
+  const given = givenLimit(layers.models), name = (given !== null && comparedField(layers)) || look.name;
+  const title = layers.models.find((model) => model.thin)?.thin.title;
+  if (given !== null && (state.thinAt === null || state.thinAt === given)) return { limit: given, title, isGiven: true, name };
   if (name === look.name && look.kind !== 'number') return null;
   return { limit: state.thinAt ?? look.low, isGiven: false, name };
 }
@@ -29,8 +33,8 @@ export function thinShare({ thin, look, layers, models }) {
   return sum((model) => model.thin?.surface.totalArea ?? 0) / (sum((model) => model.totalArea) || 1);
 }
 
-/** The least thickness of a region as a text; walls have no word. */
-export const regionValue = (region, limit) => `${region.kind === 'wall' ? '' : `${region.kind} `}${formatValue(region.value, limit)}`;
+/** The least thickness of a region as a text; walls and gaps have no word. */
+export const regionValue = (region, limit) => `${region.kind === 'wall' || region.kind === 'gap' ? '' : `${region.kind} `}${formatValue(region.value, limit)}`;
 
 /** The regions whose thinnest places are marked in the view. */
 export const markedRegions = (model) => model.thin?.regions.slice(0, kMarkerCount) ?? [];

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/prepared_scene.h"
+#include "trace/solids.h"
+
+namespace asdfvk {
+
+/// A part of the space without a way out.
+struct EnclosedSpace {
+  uint32_t part = 0;  ///< Its outer boundary: the value of SpaceParts::solids.solidOf.
+  double volume = 0;  ///< In mesh units cubed, without the bodies inside.
+  uint32_t firstFace = 0;
+  std::vector<uint32_t> looseFaces;  ///< A face of each body that lies in it.
+};
+
+/// The connected parts of a surface of the space around a material. At an edge of several faces, the two faces that
+/// bound the same space are connected.
+struct SpaceParts {
+  Solids solids;  ///< Closed: the outer boundaries of sealed voids.
+  std::vector<EnclosedSpace> voids;
+};
+
+/// scene: faces are oriented outwards, seen from the space. mayRepeat: faces of several bodies may lie on each other.
+[[nodiscard]] SpaceParts findSpaceParts(const PreparedScene& scene, bool mayRepeat);
+
+}  // namespace asdfvk
