@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asdfvk {
@@ -42,6 +45,14 @@ struct Polygons {
   [[nodiscard]] bool isEmpty() const { return firstCorner.empty(); }
 };
 
+/// An object of a file, for example a solid or a node.
+struct NamedFaces {
+  uint64_t firstFace = 0;  ///< Index of an input face.
+  std::string name;        ///< Valid UTF-8 on one line; at most 200 bytes. Empty after the end of a named object.
+
+  bool operator==(const NamedFaces&) const = default;
+};
+
 /// A triangle mesh in plain arrays. readMesh() returns all faces of the file, in file order.
 struct Mesh {
   std::vector<Vec3d> vertices;  ///< #V, in the unit of the file. Coordinates may be non-finite (Report::defects).
@@ -65,6 +76,10 @@ struct Mesh {
   /// The greatest step of neighbouring float32 values at the coordinates of the parts of the file, in the unit of the
   /// mesh: transforms change coordinates, but not the steps that they were rounded to. 0: not float32, or no parts.
   double float32Step = 0;
+  /// The objects that the file names, in file order: an object has the input faces from `firstFace` to the first face
+  /// of the next object. Each object has a face. Consecutive objects have different names. Empty if the file names none
+  /// (docs/formats.md#names-of-objects).
+  std::vector<NamedFaces> objects = {};
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
   /// #I: the number of faces in the file.
@@ -72,6 +87,13 @@ struct Mesh {
     return polygons.isEmpty() ? faces.size() : polygons.firstCorner.size() - 1;
   }
 };
+
+/// The name of the object that has the input face; empty if the file does not name it. Valid until the mesh changes.
+[[nodiscard]] inline std::string_view objectNameOf(const Mesh& mesh, uint64_t inputFace) {
+  const auto next = std::upper_bound(mesh.objects.begin(), mesh.objects.end(), inputFace,
+                                     [](uint64_t face, const NamedFaces& object) { return face < object.firstFace; });
+  return next == mesh.objects.begin() ? std::string_view() : std::string_view(std::prev(next)->name);
+}
 
 /// View of the caller's arrays, which must outlive the view. The library uses double positions and triangles in place.
 /// The library converts float positions to double (24 bytes per vertex) and triangulates polygons (about 16 bytes per
