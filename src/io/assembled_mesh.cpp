@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -12,6 +13,17 @@
 #include "mesh/validation.h"
 
 namespace asdfvk {
+namespace {
+
+constexpr uint64_t kMaxInstanceBytesPerByte = 64;
+
+[[noreturn]] void failInstancesTooLarge(std::string_view what, uint64_t limit) {
+  throw Error(ErrorCode::InputTooLarge,
+              fmt::format("its instances have {}, which need more than {} MiB of memory; export fewer instances", what,
+                          limit >> 20));
+}
+
+}  // namespace
 
 bool Placement::isFinite() const {
   return asdfvk::isFinite(columns[0]) && asdfvk::isFinite(columns[1]) && asdfvk::isFinite(columns[2]) &&
@@ -23,26 +35,32 @@ Placement Placement::after(const Placement& inner) const {
           point(inner.translation)};
 }
 
-AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, const MeshSource& source) {
+AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, const MeshSource& source)
+    : limit_(source.limit(kMaxInstanceBytes, kMaxInstanceBytesPerByte)) {
   requireFaceCount(faceCount, source);
   // Dividing the limits avoids an overflow of the product of two counts in a hostile file.
-  constexpr uint64_t kMaxBytesPerByte = 64;
-  const uint64_t limit = source.limit(kMaxInstanceBytes, kMaxBytesPerByte);
-  if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||
-      vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit)
-    throw Error(
-        ErrorCode::InputTooLarge,
-        fmt::format("its instances have {} in all, which need more than {} MiB of memory; export fewer instances",
-                    counted(faceCount, "face"), limit >> 20));
+  if (faceCount / 2 > limit_ / sizeof(Face) || vertexCount / 2 > limit_ / sizeof(Vec3d) ||
+      vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit_)
+    failInstancesTooLarge(counted(faceCount, "face") + " in all", limit_);
+  meshBytes_ = vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face);
   requireAtMost(kMaxTriangleCount, faceCount, "faces");
   requireAtMost(kMaxIndexCount, vertexCount, "vertices");
   vertices_.reserve(vertexCount);
   faces_.reserve(faceCount);
 }
 
-void AssembledMesh::add(const PartMesh& part, const Placement& placement) {
+void AssembledMesh::addNames(const PartMesh& part, std::string_view name) {
+  names_.begin(faces_.size(), name);
+  for (const NamedFaces& object : part.objects)
+    names_.begin(faces_.size() + object.firstFace, object.name.empty() ? name : object.name);
+  // A name is in the file once, but in the memory for each instance.
+  if (meshBytes_ + names_.byteCount() > limit_) failInstancesTooLarge("too many names", limit_);
+}
+
+void AssembledMesh::add(const PartMesh& part, const Placement& placement, std::string_view name) {
   if (part.faces.empty()) return;
   ++partCount_;
+  addNames(part, name);
   const auto first = static_cast<uint32_t>(vertices_.size());
   for (const Vec3d& p : part.vertices) vertices_.push_back(placement.point(p));
   const double scale =
@@ -58,6 +76,7 @@ void AssembledMesh::add(const PartMesh& part, const Placement& placement) {
 Mesh AssembledMesh::finish() {
   Mesh mesh;
   mesh.vertices = std::move(vertices_);
+  mesh.objects = names_.finish(faces_.size());
   InputFaces faces;
   faces.addTriangles(std::move(faces_));
   faces.moveTo(mesh);

@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asdf_vk/mesh.h"
 #include "core/vec3.h"
 #include "io/formats.h"
+#include "io/object_names.h"
 
 namespace asdfvk {
 
@@ -29,6 +31,7 @@ struct Placement {
 struct PartMesh {
   std::vector<Vec3d> vertices;
   std::vector<Face> faces;
+  std::vector<NamedFaces> objects = {};  ///< Names within the part, like Mesh::objects.
 };
 
 /// The memory limit of all instances is the greater of this number of bytes and 64 times the size of the file.
@@ -42,14 +45,20 @@ class AssembledMesh {
   /// the memory limit.
   AssembledMesh(uint64_t vertexCount, uint64_t faceCount, const MeshSource& source);
 
-  /// Reverses the faces of a mirrored part, so that its outside stays outside.
-  void add(const PartMesh& part, const Placement& placement);
+  /// Reverses the faces of a mirrored part, so that its outside stays outside. name: name of the faces that have no
+  /// name within the part. Throws Error{InputTooLarge} if names exceed the memory limit.
+  void add(const PartMesh& part, const Placement& placement, std::string_view name);
   /// Throws Error{UnreadableInput} if the mesh has no face.
   [[nodiscard]] Mesh finish();
 
  private:
+  void addNames(const PartMesh& part, std::string_view name);
+
+  uint64_t limit_;  ///< Greatest memory of all instances in bytes.
+  uint64_t meshBytes_ = 0;
   std::vector<Vec3d> vertices_;
   std::vector<Face> faces_;
+  ObjectNames names_;
   uint32_t partCount_ = 0;
   double float32Step_ = 0;
 };

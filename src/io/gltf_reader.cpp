@@ -1,8 +1,8 @@
 // glTF 2.0 (Khronos), as .glb or .gltf: the meshes of the default scene, placed by its nodes. The mesh of a node is a
-// part. Vertices of a part at the same point become one, because glTF splits vertices where normals or texture
-// coordinates differ. Positions may have any type of KHR_mesh_quantization. The data of a .gltf file may be in a file
-// beside (pathBeside()). The reader ignores materials, textures, cameras and animations. Mesh::skipped lists other
-// ignored content.
+// part with the name of the node, or else of the mesh. Vertices of a part at the same point become one, because glTF
+// splits vertices where normals or texture coordinates differ. Positions may have any type of KHR_mesh_quantization.
+// The data of a .gltf file may be in a file beside (pathBeside()). The reader ignores materials, textures, cameras and
+// animations. Mesh::skipped lists other ignored content.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class GltfReader {
     std::vector<uint64_t> useCounts(meshCount, 0);
     for (uint64_t mesh = 0; mesh < meshCount; ++mesh)
       meshHasWeights_.push_back(hasWeights(file_.item("meshes", mesh, "glTF")) ? 1 : 0);
-    forEachInstance([&](uint64_t mesh, const Placement&) { ++useCounts[mesh]; });
+    forEachInstance([&](uint64_t mesh, const GltfJson&, const Placement&) { ++useCounts[mesh]; });
     uint64_t vertexCount = 0, faceCount = 0;
     for (uint64_t mesh = 0; mesh < meshCount; ++mesh) {
       if (useCounts[mesh] == 0) continue;
@@ -58,9 +58,10 @@ class GltfReader {
     if (faceCount == 0) failWithoutFaces(meshCount);
     AssembledMesh assembled(vertexCount, faceCount, source_);
     std::vector<std::optional<PartMesh>> parts(meshCount);  // Parts that later nodes may use again.
-    forEachInstance([&](uint64_t mesh, const Placement& placement) {
+    forEachInstance([&](uint64_t mesh, const GltfJson& node, const Placement& placement) {
       if (!parts[mesh]) parts[mesh] = partOf(mesh);
-      assembled.add(*parts[mesh], placement);
+      const std::string_view name = nameOf(node);
+      assembled.add(*parts[mesh], placement, name.empty() ? nameOf(file_.item("meshes", mesh, "glTF")) : name);
       if (--useCounts[mesh] == 0) parts[mesh].reset();
     });
     Mesh mesh = assembled.finish();
@@ -80,7 +81,14 @@ class GltfReader {
     failInput(fmt::format("has {} and no triangle: nothing to compute on", found));
   }
 
-  /// Calls work(mesh, placement) for each node with a mesh, depth first, with children in file order.
+  /// Empty if the item has no name. Names have no effect on the geometry, so that a wrong type is no error.
+  static std::string_view nameOf(const GltfJson& item) {
+    const auto name = item.find("name");
+    return name != item.end() && name->is_string() ? std::string_view(name->get_ref<const std::string&>())
+                                                   : std::string_view();
+  }
+
+  /// Calls work(mesh, node, placement) for each node with a mesh, depth first, with children in file order.
   template <typename Work>
   void forEachInstance(const Work& work) {
     std::vector<uint8_t> isVisited(file_.countOf("nodes"), 0);
@@ -124,7 +132,7 @@ class GltfReader {
       const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
       skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
       morphCount_ += isFirstPass_ && (meshHasWeights_[mesh] != 0 || hasWeights(node)) ? 1 : 0;
-      work(mesh, hasSkin ? Placement{} : visit.placement);
+      work(mesh, node, hasSkin ? Placement{} : visit.placement);
     }
     path.push_back(visit);
   }

@@ -1,6 +1,7 @@
-// Wavefront OBJ: the statements `v` and `f`. The reader ignores the other statements of the format, and opens no file
-// that a statement such as mtllib names. The statement `call` and unknown statements are errors. A backslash at the end
-// of a line continues a statement of numbers, but not a name, because names may be Windows paths that end with one.
+// Wavefront OBJ: the statements `v` and `f`, and the names of objects: of `o`, or of `g` if the file has no name of
+// `o`. The reader ignores the other statements of the format, and opens no file that a statement such as mtllib names.
+// The statement `call` and unknown statements are errors. A backslash at the end of a line continues a statement of
+// numbers, but not a name, because names may be Windows paths that end with one.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
+#include "io/object_names.h"
 #include "io/text_scanner.h"
 #include "mesh/input_faces.h"
 
@@ -28,10 +30,10 @@ static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
 
 bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
 
-/// Whether the arguments are names or commands.
+/// Whether the arguments are names or commands that the reader ignores.
 bool hasNames(std::string_view keyword) {
-  constexpr auto kNameKeywords = std::to_array<std::string_view>(
-      {"csh", "g", "maplib", "mtllib", "o", "shadow_obj", "trace_obj", "usemap", "usemtl"});
+  constexpr auto kNameKeywords =
+      std::to_array<std::string_view>({"csh", "maplib", "mtllib", "shadow_obj", "trace_obj", "usemap", "usemtl"});
   return std::find(kNameKeywords.begin(), kNameKeywords.end(), keyword) != kNameKeywords.end();
 }
 
@@ -45,6 +47,7 @@ class ObjReader {
     if (highestIndex_ > mesh_.vertices.size())
       failAtLine(highestIndexLine_, fmt::format("vertex index {} is out of range; the mesh has {}, numbered from 1",
                                                 highestIndex_, counted(mesh_.vertices.size(), "vertex", "vertices")));
+    mesh_.objects = (objects_.isEmpty() ? groups_ : objects_).finish(faces_.count());
     faces_.moveTo(mesh_);
     mesh_.skipped = skippedGeometry();
     return std::move(mesh_);
@@ -59,6 +62,10 @@ class ObjReader {
       readFace();
     } else if (keyword == "call") {
       failAtLine(text_.line(), "call refers to another file, which is not opened; copy its content to this place");
+    } else if (keyword == "o") {
+      objects_.begin(faces_.count(), text_.takeLine());
+    } else if (keyword == "g") {
+      readGroup(objectName(text_.takeLine()));
     } else if (hasNames(keyword)) {
       text_.skipLine();
     } else if (isKeyword(keyword)) {
@@ -67,6 +74,11 @@ class ObjReader {
     } else {
       failAtLine(text_.line(), fmt::format("{} is not an OBJ keyword", quoted(keyword)));
     }
+  }
+
+  void readGroup(std::string_view name) {
+    constexpr std::string_view kDefaultGroup = "default";  // The faces before the first `g` are also in this group.
+    if (objects_.isEmpty()) groups_.begin(faces_.count(), name == kDefaultGroup ? std::string_view() : name);
   }
 
   void countGeometry(std::string_view keyword) {
@@ -156,6 +168,7 @@ class ObjReader {
   TextScanner text_;
   Mesh mesh_;
   InputFaces faces_;
+  ObjectNames objects_, groups_;  ///< By `o` and `g`.
   std::vector<uint32_t> corners_;
   uint64_t highestIndex_ = 0;
   uint64_t highestIndexLine_ = 0;

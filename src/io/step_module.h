@@ -8,7 +8,7 @@
 namespace asdfvk {
 
 /// Changes with every change of this file.
-inline constexpr uint32_t kStepModuleVersion = 1;
+inline constexpr uint32_t kStepModuleVersion = 2;
 
 /// Lengths are in millimetres. A callback returns false to stop the call; it throws nothing.
 struct StepModuleCall {
@@ -22,9 +22,10 @@ struct StepModuleCall {
   bool (*setChordError)(void* context, const char* unit, const double min[3], const double max[3], double* chordError);
   /// Receives the estimated number of triangles of the next body, for a body of many triangles.
   bool (*expectTriangles)(void* context, double triangleCount);
-  /// Receives the triangles of a body. points: 3 pointCount coordinates; the points of the faces are separate, but
-  /// equal where faces meet. corners: 3 triangleCount indices, counter-clockwise seen from outside.
-  bool (*addBody)(void* context, const double* points, uint64_t pointCount, const uint32_t* corners,
+  /// Receives the name (empty if it has none) and the triangles of a body. points: 3 pointCount coordinates; the points
+  /// of the faces are separate, but equal where faces meet. corners: 3 triangleCount indices, counter-clockwise seen
+  /// from outside.
+  bool (*addBody)(void* context, const char* name, const double* points, uint64_t pointCount, const uint32_t* corners,
                   uint64_t triangleCount);
   /// Places the body with this index, in the order of addBody(). columns: three columns of a linear map, and a
   /// translation.

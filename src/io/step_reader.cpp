@@ -1,5 +1,6 @@
 // STEP (ISO 10303-21): solids, and shells and faces without a solid, which a module triangulates (io/step_module.h).
-// Each placed body is a part. Coordinates are in the unit of the file. Colours, layers and dimensions are ignored.
+// Each placed body is a part with the name of the body or else of its product. Coordinates are in the unit of the file.
+// Colours, layers and dimensions are ignored.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "io/corner_welder.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
+#include "io/object_names.h"
 #include "io/step_library.h"
 
 namespace asdfvk {
@@ -65,7 +67,8 @@ class StepReader {
  private:
   void setChordError(std::string_view unit, const Vec3d& size, double& chordError);
   void expectTriangles(double count);
-  void addBody(const double* points, uint64_t pointCount, const uint32_t* corners, uint64_t triangleCount);
+  void addBody(const char* name, const double* points, uint64_t pointCount, const uint32_t* corners,
+               uint64_t triangleCount);
   void placeBody(uint64_t body, const double columns[12]);
   [[nodiscard]] std::vector<std::string> skippedOf(const StepModuleCall& call) const;
 
@@ -86,7 +89,8 @@ class StepReader {
   const LengthUnitRow* unit_ = nullptr;
   double chordError_ = 0;  ///< In the unit of the file.
   std::vector<PartMesh> bodies_;
-  uint64_t triangleCount_ = 0;  ///< Number of triangles of the bodies.
+  std::vector<std::string> names_;  ///< Names of the bodies.
+  uint64_t triangleCount_ = 0;      ///< Number of triangles of the bodies.
   std::vector<PlacedBody> placed_;
   uint64_t vertexCount_ = 0, faceCount_ = 0;  ///< Numbers of all placed bodies.
   std::exception_ptr failure_;
@@ -107,7 +111,8 @@ void StepReader::expectTriangles(double count) {
   requireFaceCount(triangleCount_ + static_cast<uint64_t>(std::min(count, kMostFaces)), source_);
 }
 
-void StepReader::addBody(const double* points, uint64_t pointCount, const uint32_t* corners, uint64_t triangleCount) {
+void StepReader::addBody(const char* name, const double* points, uint64_t pointCount, const uint32_t* corners,
+                         uint64_t triangleCount) {
   triangleCount_ += triangleCount;
   requireFaceCount(triangleCount_, source_);
   CornerWelder welder(pointCount);
@@ -124,6 +129,7 @@ void StepReader::addBody(const double* points, uint64_t pointCount, const uint32
   }
   body.vertices = std::move(welder.points());
   bodies_.push_back(std::move(body));
+  names_.push_back(objectName(name));
 }
 
 void StepReader::placeBody(uint64_t body, const double columns[12]) {
@@ -170,9 +176,10 @@ Mesh StepReader::read() {
   call.expectTriangles = [](void* context, double count) {
     return guarded(context, [&](StepReader& reader) { reader.expectTriangles(count); });
   };
-  call.addBody = [](void* context, const double* points, uint64_t pointCount, const uint32_t* corners,
+  call.addBody = [](void* context, const char* name, const double* points, uint64_t pointCount, const uint32_t* corners,
                     uint64_t triangleCount) {
-    return guarded(context, [&](StepReader& reader) { reader.addBody(points, pointCount, corners, triangleCount); });
+    return guarded(context,
+                   [&](StepReader& reader) { reader.addBody(name, points, pointCount, corners, triangleCount); });
   };
   call.placeBody = [](void* context, uint64_t body, const double columns[12]) {
     return guarded(context, [&](StepReader& reader) { reader.placeBody(body, columns); });
@@ -193,7 +200,7 @@ Mesh StepReader::read() {
   if (faceCount_ == 0)
     failInput(skipped.empty() ? "has no body" : fmt::format("has no body, only {}", joined(skipped, " and ")));
   AssembledMesh assembled(vertexCount_, faceCount_, source_);
-  for (const PlacedBody& placed : placed_) assembled.add(bodies_[placed.body], placed.placement);
+  for (const PlacedBody& placed : placed_) assembled.add(bodies_[placed.body], placed.placement, names_[placed.body]);
   Mesh mesh = assembled.finish();
   mesh.unit = unit_->name;
   mesh.chordError = std::max(chordError_, call.foundChordError * kMicrometresOfModule / unit_->micrometres);

@@ -1,7 +1,7 @@
 // ASCII STL: one or more of `solid NAME`, facets, `endsolid NAME`. Words may be divided among lines in any way; a name
-// is any text up to the end of its line. Comments, lines of colours, further lines of a name and a repeated line
-// `solid` are ignored and reported. The words `facet normal` always begin a face, also within a name, so that no face
-// is taken for a part of a name.
+// is any text up to the end of its line. Each solid is an object. Comments, lines of colours, further lines of a name
+// and a repeated line `solid` are ignored and reported. The words `facet normal` always begin a face, also within a
+// name, so that no face is taken for a part of a name.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 #include "core/text.h"
 #include "io/input_failure.h"
+#include "io/object_names.h"
 #include "io/stl_file.h"
 #include "io/text_scanner.h"
 
@@ -44,7 +45,9 @@ class AsciiStlReader {
       requireKeyword("solid");
       readSolid();
     }
+    std::vector<NamedFaces> objects = names_.finish(triangles_.size());
     Mesh mesh = weldedStl(welder_, std::move(triangles_));
+    mesh.objects = std::move(objects);
     if (commentCount_ > 0) mesh.skipped.push_back(counted(commentCount_, "comment"));
     if (textLineCount_ > 0) mesh.skipped.push_back(counted(textLineCount_, "line") + " of text between the faces");
     return mesh;
@@ -55,7 +58,7 @@ class AsciiStlReader {
   void readSolid() {
     uint64_t nameLineCount = 0;  // Ignored lines before the first face; they may be repeated after `endsolid`.
     bool isInName = true;
-    for (bool isFacet = skipName();;) {
+    for (bool isFacet = readName();;) {
       if (isFacet) {
         readFacet();
         isInName = isFacet = false;
@@ -66,6 +69,7 @@ class AsciiStlReader {
       } else if (isEnd(word, "solid")) {
         isFacet = skipName();
         if (!isFacet) break;
+        names_.begin(triangles_.size(), {});  // The skipped text may have the name of a further solid.
       } else if (isStlWord(word, "color") || isInName) {
         if (isInName) ++nameLineCount;
         isFacet = skipTextLine(word);
@@ -103,13 +107,24 @@ class AsciiStlReader {
     return static_cast<float>(value);
   }
 
+  /// Begins an object with the name that skipName() skips. Returns the value of skipName().
+  bool readName() {
+    const char* const begin = text_.position();
+    const char* end = begin;
+    const bool isFacet = skipName(&end);
+    names_.begin(triangles_.size(), {begin, static_cast<size_t>(end - begin)});
+    return isFacet;
+  }
+
   /// Skips the rest of the line. If it has the words `facet normal`, stops between them and returns true.
-  bool skipName() {
+  /// end: receives the end of the last word of the name.
+  bool skipName(const char** end = nullptr) {
     while (!text_.atLineEnd()) {
       const std::string_view word = text_.wordOnLine();
       if (isStlWord(word, "facet") && isStlWord(peekedWord(), "normal")) return true;
       if (isStlWord(word, "outer") && isStlWord(peekedWord(), "loop"))
         failAtLine(text_.line(), "'outer loop' without 'facet normal' before it");
+      if (end != nullptr) *end = text_.position();
     }
     return false;
   }
@@ -189,6 +204,7 @@ class AsciiStlReader {
   TextScanner text_;
   CornerWelder welder_;
   std::vector<Face> triangles_;
+  ObjectNames names_;
   uint64_t commentCount_ = 0, textLineCount_ = 0;
 };
 

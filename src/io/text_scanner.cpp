@@ -132,9 +132,12 @@ void TextScanner::requireEnd(std::string_view after) {
   if (!atEnd()) failAtLine(line_, fmt::format("unexpected {} after {}", quoted(scanWord()), after));
 }
 
-void TextScanner::skipLine() {
+std::string_view TextScanner::takeLine() {
+  const char* const begin = at_;
   skipToLineBreak();
+  const std::string_view rest(begin, static_cast<size_t>(at_ - begin));
   if (at_ != end_) skipLineBreak();
+  return rest;
 }
 
 std::string_view firstWord(std::span<const char> bytes, char comment) {

@@ -51,8 +51,11 @@ class TextScanner {
   void requireLineEnd(std::string_view after);
   /// after: the preceding item, for the message.
   void requireEnd(std::string_view after);
-  /// Skips the rest of the line with its line break. Here a backslash does not join lines.
-  void skipLine();
+  /// The rest of the line without its line break, with blanks and comments. Continues on the next line. Here a
+  /// backslash does not join lines.
+  std::string_view takeLine();
+  /// takeLine() without the result.
+  void skipLine() { static_cast<void>(takeLine()); }
   /// Precondition: the next byteCount bytes belong to one word.
   void skipBytes(size_t byteCount) { at_ += byteCount; }
 

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "io/corner_welder.h"
 #include "io/input_failure.h"
+#include "io/object_names.h"
 #include "io/text_scanner.h"
 #include "mesh/dual_graph.h"
 
@@ -173,7 +174,8 @@ class ModelReader {
     if (!role) xml_.fail(fmt::format("{} is not a type of object", asdfvk::quoted(type)));
     ModelObject object;
     object.role = *role;
-    models_.charge(sizeof(ModelObject) + 64);
+    object.name = objectName(xml_.attribute("name").value_or(""));
+    models_.charge(sizeof(ModelObject) + object.name.size() + 64);
     std::vector<PartSetting> ranges;
     forEachChild([&] {
       if (isCore("mesh"))
@@ -194,7 +196,7 @@ class ModelReader {
       object.role = PartRole::Material;  // The types of the components decide.
     }
     if (index_ == 0) applySettings(id, object, ranges);
-    removeRanges(std::move(ranges), object.mesh, object.leftOut);
+    applyRanges(std::move(ranges), object.mesh, object.leftOut);
     weldIfOpen(object.mesh);
     if (!model().objects.emplace(id, std::move(object)).second) xml_.fail(fmt::format("object {} occurs twice", id));
   }
@@ -211,24 +213,32 @@ class ModelReader {
     const auto found = models_.settings().find(id);
     if (found == models_.settings().end()) return;
     std::vector<PartSetting> parts;
-    for (const PartSetting& setting : found->second) (setting.isRange ? ranges : parts).push_back(setting);
+    for (const PartSetting& setting : found->second.parts) (setting.isRange ? ranges : parts).push_back(setting);
+    if (object.name.empty()) object.name = found->second.title;
     models_.settings().erase(found);
     std::map<uint64_t, size_t> firstOf;  // By the id of the part.
     for (size_t i = 0; i < parts.size(); ++i)
       if (parts[i].id) firstOf.emplace(*parts[i].id, i);
     std::vector<bool> isFound(parts.size());
     // Bambu Studio lists the parts in the order of the components, and several may be the same object.
-    const auto roleOf = [&](uint64_t part, size_t position) {
+    const auto settingOf = [&](uint64_t part, size_t position) -> const PartSetting* {
       const auto first = firstOf.find(part);
-      if (first == firstOf.end()) return PartRole::Material;
+      if (first == firstOf.end()) return nullptr;
       const size_t i = position < parts.size() && parts[position].id == part ? position : first->second;
       isFound[i] = true;
-      return parts[i].role;
+      return &parts[i];
     };
     for (size_t c = 0; c < object.components.size(); ++c)
-      object.components[c].role = roleOf(object.components[c].object, c);
+      if (const PartSetting* const setting = settingOf(object.components[c].object, c)) {
+        object.components[c].role = setting->role;
+        object.components[c].name = setting->title;
+        models_.charge(setting->title.size());
+      }
     if (object.components.empty())
-      if (const PartRole role = roleOf(id, 0); role != PartRole::Material) object.role = role;
+      if (const PartSetting* const setting = settingOf(id, 0)) {
+        if (setting->role != PartRole::Material) object.role = setting->role;
+        if (!setting->title.empty()) object.name = setting->title;
+      }
     for (size_t i = 0; i < parts.size(); ++i)
       if (parts[i].role != PartRole::Material && !isFound[i])
         xml_.fail(fmt::format("{} is not a part of object {}", parts[i].name(), id));

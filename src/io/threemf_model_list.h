@@ -28,10 +28,12 @@ struct ObjectUse {
   uint64_t object = 0;
   Placement placement;
   PartRole role = PartRole::Material;  ///< By the settings of a slicer.
+  std::string name = {};               ///< By the settings of a slicer; empty if they have none.
 };
 
 struct ModelObject {
   PartMesh mesh;
+  std::string name;                    ///< By the object, or else by slicers. Empty if it has no name.
   PartRole role = PartRole::Material;  ///< By the type of the object, and by slicers.
   std::vector<ObjectUse> components;
   RoleCounts leftOut{};  ///< Parts that were removed from the mesh.

@@ -1,7 +1,7 @@
 // 3MF (core specification 1.3, production extension 1.1): reads the objects of the build items, with their components
-// and transforms, in the unit of the file. Each build item and each component is a part. Colours, materials and
-// metadata are ignored. What is not material (io/threemf_roles.h), beam lattices, and items that are not to be printed
-// are left out; Mesh::skipped lists them. Only files within the archive are opened.
+// and transforms, in the unit of the file. Each build item and each component is a part with the name of its object.
+// Colours, materials and metadata are ignored. What is not material (io/threemf_roles.h), beam lattices, and items that
+// are not to be printed are left out; Mesh::skipped lists them. Only files within the archive are opened.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -65,7 +65,8 @@ class ThreeMfReader {
   void readModelAt(size_t index);
   [[nodiscard]] const ModelObject& objectOf(const ObjectUse& use) const;
   ObjectCounts countsOf(const ObjectUse& use, uint32_t depth);
-  void place(const ObjectUse& use, const Placement& outer, double scale, AssembledMesh& assembled);
+  void place(const ObjectUse& use, const Placement& outer, double scale, std::string_view outerName,
+             AssembledMesh& assembled);
   [[nodiscard]] std::string nameOf(const ObjectUse& use) const {
     return fmt::format("object {} of {}", use.object, printable(models_.model(use.model).path));
   }
@@ -125,8 +126,8 @@ void ThreeMfReader::readModelAt(size_t index) {
   if (entry == nullptr) failInput(fmt::format("the archive has no {}", asdfvk::quoted(path)));
   readPart(*entry, path, XmlReader::Prefixes::Resolved, [&](XmlReader& xml) { readModel(xml, models_, index); });
   if (index > 0) return;
-  for (const auto& [object, parts] : models_.settings())
-    for (const PartSetting& part : parts)
+  for (const auto& [object, settings] : models_.settings())
+    for (const PartSetting& part : settings.parts)
       if (part.role != PartRole::Material)
         failInput(fmt::format("{}: the model has no object {}", part.name(), object));
 }
@@ -166,7 +167,8 @@ ObjectCounts ThreeMfReader::countsOf(const ObjectUse& use, uint32_t depth) {
   return counts;
 }
 
-void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double scale, AssembledMesh& assembled) {
+void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double scale, std::string_view outerName,
+                          AssembledMesh& assembled) {
   if (use.role != PartRole::Material || counts_[{use.model, use.object}].faces == 0) return;
   const ModelObject& object = objectOf(use);
   Placement placement = outer.after(use.placement);
@@ -176,8 +178,9 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
     for (Vec3d& column : placement.columns) column = column * (unit / scale);
     if (!placement.isFinite()) failInput(fmt::format("the transform of {} overflows", nameOf(use)));
   }
-  if (object.role == PartRole::Material) assembled.add(object.mesh, placement);
-  for (const ObjectUse& component : object.components) place(component, placement, unit, assembled);
+  const std::string_view name = !use.name.empty() ? use.name : !object.name.empty() ? object.name : outerName;
+  if (object.role == PartRole::Material) assembled.add(object.mesh, placement, name);
+  for (const ObjectUse& component : object.components) place(component, placement, unit, name, assembled);
 }
 
 Mesh ThreeMfReader::read() {
@@ -200,7 +203,7 @@ Mesh ThreeMfReader::read() {
                   : fmt::format("has {} and no triangle: nothing to compute on",
                                 skipped.empty() ? "build items" : enumeration(skipped)));
   AssembledMesh assembled(all.vertices, all.faces, source_);
-  for (const ObjectUse& item : model.items) place(item, {}, micrometresOf(*model.unit), assembled);
+  for (const ObjectUse& item : model.items) place(item, {}, micrometresOf(*model.unit), {}, assembled);
   Mesh mesh = assembled.finish();
   mesh.unit = model.unit->unit;
   mesh.skipped = std::move(skipped);

@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "io/input_failure.h"
+#include "io/object_names.h"
 
 namespace asdfvk {
 namespace {
@@ -44,6 +45,12 @@ uint64_t settingNumber(const XmlReader& xml, std::string_view attribute) {
   return *number;
 }
 
+/// The name of an object or a part, if the element is metadata with a name.
+std::optional<std::string> titleIn(const XmlReader& xml) {
+  if (xml.name() != "metadata" || xml.attribute("key") != "name") return std::nullopt;
+  return objectName(xml.attribute("value").value_or(""));
+}
+
 /// Reads an element `part` or `volume` to its end.
 PartSetting readPart(XmlReader& xml, std::string_view file) {
   PartSetting part{.source = file};
@@ -59,6 +66,7 @@ PartSetting readPart(XmlReader& xml, std::string_view file) {
   while (xml.next() == XmlReader::Event::Start) {
     const std::string_view key = xml.attribute("key").value_or("");
     const std::string_view value = withoutBlanks(xml.attribute("value").value_or(""));
+    if (const std::optional<std::string> title = titleIn(xml)) part.title = *title;
     if (xml.name() == "metadata" && (key == "volume_type" || key == "part_type")) {
       part.role = roleOfSlicer(value);
       hasType = true;
@@ -69,6 +77,25 @@ PartSetting readPart(XmlReader& xml, std::string_view file) {
   }
   if (part.role != PartRole::Material && !part.isRange && !part.id) xml.fail("a part has no id and no triangles");
   return part;
+}
+
+bool isMaterial(const PartSetting& part) { return part.role == PartRole::Material; }
+
+/// The names of the triangles that are left without the ranges that are not material. ranges: in ascending order.
+std::vector<NamedFaces> titlesOf(const std::vector<PartSetting>& ranges, uint64_t faceCount) {
+  ObjectNames names;
+  uint64_t end = 0, removedCount = 0;
+  for (const PartSetting& range : ranges) {
+    if (range.first < end || range.last < range.first || range.last >= faceCount) continue;
+    names.begin(end - removedCount, {});
+    end = range.last + 1;
+    if (isMaterial(range))
+      names.begin(range.first - removedCount, range.title);
+    else
+      removedCount += end - range.first;
+  }
+  names.begin(end - removedCount, {});
+  return names.finish(faceCount - removedCount);
 }
 
 }  // namespace
@@ -111,15 +138,16 @@ void readPartSettings(XmlReader& xml, std::string_view file, const std::function
       xml.skipElement();
       continue;
     }
-    std::vector<PartSetting>& parts = settings[settingNumber(xml, "id")];
-    charge(kNodeBytes);
+    ObjectSettings& object = settings[settingNumber(xml, "id")];
+    charge(kNodeBytes + kMaxObjectNameSize);
     while (xml.next() == XmlReader::Event::Start) {
       if (xml.name() != "part" && xml.name() != "volume") {
+        if (const std::optional<std::string> title = titleIn(xml)) object.title = *title;
         xml.skipElement();
         continue;
       }
-      parts.push_back(readPart(xml, file));
-      charge(2 * sizeof(PartSetting));
+      object.parts.push_back(readPart(xml, file));
+      charge(2 * (sizeof(PartSetting) + object.parts.back().title.size()));
     }
   }
   if (xml.next() != XmlReader::Event::Finished) xml.fail("continues after the settings");
@@ -133,11 +161,11 @@ PartSetting slic3rVolume(const XmlReader& xml) {
   return part;
 }
 
-void removeRanges(std::vector<PartSetting> ranges, PartMesh& mesh, RoleCounts& counts) {
-  const auto isMaterial = [](const PartSetting& range) { return range.role == PartRole::Material; };
-  if (std::all_of(ranges.begin(), ranges.end(), isMaterial)) return;
+void applyRanges(std::vector<PartSetting> ranges, PartMesh& mesh, RoleCounts& counts) {
   std::stable_sort(ranges.begin(), ranges.end(),
                    [](const PartSetting& a, const PartSetting& b) { return a.first < b.first; });
+  mesh.objects = titlesOf(ranges, mesh.faces.size());
+  if (std::all_of(ranges.begin(), ranges.end(), isMaterial)) return;
   std::vector<bool> removesFace(mesh.faces.size()), removesVertex(mesh.vertices.size());
   uint64_t end = 0;
   for (const PartSetting& range : ranges) {

@@ -183,6 +183,26 @@ TEST_CASE("glTF: primitives without vertices and hidden nodes beside a good mesh
         }) == "1 hidden node");
 }
 
+TEST_CASE("glTF: faces have the name of their node, or else of their mesh") {
+  json document = test::documentOf(test::box());
+  document["meshes"].push_back(document["meshes"][0]);
+  document["meshes"][1]["name"] = "mesh name";
+  document["meshes"].push_back({{"name", "without primitives"}});
+  document["nodes"] = {{{"mesh", 0}, {"name", "left\narm"}},
+                       {{"mesh", 0}},
+                       {{"mesh", 1}, {"name", ""}},
+                       {{"mesh", 2}, {"name", "without faces"}},
+                       {{"mesh", 1}},
+                       {{"name", "group"}, {"children", {6}}},
+                       {{"mesh", 1}, {"name", "Geh\u00e4use"}},
+                       {{"mesh", 0}, {"name", 7}}};
+  document["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 5, 7};
+  const Mesh mesh = test::parse("glb", test::glbOf(document, test::binaryOf(test::box())));
+  CHECK(mesh.faceCount() == 72);
+  CHECK(mesh.objects ==
+        std::vector<NamedFaces>{{0, "left arm"}, {12, ""}, {24, "mesh name"}, {48, "Geh\u00e4use"}, {60, ""}});
+}
+
 TEST_CASE("glTF: an accessor without a buffer view has zeros") {
   json document = test::documentOf(test::box());
   document["accessors"][0].erase("bufferView");

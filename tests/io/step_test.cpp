@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/vec3.h"
 #include "reading.h"
@@ -101,6 +102,22 @@ Mesh readStep(const std::string& name, const ReadOptions& options = {}) {
   return readMesh(stepPath(name), options);
 }
 
+/// Replaces the contents of a string of an entity. start: the entity up to its first string, with the quote. Counts
+/// from 0 on.
+void setString(std::string& text, const std::string& start, size_t entity, size_t string, const std::string& value) {
+  size_t begin = text.find(start);
+  for (size_t i = 0; i < entity; ++i) begin = text.find(start, begin + 1);
+  REQUIRE(begin != text.npos);
+  begin += start.size();
+  for (size_t i = 0; i < 2 * string; ++i) begin = text.find('\'', begin) + 1;
+  text.replace(begin, text.find('\'', begin) - begin, value);
+}
+
+std::vector<NamedFaces> objectsOf(const std::string& text) {
+  const StepModuleOfBuild module;
+  return asdfvk::test::parse("step", text).objects;
+}
+
 std::string stepErrorOf(std::string_view text) {
   const StepModuleOfBuild module;
   return errorOf("step", text);
@@ -176,6 +193,40 @@ TEST_CASE("the bodies of an assembly in STEP are placed, and a mirrored one stay
   CHECK(volumeOf(mesh) == doctest::Approx(18000));
   checkPoint(boundsOf(mesh).first, {-20, 0, 0});
   checkPoint(boundsOf(mesh).second, {110, 20, 30});
+}
+
+TEST_CASE("bodies of STEP have the name of their representation item, or else of their product") {
+  using Objects = std::vector<NamedFaces>;
+  const std::string kProduct = "PRODUCT('", kSolid = "MANIFOLD_SOLID_BREP('";
+  std::string text = stepText("assembly");
+  CHECK(objectsOf(text).empty());  // Its names are those that Open CASCADE makes up.
+  setString(text, kProduct, 0, 1, "machine");
+  setString(text, kProduct, 1, 1, "left arm");
+  setString(text, kProduct, 2, 1, "");
+  setString(text, kProduct, 2, 0, "A-113");
+  CHECK(objectsOf(text) == Objects{{0, "left arm"}, {24, "A-113"}});
+  setString(text, kSolid, 1, 0, "it''s \\X2\\00E4\\X0\\");
+  CHECK(objectsOf(text) == Objects{{0, "left arm"}, {24, "it's \u00e4"}});
+  setString(text, kSolid, 0, 0, "NONE");
+  CHECK(objectsOf(text) == Objects{{0, "left arm"}, {24, "it's \u00e4"}});
+  setString(text, kProduct, 1, 1, "");
+  setString(text, kProduct, 1, 0, "");
+  CHECK(objectsOf(text) == Objects{{0, "machine"}, {24, "it's \u00e4"}});
+  setString(text, kProduct, 0, 1, "");
+  setString(text, kProduct, 0, 0, "");
+  CHECK(objectsOf(text) == Objects{{24, "it's \u00e4"}});
+
+  std::string shell = stepText("shell");
+  setString(shell, kProduct, 0, 1, "product");
+  CHECK(objectsOf(shell) == Objects{{0, "product"}});
+  setString(shell, "SHELL_BASED_SURFACE_MODEL('", 0, 0, "surface");
+  CHECK(objectsOf(shell) == Objects{{0, "surface"}});
+  setString(shell, "SHELL_BASED_SURFACE_MODEL('", 0, 0, "");
+  setString(shell, "OPEN_SHELL('", 0, 0, "shell");
+  CHECK(objectsOf(shell) == Objects{{0, "shell"}});
+  std::string mixed = stepText("box_curve_point");
+  setString(mixed, kSolid, 0, 0, std::string(300, 'x'));
+  CHECK(objectsOf(mixed) == Objects{{0, std::string(200, 'x')}});
 }
 
 TEST_CASE("open surfaces of STEP are read; curves and points are reported") {

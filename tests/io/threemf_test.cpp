@@ -14,6 +14,8 @@ using test::holds;
 
 namespace {
 
+using Objects = std::vector<NamedFaces>;
+
 const std::string kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 const std::string kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 const std::string kVertices =
@@ -331,6 +333,48 @@ TEST_CASE("3MF: modifiers of Slic3r and of Cura are left out and told") {
   CHECK(cura("support_mesh", "True").faceCount() == 4);
   CHECK(cura("support_mesh", "False").faceCount() == 8);
   CHECK(cura("support_mesh_drop_down", "True").faceCount() == 8);
+}
+
+TEST_CASE("3MF: faces have the name of their object, or else of the object that it is a component of") {
+  const std::string components = "<components><component objectid='1'/><component objectid='2'/></components>";
+  const std::string items =
+      "<item objectid='1'/><item objectid='2'/><item objectid='5'/><item objectid='3'/>"
+      "<item objectid='4'/><item objectid='6'/>";
+  const Mesh mesh =
+      read(model(object(1, kMesh) + object(2, kMesh, "name=' left&#10;arm '") + object(3, components, "name='both'") +
+                     object(4, components) + object(5, "<mesh><vertices/><triangles/></mesh>", "name='empty'") +
+                     object(6, kMesh, "name='support' type='support'"),
+                 items));
+  CHECK(mesh.faceCount() == 24);
+  CHECK(mesh.objects == Objects{{4, "left arm"}, {8, "both"}, {12, "left arm"}, {16, ""}, {20, "left arm"}});
+}
+
+TEST_CASE("3MF: faces have the names that slicers give to parts and objects") {
+  const std::string named = "<metadata key='name' value='left arm'/></part>";
+  const std::string parts = "<part id='2' subtype='normal_part'>" + named + "<part id='3' subtype='normal_part'/>" +
+                            "<part id='4' subtype='negative_part'><metadata key='name' value='hole'/></part>";
+  CHECK(read(assembly(3), {bambuSettings(parts)}).objects == Objects{{0, "left arm"}, {4, "x"}});
+  // The names of the parts are more specific than those of their objects.
+  CHECK(read(assembly(2, "name='object'"), {bambuSettings(parts.substr(0, parts.find("<part id='4'")))}).objects ==
+        Objects{{0, "left arm"}, {4, "object"}});
+  CHECK(read(model(object(1, kMesh)), {bambuSettings("<part id='1'>" + named)}).objects == Objects{{0, "left arm"}});
+
+  const std::string text = model(object(1, "<mesh>" + threeVolumes() + "</mesh>"));
+  const auto withName = [](int first, int last, const std::string& name, const std::string& type) {
+    return volume(first, last, "volume_type", type + "'/><metadata type='volume' key='name' value='" + name);
+  };
+  const std::string last = withName(8, 11, "right", "ModelPart");
+  CHECK(read(text, {prusaSettings(withName(0, 3, "left", "ModelPart") + withName(4, 7, "", "ModelPart") + last)})
+            .objects == Objects{{0, "left"}, {4, "x"}, {8, "right"}});
+  CHECK(
+      read(text, {prusaSettings(withName(0, 3, "left", "ModelPart") + withName(4, 7, "m", "ParameterModifier") + last)})
+          .objects == Objects{{0, "left"}, {4, "right"}});
+  CHECK(read(text, {prusaSettings(last + withName(0, 3, "hole", "NegativeVolume"))}).objects ==
+        Objects{{0, "x"}, {4, "right"}});
+  // Ranges that do not fit the mesh name nothing.
+  CHECK(read(text, {prusaSettings(withName(0, 3, "left", "ModelPart") + withName(2, 7, "overlap", "ModelPart") +
+                                  withName(9, 12, "beyond", "ModelPart"))})
+            .objects == Objects{{0, "left"}, {4, "x"}});
 }
 
 TEST_CASE("3MF: a small file that unfolds meets the limit of faces before its faces are made") {

@@ -37,6 +37,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/opencascade/body_names.h"
 #include "io/opencascade/deviation.h"
 #include "io/step_module.h"
 
@@ -116,6 +117,8 @@ class StepRead {
     const LengthsInMillimetres lengths;
     load();
     transfer();
+    names_.read(reader_.StepModel(), process());
+    for (const TopoDS_Shape& root : roots_) names_.addRoot(root);
     const double chordError = chooseChordError();
     for (const TopoDS_Shape& root : roots_) addBodiesOf(root, chordError);
   }
@@ -133,16 +136,17 @@ class StepRead {
     reader_.TransferRoots();
     for (int i = 1; i <= reader_.NbShapes(); ++i) roots_.push_back(reader_.Shape(i));
     const Handle(StepData_StepModel) model = reader_.StepModel();
-    const Handle(Transfer_TransientProcess) process = reader_.WS()->TransferReader()->TransientProcess();
     for (int i = 1; i <= model->NbEntities(); ++i) {
       const Handle(StepShape_FaceSurface) face = Handle(StepShape_FaceSurface)::DownCast(model->Value(i));
-      if (!face.IsNull() && TransferBRep::ShapeResult(process, face).IsNull()) ++call_.failedFaceCount;
+      if (!face.IsNull() && TransferBRep::ShapeResult(process(), face).IsNull()) ++call_.failedFaceCount;
     }
 #if OCC_VERSION_HEX < 0x070700
     const std::string_view text(call_.bytes, call_.size), name = "TRIANGULATED_FACE";
     for (size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) ++call_.tessellatedCount;
 #endif
   }
+
+  Handle(Transfer_TransientProcess) process() { return reader_.WS()->TransferReader()->TransientProcess(); }
 
   double chooseChordError() {
     TColStd_SequenceOfAsciiString lengths, angles, solidAngles;
@@ -225,7 +229,8 @@ class StepRead {
     points_.clear();
     corners_.clear();
     for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next()) addFace(TopoDS::Face(face.Current()));
-    require(call_.addBody(call_.context, points_.data(), points_.size() / 3, corners_.data(), corners_.size() / 3));
+    require(call_.addBody(call_.context, names_.of(body), points_.data(), points_.size() / 3, corners_.data(),
+                          corners_.size() / 3));
   }
 
   void addFace(const TopoDS_Face& face) {
@@ -253,6 +258,7 @@ class StepRead {
   StepModuleCall& call_;
   STEPControl_Reader reader_;
   std::vector<TopoDS_Shape> roots_;
+  BodyNames names_;
   std::map<std::pair<const void*, TopAbs_Orientation>, uint64_t> bodies_;
   std::vector<double> points_;
   std::vector<uint32_t> corners_;
