@@ -155,7 +155,8 @@ JudgedSurface::JudgedSurface(const JudgedSurface& material, Space)
   if (commonKind_ == FaceKind::NoThickness) commonKind_ = FaceKind::Boundary;
   own_ = std::make_unique<PreparedScene>(reversed(material.scene().prepared));
   own_->bvh = material.scene().bvh;
-  SpaceParts space = findSpaceParts(*own_, !triangles_.empty());
+  SpaceParts space = findSpaceParts(
+      *own_, [this](uint32_t face) { return kindOf(face) == FaceKind::Boundary; }, !triangles_.empty());
   solids_ = std::move(space.solids);
   voids_ = std::move(space.voids);
 }

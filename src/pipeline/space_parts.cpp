@@ -40,15 +40,14 @@ std::vector<double> volumesOf(const TriangleMesh& mesh, const Components& parts)
     const uint32_t part = parts.componentOf[face];
     const Vec3d& origin = mesh.vertices[mesh.faces[parts.components[part].firstFace][0]];
     const auto [i, j, k] = mesh.faces[face];
-    volumes[part] +=
-        dot(mesh.vertices[i] - origin, cross(mesh.vertices[j] - origin, mesh.vertices[k] - origin));
+    volumes[part] += dot(mesh.vertices[i] - origin, cross(mesh.vertices[j] - origin, mesh.vertices[k] - origin));
   }
   return volumes;
 }
 
 }  // namespace
 
-SpaceParts findSpaceParts(const PreparedScene& scene, bool mayRepeat) {
+SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)> boundsMaterial, bool mayRepeat) {
   const PreparedMesh& prepared = scene.prepared;
   const uint32_t faceCount = prepared.mesh.faceCount();
   const std::vector<uint32_t> onFace = mayRepeat ? findRepeated(scene) : std::vector<uint32_t>();
@@ -74,14 +73,14 @@ SpaceParts findSpaceParts(const PreparedScene& scene, bool mayRepeat) {
     result.solids.solidOf[face] = parts.componentOf[indexOf[kept]];
   }
   const auto isOfClosedBody = [&](uint32_t face) {
-    const Component& body = prepared.components.components[prepared.components.componentOf[faceOf[face]]];
-    return body.isClosed && body.isConsistentlyWound;
+    const Component& body = prepared.components.components[prepared.components.componentOf[face]];
+    return body.isClosed && body.isConsistentlyWound && boundsMaterial(face);
   };
   for (uint32_t part = 0; part < parts.components.size(); ++part) {
-    const uint32_t face = parts.components[part].firstFace;
+    const uint32_t face = faceOf[parts.components[part].firstFace];
     if (!(volumes[part] > 0) || !isOfClosedBody(face)) continue;
     result.solids.isClosed[part] = parts.components[part].isClosed ? 1 : 0;
-    result.voids.push_back({part, volumes[part] / 6, faceOf[face], {}});
+    result.voids.push_back({part, volumes[part] / 6, face, {}});
   }
   if (result.voids.empty()) return result;
   const std::vector<uint32_t> parentOf = findCavities(mesh, parts).parentOf;

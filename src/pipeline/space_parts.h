@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/function_ref.h"
 #include "pipeline/prepared_scene.h"
 #include "trace/solids.h"
 
@@ -23,7 +24,9 @@ struct SpaceParts {
   std::vector<EnclosedSpace> voids;
 };
 
-/// scene: faces are oriented outwards, seen from the space. mayRepeat: faces of several bodies may lie on each other.
-[[nodiscard]] SpaceParts findSpaceParts(const PreparedScene& scene, bool mayRepeat);
+/// scene: faces are oriented outwards, seen from the space. boundsMaterial(face): whether material is behind the face.
+/// mayRepeat: faces of several bodies may lie on each other.
+[[nodiscard]] SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)> boundsMaterial,
+                                        bool mayRepeat);
 
 }  // namespace asdfvk

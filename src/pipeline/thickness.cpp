@@ -164,16 +164,14 @@ class Measurement {
     if (next.isKnown && !next.wall && isFound) thickness_.nextWall = placeOf(*thinnest);
   }
 
-  /// Searches the greatest section of each body as far as the limit needs, and farther in bodies that exceed it.
+  /// Searches the greatest section of each body, and farther where the limit needs it.
   void findThickBodies(double limit, std::vector<GreatestSection>& sections, const RunControl& control) {
-    searchAgain(sections, solids_.isClosed, {.enough = limit}, control);
-    std::vector<GreatestSection> further = sections;
-    std::vector<uint8_t> isThick(sections.size());
+    searchAgain(sections, solids_.isClosed, kQuickSection, control);
+    std::vector<uint8_t> isUndecided(sections.size());
     for (size_t solid = 0; solid < sections.size(); ++solid)
-      isThick[solid] = solids_.isClosed[solid] != 0 && sections[solid].diameter > limit ? 1 : 0;
-    searchAgain(further, isThick, kQuickSection, control);
-    for (size_t solid = 0; solid < sections.size(); ++solid)
-      if (isThick[solid] != 0 && further[solid].diameter > sections[solid].diameter) sections[solid] = further[solid];
+      isUndecided[solid] =
+          solids_.isClosed[solid] != 0 && sections[solid].diameter <= limit && sections[solid].bound > limit ? 1 : 0;
+    searchAgain(sections, isUndecided, {.enough = limit}, control);
     keepGreatest(sections);
     thickness_.sections = std::move(sections);
   }

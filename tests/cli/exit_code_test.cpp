@@ -64,17 +64,6 @@ TEST_CASE("a check that failed is 5, one that could not fail is 0") {
   CHECK_EQ(static_cast<int>(exitCodeOf(CheckReport{.independent = false})), 0);
 }
 
-TEST_CASE("a thickness limit is passed, failed with 6, or not judged with 5") {
-  const auto codeOf = [](ThicknessVerdict verdict) {
-    ThicknessReport thickness;
-    thickness.verdict = verdict;
-    return static_cast<int>(exitCodeOf(thickness));
-  };
-  CHECK_EQ(codeOf(ThicknessVerdict::Passed), 0);
-  CHECK_EQ(codeOf(ThicknessVerdict::Failed), 6);
-  CHECK_EQ(codeOf(ThicknessVerdict::NotJudged), 5);
-}
-
 TEST_CASE("a mistake in the program is 70 with its place, too little memory is a failure of the mesh") {
   const Failure broken = failureOf(CheckFailure("a.cpp:1: x"));
   CHECK_EQ(static_cast<int>(broken.code), 70);

@@ -48,7 +48,8 @@ TEST_CASE("the name of a face is that of the last object that begins at or befor
   CHECK(objectNameOf(mesh.objects, 0).empty());
   mesh.objects = {{2, "a"}, {6, ""}, {7, "b"}};
   std::string found;
-  for (uint64_t face = 0; face < 9; ++face) found += objectNameOf(mesh.objects, face).empty() ? "-" : objectNameOf(mesh.objects, face);
+  for (uint64_t face = 0; face < 9; ++face)
+    found += objectNameOf(mesh.objects, face).empty() ? "-" : objectNameOf(mesh.objects, face);
   CHECK(found == "--aaaa-bb");
 }
 

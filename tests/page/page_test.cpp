@@ -67,8 +67,9 @@ TEST_CASE("a page is one file without references to others") {
 TEST_CASE("values that are not finite are null in lists") {
   Page page("test");
   PageTexts texts{.name = "a"};
-  texts.thin = PageThinPlaces{.limit = 0.5, .verdict = "failed", .regions = {ThinRegion{}}, .surface = {}};
-  texts.thin->regions[0].min = texts.thin->regions[0].place.z = kNoValue;
+  texts.thin = PageThinPlaces{.shown = {.limit = 0.5, .verdict = ThicknessVerdict::Failed, .regions = {ThinRegion{}}},
+                              .surface = {}};
+  texts.thin->shown.regions[0].min = texts.thin->shown.regions[0].place.z = kNoValue;
   texts.segments = {{7, 5, 1.5, kNoValue, {1, 2, 3}}};
   page.add(shapes::cube(), {}, texts);
   const auto mesh = test::decodePage(test::htmlOf(page)).json["meshes"][0];
@@ -82,13 +83,14 @@ TEST_CASE("values that are not finite are null in lists") {
 TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
   const Mesh cube = shapes::cube();
   PageTexts texts{.name = "a"};
-  texts.thin =
-      PageThinPlaces{.limit = 0.5, .verdict = "failed", .regions = {ThinRegion{}, ThinRegion{}}, .surface = {}};
-  texts.thin->regions[1].minFace = 7;
-  texts.thin->regions[0].kind = ThinKind::Wall;
-  texts.thin->regions[1].kind = ThinKind::Detail;
-  texts.thin->regions[1].least = 0.125;
-  texts.thin->sentence = "FAIL: 1 wall thinner than 0.5: 0.25 at (1, 2, 3), face 0";
+  texts.thin = PageThinPlaces{
+      .shown = {.limit = 0.5, .verdict = ThicknessVerdict::Failed, .regions = {ThinRegion{}, ThinRegion{}}},
+      .surface = {}};
+  texts.thin->shown.regions[1].minFace = 7;
+  texts.thin->shown.regions[0].kind = ThinKind::Wall;
+  texts.thin->shown.regions[1].kind = ThinKind::Detail;
+  texts.thin->shown.regions[1].least = 0.125;
+  texts.thin->shown.sentence = "FAIL: 1 wall thinner than 0.5: 0.25 at (1, 2, 3), face 0";
   // A whole face, and a part of another one that shares two corners with it.
   const auto& [a, b, c] = cube.faces[0];
   const Vec3d p = cube.vertices[a], q = cube.vertices[b], r = cube.vertices[c];

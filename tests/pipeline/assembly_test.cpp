@@ -63,8 +63,7 @@ TEST_CASE("a limit with a unit is converted to the unit of the mesh") {
   mesh.unit = "in";
   mesh.skipped = {"12 points"};
   Options options;
-  options.thickness.thinnerThan = 2.54;
-  options.thickness.limitUnit = LengthUnit::Centimetre;
+  options.thickness.thinnerThan = {2.54, LengthUnit::Centimetre};
   const Report report = referenceSession().compute(mesh, options).report;
   CHECK(report.unit == "in");
   CHECK(*report.thickness->thinnerThan == 1);

@@ -24,7 +24,7 @@ class BodyNames {
 
   // The keys are TopoDS_Shape::TShape().
   std::unordered_map<const void*, std::string> itemNames_;     ///< Names of items and products.
-  std::unordered_map<const void*, const std::string*> names_;  ///< Of bodies and compounds; null without a name.
+  std::unordered_map<const void*, const std::string*> names_;  ///< By bodies and compounds; null without a name.
 };
 
 }  // namespace asdfvk
