@@ -59,11 +59,17 @@ def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) 
 
 
 def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
-    """Returns the options; measure="thickness" becomes measure="both"."""
+    """Returns the options; measure="thickness" becomes measure="both", and "gap" becomes "sdf,gap"."""
     measure = options.get("measure")
-    has_limit = measure is None and options.get("thinner_than") is not None
-    is_thickness = isinstance(measure, str) and measure == "thickness"
-    return {**options, "measure": "both"} if has_limit or is_thickness else options
+    if measure is None:
+        implied = {"thickness": ("thinner_than", "thicker_than"), "gap": ("closer_than",)}
+        measured = [name for name, limits in implied.items() if any(options.get(limit) is not None for limit in limits)]
+    else:
+        measured = [name for name in ("thickness", "gap") if isinstance(measure, str) and name in measure.split(",")]
+    if not measured:
+        return options
+    names = ",".join(["sdf", *measured])
+    return {**options, "measure": "both" if names == "sdf,thickness" else names}
 
 
 def skeleton_of(

@@ -34,7 +34,7 @@ def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[Fun
     vertices: (n, 3) float32 or float64, or an object with `vertices` and `faces` (Mesh, trimesh.Trimesh).
     faces: (m, 3) indices of any integer type, counter-clockwise seen from outside. float64 vertices and 32-bit indices
         are used without a copy.
-    options: measure="thickness" or "both", segment="parts" or "cgal", centres=True and per="vertex" add fields;
+    options: measure="thickness", "both" or "gap", segment="parts" or "cgal", centres=True and per="vertex" add fields;
         docs/python.md explains all options.
 
     Returns the report with all fields by name, for example info.fields["sdf"]. Raises InputError, UsageError,

@@ -39,6 +39,28 @@ def test_the_thickness_of_a_sphere_and_of_a_cube() -> None:
     np.testing.assert_allclose(asdf_vk.thickness(*cube()), 1, rtol=1e-6)
 
 
+def test_gaps_voids_and_thick_bodies() -> None:
+    vertices, faces = cube()
+    two = np.concatenate([vertices, vertices + [1.25, 0, 0]]), np.concatenate([faces, faces + len(vertices)])
+    info = asdf_vk.compute(*two, closer_than=0.5, thicker_than=0.9)
+    assert info.gap is not None and info.gap.verdict == "failed" and info.gap.is_of_gaps
+    (region,) = info.gap.regions
+    assert region.kind == "gap" and region.min == pytest.approx(0.25, rel=1e-6)
+    assert sorted(region.bodies) == ["component 0", "component 1"] and region.opposite_face is not None
+    assert np.nanmin(info.fields["least_gap"]) == pytest.approx(0.25, rel=1e-6)
+    assert info.thickness is not None and info.thickness.verdict is None and info.thickness.thick is not None
+    assert info.thickness.thick.verdict == "failed" and len(info.thickness.thick.bodies) == 2
+    assert info.thickness.thick.ratio == pytest.approx(1, rel=2e-3)
+    assert "sdf" not in info.fields and info.voids == () and info.contacts == ()
+    hollow = np.concatenate([vertices, 0.5 * vertices + 0.25]), np.concatenate([faces, faces[:, ::-1] + len(vertices)])
+    (void,) = asdf_vk.compute(*hollow, measure="gap").voids
+    assert void.volume == pytest.approx(0.125, rel=1e-6) and void.face >= len(faces)
+    expected = asdf_vk.shape_diameter(vertices, faces)
+    np.testing.assert_array_equal(asdf_vk.shape_diameter(vertices, faces, closer_than=1), expected)
+    np.testing.assert_array_equal(asdf_vk.shape_diameter(vertices, faces, measure="gap"), expected)
+    np.testing.assert_array_equal(asdf_vk.shape_diameter(vertices, faces, measure="thickness,gap"), expected)
+
+
 def test_the_verdict_of_the_thickness() -> None:
     vertices, faces = cube()
     info = asdf_vk.compute(vertices * [60, 1, 20], faces, measure="thickness", thinner_than=1.5)

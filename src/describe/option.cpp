@@ -289,11 +289,16 @@ bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target) {
 }
 
 std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling) {
-  const std::string_view needs = row.needs, first = needs.substr(0, needs.find('|'));
-  const size_t sign = std::min(first.find('='), first.size());
+  const std::string_view needs = row.needs;
   if (needs.empty()) return "";
-  const OptionRow& needed = *findOption(rows, first.substr(0, sign));
-  return sign == first.size() ? spelled(needed, spelling) : spelled(needed, first.substr(sign + 1), spelling);
+  const size_t sign = needs.find('=');
+  std::vector<std::string> texts;
+  for (const std::string& first : splitAt(needs, '|')) {
+    const OptionRow& needed = *findOption(rows, std::string_view(first).substr(0, sign));
+    if (sign != needs.npos) return spelled(needed, std::string_view(first).substr(sign + 1), spelling);
+    texts.push_back(spelled(needed, spelling));
+  }
+  return joined(texts, " or ");
 }
 
 void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given) {

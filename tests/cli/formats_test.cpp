@@ -15,7 +15,7 @@ TEST_CASE("a limit has the unit of the mesh or its own") {
   for (const char* const text : {"0.8mm", "0.8 mm"}) {
     CAPTURE(text);
     const ComputationSettings computation = lineOf(text);
-    CHECK(*computation.options.thickness.thinnerThan == 0.8);
+    CHECK(computation.options.thickness.thinnerThan->value == 0.8);
     CHECK(computation.options.thickness.thinnerThan->unit == LengthUnit::Millimetre);
     CHECK(std::get<std::string>(valueOf(*findOption(computationRows(), "fail-if-thinner"), &computation)) == "0.8mm");
   }

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "cli/options.h"
 #include "cli/program_under_test.h"
 #include "cli/refusal.h"
@@ -13,6 +15,19 @@ ChildOutcome runThickness(const std::vector<std::string>& further) {
   std::vector<std::string> arguments{"--backend", "reference", "--quiet"};
   arguments.insert(arguments.end(), further.begin(), further.end());
   return runAsdf(arguments);
+}
+
+/// A box of OBJ, with indices relative to its last vertex.
+std::string boxObj(const Vec3d& min, const Vec3d& max, bool isReversed = false) {
+  constexpr int kQuads[6][4]{{-8, -6, -5, -7}, {-4, -3, -1, -2}, {-8, -7, -3, -4},
+                             {-6, -2, -1, -5}, {-8, -4, -2, -6}, {-7, -5, -1, -3}};
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += fmt::format("v {} {} {}\n", (i & 1) != 0 ? max.x : min.x, (i & 2) != 0 ? max.y : min.y,
+                        (i & 4) != 0 ? max.z : min.z);
+  for (const auto& [p, q, r, t] : kQuads)
+    text += isReversed ? fmt::format("f {} {} {} {}\n", t, r, q, p) : fmt::format("f {} {} {} {}\n", p, q, r, t);
+  return text;
 }
 
 TEST_CASE("a limit implies the measure, and nothing about the seeds") {
@@ -56,8 +71,9 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
   };
   isRefused({"a.ply", "--wall-angle", "120"}, "--wall-angle needs --measure thickness");
   isRefused({"a.ply", "--measure", "sdf", "--thinner-than", "1"}, "contradicts --measure sdf");
-  isRefused({"a.ply", "--count-edges"}, "--count-edges needs --thinner-than");
-  isRefused({"a.ply", "--measure", "thickness", "--count-details"}, "--count-details needs --thinner-than");
+  isRefused({"a.ply", "--count-edges"}, "--count-edges needs --thinner-than or --closer-than");
+  isRefused({"a.ply", "--measure", "thickness", "--count-details"},
+            "--count-details needs --thinner-than or --closer-than");
   isRefused({"a.ply", "--thinner-than", "1", "--allow-sharp-edges"},
             "--allow-sharp-edges was removed: thin edges do not count any more; --count-edges counts them");
   for (const char* limit : {"0.5", "2"})
@@ -72,7 +88,65 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
   }
   for (const char* wrong : {"90", "181", "wide"})
     isRefused({"a.ply", "--measure", "thickness", "--wall-angle", wrong}, "--wall-angle: ");
-  isRefused({"a.ply", "--measure", "diameter"}, "--measure: 'diameter' is not one of sdf|thickness|both");
+  isRefused({"a.ply", "--measure", "diameter"}, "--measure: 'diameter' is not one of sdf|thickness|both|gap|");
+}
+
+TEST_CASE("limits of gaps and of thick bodies imply what they limit, together with the other limits") {
+  const auto measureOf = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "a.ply");
+    return parseCommandLine(arguments).computation.options.measure;
+  };
+  CHECK(measureOf({"--closer-than", "1"}) == Measure::Gap);
+  CHECK(measureOf({"--fail-if-closer", "1mm"}) == Measure::Gap);
+  CHECK(measureOf({"--fail-if-voids"}) == Measure::Gap);
+  CHECK(measureOf({"--thicker-than", "1"}) == Measure::Thickness);
+  CHECK(measureOf({"--fail-if-thicker", "1", "--fail-if-closer", "2"}) == Measure::ThicknessAndGap);
+  CHECK(measureOf({"--thinner-than", "1", "--fail-if-voids"}) == Measure::ThicknessAndGap);
+  CHECK(measureOf({"--measure", "both", "--closer-than", "1"}) == Measure::All);
+  CHECK(measureOf({"--measure", "gap", "--thinner-than", "1"}) == Measure::ThicknessAndGap);
+  CHECK(measureOf({"--measure", "gap", "--fields", "gap,sdf"}) == Measure::DiameterAndGap);
+  const auto isRefused = [](std::vector<std::string> arguments, const std::string& reason) {
+    arguments.insert(arguments.begin(), "a.ply");
+    const std::string message = refusal(arguments);
+    CHECK_MESSAGE(message.find(reason) != std::string::npos, message);
+  };
+  isRefused({"--closer-than", "1", "--fail-if-closer", "2"}, "have different limits");
+  isRefused({"--thicker-than", "1", "--fail-if-thicker", "1mm"}, "have different limits");
+  for (const std::string option : {"--closer-than", "--thicker-than"})
+    isRefused({"--measure", "sdf", option, "1"}, option + " contradicts --measure sdf");
+  isRefused({"--measure", "sdf", "--fail-if-voids"}, "--fail-if-voids contradicts --measure sdf");
+  isRefused({"--fields", "least_gap"}, "--fields least_gap needs --measure gap");
+  for (const char* const option : {"--fail-if-closer", "--fail-if-thicker", "--closer-than", "--thicker-than"})
+    isRefused({option, "0"}, option);
+  CHECK_FALSE(parseCommandLine({"a.ply", "--fail-if-voids"}).outputs.writesResult);
+  CHECK(parseCommandLine({"a.ply", "--closer-than", "1", "--count-edges"}).computation.options.thickness.countsEdges);
+}
+
+TEST_CASE("gaps, voids and thick bodies end with 6, and with 5 if they cannot be judged") {
+  const ScratchFolder folder;
+  const std::string two = folder.write(
+      "two.obj", "o left\n" + boxObj({0, 0, 0}, {1, 1, 1}) + "o right\n" + boxObj({1.2, 0, 0}, {2.2, 1, 1}));
+  checkFailure(runThickness({two, "--fail-if-closer", "0.3"}), 6, "FAIL: 1 gap closer than 0.3: 0.2 at (");
+  checkFailure(runThickness({two, "--fail-if-closer", "0.3"}), 6, "between left and right");
+  checkFailure(runThickness({two, "--fail-if-thicker", "0.9"}), 6, "FAIL: 2 bodies thicker than 0.9: ");
+  CHECK_EQ(runThickness({two, "--fail-if-closer", "0.1", "--fail-if-thicker", "1.1", "--fail-if-voids"}).exitCode, 0);
+  // Each check that failed has a line.
+  const ChildOutcome all = runThickness({two, "--fail-if-thinner", "1.1", "--fail-if-closer", "0.3"});
+  CHECK_EQ(all.exitCode, 6);
+  for (const char* const line : {"FAIL: 1 gap closer", "FAIL: 2 walls thinner"})
+    CHECK_MESSAGE(all.error.find(line) != std::string::npos, all.error);
+  const std::string hollow =
+      folder.write("hollow.obj", boxObj({0, 0, 0}, {5, 5, 5}) + boxObj({1, 1, 1}, {4, 4, 4}, true));
+  checkFailure(runThickness({hollow, "--fail-if-voids"}), 6, "FAIL: 1 sealed void, volume 27 at (");
+  const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  for (const std::vector<std::string>& check :
+       {std::vector<std::string>{"--fail-if-closer", "1"}, {"--fail-if-thicker", "1"}, {"--fail-if-voids"}}) {
+    std::vector<std::string> arguments{open};
+    arguments.insert(arguments.end(), check.begin(), check.end());
+    const ChildOutcome outcome = runThickness(arguments);
+    checkFailure(outcome, 5, "NOT JUDGED: no ");
+    checkFailure(outcome, 5, "3 open edges");
+  }
 }
 
 TEST_CASE("the document has the verdict, the percentiles and the regions") {

@@ -166,7 +166,7 @@ TEST_CASE("the gap has the same values as the thickness of the reversed mesh") {
   options.orientation = Orientation::Flip;
   const Result flipped = test::referenceSession().compute(mesh, options);
   const std::vector<double>&found = *gap.field("least_gap")->reals(),
-                            &expected = *flipped.field("least_thickness")->reals();
+        &expected = *flipped.field("least_thickness")->reals();
   REQUIRE(found.size() == expected.size());
   for (size_t face = 0; face < found.size(); ++face) {
     CAPTURE(face);

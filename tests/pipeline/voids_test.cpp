@@ -96,9 +96,9 @@ TEST_CASE("bodies without a void have none: solid, in contact, a tube, inverted,
   CHECK(measureSpace(shapes::inverted(shapes::cube())).voids.empty());
   CHECK(measureSpace(shapes::openBox({2, 2, 2}, 1)).voids.empty());
   // A cavity that another body fills.
-  CHECK(measureSpace(allOf({shapes::box({10, 10, 10}), shapes::inverted(shapes::box({4, 4, 4})),
-                            shapes::box({5, 5, 5})}))
-            .voids.empty());
+  CHECK(
+      measureSpace(allOf({shapes::box({10, 10, 10}), shapes::inverted(shapes::box({4, 4, 4})), shapes::box({5, 5, 5})}))
+          .voids.empty());
 }
 
 TEST_CASE("several voids, also in nested bodies") {
