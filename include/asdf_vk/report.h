@@ -233,11 +233,14 @@ struct SectionBall {
 
 /// A part of the space without a way out. Lengths are in the unit of the mesh.
 struct SealedVoid {
-  double volume = 0;                     ///< Without the bodies inside.
-  uint64_t face = 0;                     ///< An input face of its boundary.
-  Vec3d place;                           ///< The barycentre of a triangle of this face.
-  Vec3d size;                            ///< Sides of the bounding box.
-  std::vector<std::string> looseBodies;  ///< Names of the bodies that lie loose inside.
+  double volume = 0;                          ///< Without the bodies inside.
+  uint64_t face = 0;                          ///< An input face of its boundary.
+  Vec3d place;                                ///< The barycentre of a triangle of this face.
+  Vec3d size;                                 ///< Sides of the bounding box.
+  std::vector<std::string> looseBodies = {};  ///< Names of the bodies that lie loose inside.
+  /// False if bodies overlap in a common plane at its boundary, so that volume and way out are not certain. The void is
+  /// then not judged.
+  bool isCertain = true;
 };
 
 /// Two bodies that touch, cross or overlap: there is no gap, also not of width 0.

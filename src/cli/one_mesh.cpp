@@ -80,13 +80,16 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
   std::vector<Failure> failures;
   if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
     failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
+  std::vector<Failure> notJudged;  // A failure is more certain, and determines the exit code.
   const auto add = [&](ThicknessVerdict verdict, std::string message, const UnjudgedFaces& unjudged, const char* name) {
     if (verdict == ThicknessVerdict::Passed) return;
     const bool isFailed = verdict == ThicknessVerdict::Failed;
     const ReportRows reasons = shortUnjudgedRows(unjudged, OptionSpelling::Flag);
     if (!isFailed && !reasons.empty()) message += fmt::format("; {} {}", reasons[0].first, reasons[0].second);
-    failures.push_back(
-        {isFailed ? ExitCode::OverLimit : ExitCode::CheckFailed, message, isFailed ? name : "notJudged"});
+    if (isFailed)
+      failures.push_back({ExitCode::OverLimit, message, name});
+    else
+      notJudged.push_back({ExitCode::CheckFailed, message, "notJudged"});
   };
   if (computation.failIfThinner)
     add(*report.thickness->verdict, report.thickness->sentence, report.thickness->unjudged, "tooThin");
@@ -97,6 +100,7 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
     const auto [verdict, sentence] = voidsVerdict(report);
     add(verdict, sentence, report.gap->unjudged, "sealedVoids");
   }
+  failures.insert(failures.end(), notJudged.begin(), notJudged.end());
   return failures;
 }
 

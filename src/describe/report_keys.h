@@ -56,7 +56,7 @@ ASDFVK_KEYS(ThickReport, thickerThan, verdict, sentence, ratio, bodies)
 ASDFVK_KEYS(ThicknessReport, isOfGaps, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace,
             minPlace, minOpposite, percentile1, percentile5, median, percentile95, max, noValueCount, unjudged,
             greatestSection, thinArea, thinAreaShare, regions, thick)
-ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies)
+ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies, isCertain)
 ASDFVK_KEYS(BodyContact, bodies)
 ASDFVK_KEYS(WorstFace, face, error)
 ASDFVK_KEYS(ErrorEstimate, average, standardError, robustAverage, relativeMedian, relativePercentile90,

@@ -129,13 +129,22 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// "2 sealed voids, greatest volume 3.2 at (1, 2, 3), face 12; loose inside: ball".
 std::string voidsText(const std::vector<SealedVoid>& voids) {
-  const auto largest = std::max_element(voids.begin(), voids.end(),
-                                        [](const SealedVoid& a, const SealedVoid& b) { return a.volume < b.volume; });
+  if (voids.empty()) return "no sealed void";
+  const auto largest = std::max_element(voids.begin(), voids.end(), [](const SealedVoid& a, const SealedVoid& b) {
+    return std::pair(a.isCertain, a.volume) < std::pair(b.isCertain, b.volume);
+  });
   std::vector<std::string> loose;
   for (const SealedVoid& each : voids) loose.insert(loose.end(), each.looseBodies.begin(), each.looseBodies.end());
-  return fmt::format("{}, {}volume {} {}{}", counted(voids.size(), "sealed void"), voids.size() > 1 ? "greatest " : "",
-                     lengthText(largest->volume), placeText(largest->place, largest->face),
-                     loose.empty() ? "" : fmt::format("; loose inside: {}", listed(loose)));
+  const auto uncertainCount = static_cast<uint64_t>(
+      std::count_if(voids.begin(), voids.end(), [](const SealedVoid& each) { return !each.isCertain; }));
+  std::string text =
+      fmt::format("{}, {}volume {} {}", counted(voids.size(), "sealed void"), voids.size() > 1 ? "greatest " : "",
+                  lengthText(largest->volume), placeText(largest->place, largest->face));
+  if (!loose.empty()) text += "; loose inside: " + listed(loose);
+  if (uncertainCount > 0)
+    text += fmt::format("; {} uncertain, because bodies overlap in a common plane there: unite the bodies",
+                        groupDigits(uncertainCount));
+  return text;
 }
 
 }  // namespace
@@ -222,17 +231,19 @@ std::string unitQuestion(const Report& report) {
 
 std::pair<ThicknessVerdict, std::string> voidsVerdict(const Report& report) {
   ThicknessVerdict verdict = ThicknessVerdict::Passed;
-  if (report.gap->unjudged.preventVerdict()) verdict = ThicknessVerdict::NotJudged;
-  if (!report.voids.empty()) verdict = ThicknessVerdict::Failed;
-  return {verdict, fmt::format("{}: {}", verdictWord(verdict),
-                               report.voids.empty() ? "no sealed void" : voidsText(report.voids))};
+  if (report.gap->unjudged.preventVerdict() || !report.voids.empty()) verdict = ThicknessVerdict::NotJudged;
+  if (std::any_of(report.voids.begin(), report.voids.end(), [](const SealedVoid& each) { return each.isCertain; }))
+    verdict = ThicknessVerdict::Failed;
+  for (const UnjudgedReason& reason : report.gap->unjudged.reasons)
+    if (concernsWholeMesh(reason.cause)) verdict = ThicknessVerdict::NotJudged;
+  return {verdict, fmt::format("{}: {}", verdictWord(verdict), voidsText(report.voids))};
 }
 
 ReportRows spaceRows(const Report& report) {
   ReportRows rows;
   if (report.thickness && report.thickness->thick) rows.emplace_back("thick", report.thickness->thick->sentence);
   if (report.thickness && report.gap) rows.emplace_back("clearance", verdictSentence(*report.gap));
-  if (!report.voids.empty()) rows.emplace_back("voids", voidsText(report.voids));
+  if (report.gap) rows.emplace_back("voids", voidsText(report.voids));
   if (!report.contacts.empty()) {
     std::vector<std::string> pairs;
     for (const BodyContact& contact : report.contacts)

@@ -18,6 +18,8 @@ class BodyNames {
   /// The names of the bodies of two triangles of the mesh, one name if they are equal. Empty if the mesh has one body
   /// without a name.
   [[nodiscard]] std::vector<std::string> of(uint32_t triangle, uint32_t other) const;
+  /// The names of the bodies of all triangles, each body once. Triangles may repeat.
+  [[nodiscard]] std::vector<std::string> ofAll(std::vector<uint32_t> triangles) const;
   [[nodiscard]] std::vector<BodyContact> contacts() const;
 
  private:

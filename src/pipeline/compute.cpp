@@ -129,15 +129,16 @@ void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& 
     for (const uint32_t vertex : prepared.mesh.faces[face])
       boxes[space.solids().solidOf[face]].add(prepared.mesh.vertices[vertex]);
   for (const EnclosedSpace& each : space.voids()) {
-    SealedVoid found{each.volume,
-                     prepared.mesh.inputFaceOf(each.firstFace),
-                     prepared.geometry.barycentres[each.firstFace],
-                     boxes[each.part].size(),
-                     {}};
-    for (const uint32_t loose : each.looseFaces) {
-      const uint32_t triangle = space.triangleOf(loose);
-      for (std::string& name : names.of(triangle, triangle)) found.looseBodies.push_back(std::move(name));
-    }
+    SealedVoid found{.volume = each.volume,
+                     .face = prepared.mesh.inputFaceOf(each.firstFace),
+                     .place = prepared.geometry.barycentres[each.firstFace],
+                     .size = boxes[each.part].size(),
+                     .isCertain = each.isCertain};
+    std::vector<uint32_t> loose;
+    for (uint32_t face = 0; face < prepared.mesh.faceCount() && !each.looseParts.empty(); ++face)
+      if (std::binary_search(each.looseParts.begin(), each.looseParts.end(), space.solids().solidOf[face]))
+        loose.push_back(space.triangleOf(face));
+    found.looseBodies = names.ofAll(std::move(loose));
     report.voids.push_back(std::move(found));
   }
   report.contacts = names.contacts();

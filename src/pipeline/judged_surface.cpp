@@ -150,9 +150,6 @@ JudgedSurface::JudgedSurface(const JudgedSurface& material, Space)
       isSpace_(true),
       bodyOfComponent_(material.bodyOfComponent_),
       meetingBodies_(material.meetingBodies_) {
-  // A sheet without thickness is a wall of the space on both sides.
-  std::replace(kinds_.begin(), kinds_.end(), FaceKind::NoThickness, FaceKind::Boundary);
-  if (commonKind_ == FaceKind::NoThickness) commonKind_ = FaceKind::Boundary;
   own_ = std::make_unique<PreparedScene>(reversed(material.scene().prepared));
   own_->bvh = material.scene().bvh;
   SpaceParts space = findSpaceParts(

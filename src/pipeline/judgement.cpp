@@ -22,7 +22,7 @@ Judgement::Judgement(const Computation& computation, const JudgedSurface& surfac
   isDoubleSided_.assign(areas.size(), 0);
   for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face) {
     areas[components.componentOf[face]] += prepared.geometry.areas[face];
-    if (!isSheet(face) && !prepared.geometry.isDegenerate(face)) isSheet_[components.componentOf[face]] = 0;
+    if (!hasNoThickness(face) && !prepared.geometry.isDegenerate(face)) isSheet_[components.componentOf[face]] = 0;
   }
   for (size_t i = 0; i < areas.size(); ++i) {
     if (isSheet_[i] == 0 || std::abs(components.components[i].signedVolume) <= contactLength * areas[i]) continue;

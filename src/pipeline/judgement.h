@@ -20,15 +20,19 @@ class Judgement {
     return !isWoundAgainst(face) && !isInverted(face) && !isDoubleSided(face);
   }
   /// A face of two sheets in contact: its thickness is 0.
-  [[nodiscard]] bool isSheet(uint32_t face) const { return surface_.kindOf(face) == FaceKind::NoThickness; }
+  /// To the space around, a sheet is a wall like any other.
+  [[nodiscard]] bool isSheet(uint32_t face) const { return !surface_.isSpace() && hasNoThickness(face); }
   /// Whether all faces of the component of the face are sheets.
-  [[nodiscard]] bool isInSheet(uint32_t face) const { return isSheet_[componentIndexOf(face)] != 0; }
+  [[nodiscard]] bool isInSheet(uint32_t face) const {
+    return !surface_.isSpace() && isSheet_[componentIndexOf(face)] != 0;
+  }
   /// A face of a component that has a volume, but no material, because each face has a reversed copy.
   [[nodiscard]] bool isDoubleSided(uint32_t face) const { return isDoubleSided_[componentIndexOf(face)] != 0; }
 
   [[nodiscard]] UnjudgedFaces unjudged() const;
 
  private:
+  [[nodiscard]] bool hasNoThickness(uint32_t face) const { return surface_.kindOf(face) == FaceKind::NoThickness; }
   [[nodiscard]] uint32_t componentIndexOf(uint32_t face) const {
     return computation_.prepared.components.componentOf[face];
   }

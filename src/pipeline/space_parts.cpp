@@ -3,9 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include "bvh/leaf_faces.h"
+#include "core/box3.h"
 #include "core/parallel.h"
 #include "mesh/cavities.h"
 #include "mesh/closed_surface.h"
+#include "mesh/vertex_welding.h"
 #include "trace/nearest_point.h"
 
 namespace asdfvk {
@@ -17,44 +20,64 @@ std::vector<uint32_t> findRepeated(const PreparedScene& scene) {
   constexpr double kSameNormal = 1 - 1e-6;
   const TraceScene view = scene.view();
   const auto& normals = scene.prepared.geometry.normals;
-  std::vector<uint32_t> onFace(view.mesh.faceCount());
+  std::vector<uint32_t> onFace = scene.prepared.representatives;
   forEachInParallel(onFace.size(), [&](uint32_t face) {
-    onFace[face] = face;
-    if (scene.prepared.geometry.isDegenerate(face)) return;
-    const uint32_t first = scene.prepared.representatives[face];
-    const SurfacePoint found = nearestSurfacePoint(view, view.originOf(face), 0, [&](uint32_t other) {
-      return other < face && dot(normals[other], normals[face]) > kSameNormal ? other : kNoFace;
+    if (scene.prepared.geometry.isDegenerate(face) || onFace[face] != face) return;
+    const Vec3d middle = view.originOf(face);
+    const auto isNear = [&](const BvhNode& node) {
+      return squaredDistanceToBox(node, middle) <= kContactDistance * kContactDistance;
+    };
+    forEachLeafFace(view.bvh, isNear, [&](uint32_t other) {
+      const bool isOn = other < face && dot(normals[other], normals[face]) > kSameNormal &&
+                        length(nearestPoint(triangleOf(view, other), middle) - middle) <= kContactDistance;
+      if (isOn) onFace[face] = other;
+      return !isOn;
     });
-    if (first != face)
-      onFace[face] = first;
-    else if (found.face != kNoFace && length(found.point - view.originOf(face)) <= kContactDistance)
-      onFace[face] = found.face;
   });
   return onFace;
 }
 
-/// Six times the volume between each part and a point of it.
-std::vector<double> volumesOf(const TriangleMesh& mesh, const Components& parts) {
-  std::vector<double> volumes(parts.components.size(), 0);
+struct PartSize {
+  double volume = 0, area = 0;
+};
+
+std::vector<PartSize> sizesOf(const TriangleMesh& mesh, const Components& parts) {
+  std::vector<PartSize> sizes(parts.components.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
-    const uint32_t part = parts.componentOf[face];
-    const Vec3d& origin = mesh.vertices[mesh.faces[parts.components[part].firstFace][0]];
+    PartSize& size = sizes[parts.componentOf[face]];
+    const Vec3d& origin = mesh.vertices[mesh.faces[parts.components[parts.componentOf[face]].firstFace][0]];
     const auto [i, j, k] = mesh.faces[face];
-    volumes[part] += dot(mesh.vertices[i] - origin, cross(mesh.vertices[j] - origin, mesh.vertices[k] - origin));
+    const Vec3d a = mesh.vertices[i] - origin, b = mesh.vertices[j] - origin, c = mesh.vertices[k] - origin;
+    size.volume += dot(a, cross(b, c)) / 6;
+    size.area += length(cross(b - a, c - a)) / 2;
   }
-  return volumes;
+  return sizes;
+}
+
+/// The faces with one vertex for all vertices at a point.
+std::vector<Face> weldedAtPoints(const TriangleMesh& mesh, const Normalization& unit) {
+  std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
+  for (const Face& face : mesh.faces)
+    for (const uint32_t vertex : face) isUsed[vertex] = isFinite(mesh.vertices[vertex]) ? 1 : 0;
+  const std::vector<uint32_t> used =
+      indicesInParallel(static_cast<uint32_t>(isUsed.size()), [&](uint32_t vertex) { return isUsed[vertex] != 0; });
+  const std::vector<uint32_t> vertexOf = weldVertices(mesh, unit, used, kWeldDistance);
+  std::vector<Face> faces(mesh.faces.begin(), mesh.faces.end());
+  for (Face& face : faces)
+    for (uint32_t& vertex : face) vertex = vertexOf[vertex];
+  return faces;
 }
 
 }  // namespace
 
-SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)> boundsMaterial, bool mayRepeat) {
+SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)> boundsMaterial, bool mayOverlap) {
   const PreparedMesh& prepared = scene.prepared;
   const uint32_t faceCount = prepared.mesh.faceCount();
-  const std::vector<uint32_t> onFace = mayRepeat ? findRepeated(scene) : std::vector<uint32_t>();
+  const std::vector<uint32_t> onFace = mayOverlap ? findRepeated(scene) : prepared.representatives;
   std::vector<Face> faces;
   std::vector<uint32_t> faceOf, indexOf(faceCount);
   for (uint32_t face = 0; face < faceCount; ++face) {
-    if (mayRepeat && onFace[face] != face) continue;
+    if (onFace[face] != face) continue;
     indexOf[face] = static_cast<uint32_t>(faces.size());
     faces.push_back(prepared.mesh.faces[face]);
     faceOf.push_back(face);
@@ -62,34 +85,48 @@ SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)
   TriangleMesh mesh;
   mesh.vertices = prepared.mesh.vertices;
   mesh.faces = faces;
+  // Bodies that touch at edges only have no vertices in common.
+  const std::vector<Face> welded = weldedAtPoints(mesh, scene.bvh.normalization);
+  mesh.faces = welded;
   const SurfaceEdges edges = surveySurface(mesh, scene.bvh.normalization);
   if (!edges.faces.empty()) mesh.faces = edges.faces;
   const Components parts = findComponents(mesh, edges.survey);
-  const std::vector<double> volumes = volumesOf(mesh, parts);
+  const std::vector<PartSize> sizes = sizesOf(mesh, parts);
   SpaceParts result{{std::vector<uint32_t>(faceCount), std::vector<uint8_t>(parts.components.size(), 0)}, {}};
+  std::vector<uint8_t> hasRepeated(parts.components.size(), 0);
   for (uint32_t face = 0; face < faceCount; ++face) {
     uint32_t kept = face;
-    while (mayRepeat && onFace[kept] != kept) kept = onFace[kept];
-    result.solids.solidOf[face] = parts.componentOf[indexOf[kept]];
+    while (onFace[kept] != kept) kept = onFace[kept];
+    const uint32_t part = parts.componentOf[indexOf[kept]];
+    result.solids.solidOf[face] = part;
+    if (kept != prepared.representatives[face]) hasRepeated[part] = 1;
   }
   const auto isOfClosedBody = [&](uint32_t face) {
     const Component& body = prepared.components.components[prepared.components.componentOf[face]];
     return body.isClosed && body.isConsistentlyWound && boundsMaterial(face);
   };
+  const double contact = scene.bvh.normalization.contactLength();
   for (uint32_t part = 0; part < parts.components.size(); ++part) {
     const uint32_t face = faceOf[parts.components[part].firstFace];
-    if (!(volumes[part] > 0) || !isOfClosedBody(face)) continue;
-    result.solids.isClosed[part] = parts.components[part].isClosed ? 1 : 0;
-    result.voids.push_back({part, volumes[part] / 6, face, {}});
+    const PartSize& size = sizes[part];
+    // The mean width of a space of less than the resolution is a contact.
+    if (!(size.volume > contact * size.area) || !isOfClosedBody(face)) continue;
+    result.voids.push_back({.part = part,
+                            .volume = size.volume,
+                            .firstFace = face,
+                            .isCertain = parts.components[part].isClosed && hasRepeated[part] == 0});
   }
   if (result.voids.empty()) return result;
   const std::vector<uint32_t> parentOf = findCavities(mesh, parts).parentOf;
-  for (EnclosedSpace& each : result.voids)
+  for (EnclosedSpace& each : result.voids) {
     for (uint32_t part = 0; part < parts.components.size(); ++part) {
       if (part == each.part || parentOf[part] != each.part) continue;
-      each.volume += volumes[part] / 6;
-      each.looseFaces.push_back(faceOf[parts.components[part].firstFace]);
+      each.volume += sizes[part].volume;
+      each.looseParts.push_back(part);
     }
+    // Other bodies inside would limit the largest ball.
+    result.solids.isClosed[each.part] = each.isCertain && each.looseParts.empty() ? 1 : 0;
+  }
   return result;
 }
 

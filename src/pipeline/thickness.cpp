@@ -24,6 +24,9 @@ constexpr double kLeastLimit = 2 * kUnresolved;
 constexpr double kLeastWallLimit = 0x1p-8;
 /// A body is the next wall as a whole if its greatest section is known to this factor.
 constexpr double kSectionAccuracy = 1.05;
+/// Gaps wider than this factor times the limit, or without a limit than the greatest gap (normalised), have no value:
+/// nothing else would limit the search, and on convex surfaces each ball would meet most faces.
+constexpr double kGapsPerLimit = 4, kGreatestGap = 1;
 /// Limits of the next wall of a surface that bounds no body are at most this number (normalised).
 constexpr double kLargestLimit = 2;
 
@@ -41,6 +44,7 @@ class Measurement {
         fans_(mesh_) {
     if (const std::optional<double> limit = surface.limitIn(computation.options.thickness))
       limit_ = std::max(*limit * unit_.scale, kLeastLimit);
+    if (isSpace_) greatestGap_ = limit_ ? kGapsPerLimit * *limit_ : kGreatestGap;
   }
 
   FaceThickness run(const RunControl& control) {
@@ -155,7 +159,7 @@ class Measurement {
       if (thinnest == nullptr || section.bound < thinnest->bound) thinnest = &section;
     }
     if (thinnest == nullptr) return;
-    const double last = std::min(thinnest->bound / kThinShare, kLargestLimit);
+    const double last = std::min({thinnest->bound / kThinShare, kLargestLimit, greatestGap_});
     const LeastLimit next = findNextWall(
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
         computation_.options.thickness.findsNextWall ? kFullNextWall : quickNextWall(mesh_.faceCount()), control);
@@ -166,11 +170,16 @@ class Measurement {
 
   /// Searches the greatest section of each body, and farther where the limit needs it.
   void findThickBodies(double limit, std::vector<GreatestSection>& sections, const RunControl& control) {
-    searchAgain(sections, solids_.isClosed, kQuickSection, control);
-    std::vector<uint8_t> isUndecided(sections.size());
+    std::vector<uint8_t> isWanted(sections.size()), isUndecided(sections.size());
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
+      if (const uint32_t solid = solids_.solidOf[face]; solids_.isClosed[solid] != 0 && judgement_.isJudged(face))
+        isWanted[solid] = 1;
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      if (isWanted[solid] == 0) sections[solid] = {};
+    searchAgain(sections, isWanted, kQuickSection, control);
     for (size_t solid = 0; solid < sections.size(); ++solid)
       isUndecided[solid] =
-          solids_.isClosed[solid] != 0 && sections[solid].diameter <= limit && sections[solid].bound > limit ? 1 : 0;
+          isWanted[solid] != 0 && sections[solid].diameter <= limit && sections[solid].bound > limit ? 1 : 0;
     searchAgain(sections, isUndecided, {.enough = limit}, control);
     keepGreatest(sections);
     thickness_.sections = std::move(sections);
@@ -199,7 +208,7 @@ class Measurement {
       std::vector<FaceBalls> balls(end - begin);
       for (size_t i = begin; i < end; ++i) {
         balls[i - begin].face = faces[i];
-        const double bound = sections[solids_.solidOf[faces[i]]].bound;
+        const double bound = std::min(sections[solids_.solidOf[faces[i]]].bound, greatestGap_);
         balls[i - begin].atBarycentre.ball.diameter = balls[i - begin].least.ball.diameter = bound;
       }
       const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(faces.size()); };
@@ -218,12 +227,13 @@ class Measurement {
   void keep(FaceBalls& balls) {
     const uint32_t face = balls.face;
     if (judgement_.isSheet(face)) balls = sheetBalls(face);
-    const auto diameterOf = [&](const InscribedBall& ball) {
+    const auto diameterOf = [&](InscribedBall& ball) {
+      if (isSpace_ && ball.ball.diameter <= kUnresolved) ball.wall = kNoFace;  // Contact is no gap.
       return ball.wall == kNoFace && !judgement_.isSheet(face) ? kUnlimited : ball.ball.diameter;
     };
-    walls_[face] = {balls.atBarycentre.wall, balls.least.wall};
     thickness_.atBarycentre[face] = diameterOf(balls.atBarycentre);
     thickness_.least[face] = diameterOf(balls.least);
+    walls_[face] = {balls.atBarycentre.wall, balls.least.wall};
   }
 
   [[nodiscard]] FaceBalls sheetBalls(uint32_t face) const {
@@ -283,6 +293,7 @@ class Measurement {
   OpposingWalls opposing_;
   const Solids& solids_;
   bool isSpace_;
+  double greatestGap_ = kUnlimited;
   PointFans fans_;
   std::optional<double> limit_;   ///< Normalised.
   std::vector<FaceWalls> walls_;  ///< #F

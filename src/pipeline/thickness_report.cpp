@@ -197,8 +197,10 @@ class Description {
       if (!std::isfinite(section.diameter)) continue;
       const double diameter = unit_.toMeshLength(section.diameter);
       if (diameter > tooThick) {
-        const uint32_t triangle = surface_.original().prepared.components.components[solid].firstFace;
-        thick.bodies.push_back({names_.of(triangle, triangle), diameter, placeInMesh(section.centre)});
+        std::vector<uint32_t> triangles;  // Bodies that meet are one solid.
+        for (uint32_t face = 0; face < prepared_.mesh.faceCount(); ++face)
+          if (surface_.solids().solidOf[face] == solid) triangles.push_back(surface_.triangleOf(face));
+        thick.bodies.push_back({names_.ofAll(std::move(triangles)), diameter, placeInMesh(section.centre)});
       } else if (unit_.toMeshLength(section.bound) > tooThick * (1 + kSectionTolerance)) {
         isDecided = false;
       }

@@ -306,9 +306,6 @@ TEST_CASE("--help has tasks with examples, of options that exist; --help=all has
   CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }
 
-}  // namespace
-}  // namespace asdfvk
-
 TEST_CASE("the chord error of a check is a fiftieth of the limit") {
   const ReadOptions reading = parseCommandLine({"a.step", "--thinner-than", "0.8mm"}).reading;
   CHECK(reading.chordError == doctest::Approx(0.016));
@@ -316,3 +313,6 @@ TEST_CASE("the chord error of a check is a fiftieth of the limit") {
   CHECK(parseCommandLine({"a.step", "--fail-if-thinner", "1", "--chord-error", "3"}).reading.chordError == 3);
   CHECK(parseCommandLine({"a.step"}).reading.chordError == 0);
 }
+
+}  // namespace
+}  // namespace asdfvk

@@ -96,6 +96,7 @@ TEST_CASE("a convex body has no gap, and passes") {
   CHECK(report.gap->verdict == ThicknessVerdict::Passed);
   CHECK(std::isnan(report.gap->min));
   CHECK(report.gap->noValueCount == 12);
+  CHECK(report.voids.empty());
   CHECK(report.gap->sentence == "PASS: no gap closer than 0.5");
 }
 

@@ -9,6 +9,7 @@
 
 #include "generate/block_solid.h"
 #include "generate/thickness_parts.h"
+#include "mesh/face_geometry.h"
 #include "support/extrusion.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
