@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
@@ -84,15 +85,22 @@ void writePointsOf(const std::filesystem::path& path, const py::dict& perFace) {
   runInterruptibly([&](const RunControl& control) { writePoints(path, fields, control); }, py::none());
 }
 
+/// (first face, name) of each object.
+py::tuple objectsOf(const Mesh& mesh) {
+  py::list objects;
+  for (const NamedFaces& object : mesh.objects) objects.append(py::make_tuple(object.firstFace, object.name));
+  return py::tuple(objects);
+}
+
 py::tuple stateOf(const Mesh& mesh) {
   const Polygons& polygons = mesh.polygons;
   return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
                         bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf), mesh.unit, mesh.statedPartCount,
-                        mesh.skipped, mesh.negativeVolumeCount, mesh.chordError, mesh.float32Step);
+                        mesh.skipped, mesh.negativeVolumeCount, mesh.chordError, mesh.float32Step, objectsOf(mesh));
 }
 
 Mesh meshOf(const py::tuple& state) {
-  if (state.size() != 11) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have eleven members");
+  if (state.size() != 12) throw Error(ErrorCode::ArraySize, "the pickled mesh does not have twelve members");
   Mesh mesh;
   readBytes(state[0], mesh.vertices);
   readBytes(state[1], mesh.faces);
@@ -105,6 +113,10 @@ Mesh meshOf(const py::tuple& state) {
   mesh.negativeVolumeCount = state[8].cast<uint32_t>();
   mesh.chordError = state[9].cast<double>();
   mesh.float32Step = state[10].cast<double>();
+  for (const py::handle& object : state[11].cast<py::tuple>()) {
+    auto [firstFace, name] = object.cast<std::pair<uint64_t, std::string>>();
+    mesh.objects.push_back({firstFace, std::move(name)});
+  }
   return mesh;
 }
 
@@ -122,6 +134,8 @@ void bindFiles(py::module_& module) {
       .def_property_readonly(
           "unit", [](const Mesh& self) { return self.unit; },
           "Unit of length that the file states (3MF, glTF, STEP), for example \"mm\"; empty for other formats.")
+      .def_property_readonly("objects", objectsOf,
+                             "(first face, name) of each object that the file names, in the order of the file.")
       .def("__repr__",
            [](const Mesh& self) {
              return "<asdf_vk.Mesh, " + std::to_string(self.vertices.size()) + " vertices, " +

@@ -140,6 +140,22 @@ def test_polygons_have_a_value_each(tmp_path: Path) -> None:
     assert asdf_vk.read_mesh(tmp_path / "quads.ply").face_count == 6
 
 
+def test_objects_are_named_in_reports(tmp_path: Path) -> None:
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    text = ""
+    for index, name in enumerate(("lid", "base plate")):
+        text += f"o {name}\n" + "".join(f"v {x + 1.25 * index} {y} {z}\n" for x, y, z in corners)
+        text += "".join("f " + " ".join(str(i + 8 * index) for i in quad) + "\n" for quad in quads)
+    (tmp_path / "two.obj").write_text(text)
+    mesh = asdf_vk.read_mesh(tmp_path / "two.obj")
+    assert mesh.objects == ((0, "lid"), (6, "base plate"))
+    for copied in (mesh, pickle.loads(pickle.dumps(mesh))):
+        assert copied.objects == mesh.objects
+        gap = asdf_vk.compute(copied, closer_than=0.5).gap
+        assert gap is not None and set(gap.regions[0].bodies) == {"lid", "base plate"}
+
+
 def test_a_mesh_can_be_pickled(tmp_path: Path) -> None:
     path = tmp_path / "quads.off"
     path.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 3 2 1 0\n")

@@ -123,20 +123,20 @@ TEST_CASE("OBJ: geometry that is no face is reported") {
 }
 
 TEST_CASE("OBJ names its objects by o, or else by g") {
-  using Objects = std::vector<NamedFaces>;
+  using Named = std::vector<NamedFaces>;
   const std::string polygon = "f 1 2 3 4\n", triangle = "f 1 2 3\n";
   const auto objectsOf = [&](const std::string& text) { return parse("obj", kCorners + text).objects; };
   CHECK(objectsOf(triangle).empty());
   // Faces are counted as in the file, not as triangles.
   CHECK(objectsOf(polygon + "o  left arm \r\n" + polygon + triangle + "o empty\no\tright #2\n" + polygon) ==
-        Objects{{1, "left arm"}, {3, "right #2"}});
+        Named{{1, "left arm"}, {3, "right #2"}});
   CHECK(objectsOf("o a\n" + triangle + "o\n" + triangle + "o b\n" + triangle + "o last\n") ==
-        Objects{{0, "a"}, {1, ""}, {2, "b"}});
+        Named{{0, "a"}, {1, ""}, {2, "b"}});
   CHECK(objectsOf("g a b\n" + triangle + "g default\n" + triangle + "g c\n" + triangle + "s 1\ng c\n" + triangle) ==
-        Objects{{0, "a b"}, {1, ""}, {2, "c"}});
-  CHECK(objectsOf("g a\n" + triangle + "o b\ng c\n" + triangle + "g d\n" + triangle) == Objects{{1, "b"}});
-  CHECK(objectsOf("o\ng a\n" + triangle + "o\n" + triangle) == Objects{{0, "a"}});
-  CHECK(objectsOf("o C:\\parts\\\n" + triangle) == Objects{{0, "C:\\parts\\"}});
+        Named{{0, "a b"}, {1, ""}, {2, "c"}});
+  CHECK(objectsOf("g a\n" + triangle + "o b\ng c\n" + triangle + "g d\n" + triangle) == Named{{1, "b"}});
+  CHECK(objectsOf("o\ng a\n" + triangle + "o\n" + triangle) == Named{{0, "a"}});
+  CHECK(objectsOf("o C:\\parts\\\n" + triangle) == Named{{0, "C:\\parts\\"}});
   const std::string wide = asdfvk::test::utf16(kCorners + "o a b\n" + triangle, true);
-  CHECK(parseMesh(wide).objects == Objects{{0, "a b"}});
+  CHECK(parseMesh(wide).objects == Named{{0, "a b"}});
 }

@@ -186,15 +186,15 @@ TEST_CASE("a face of an ASCII STL is never taken for a part of a name") {
 }
 
 TEST_CASE("the solids of an ASCII STL have names, those of a binary STL have none") {
-  using Objects = std::vector<NamedFaces>;
+  using Named = std::vector<NamedFaces>;
   const auto objectsOf = [](const std::string& text) { return parse("stl", text).objects; };
   const std::string two = facetAt(0) + facetAt(1);
   CHECK(objectsOf("solid\n" + two + "endsolid\n").empty());
   CHECK(objectsOf("solid\n" + two + "endsolid\nsolid left\tarm \r\n" + two +
                   "endsolid left arm\nsolid empty\nendsolid\n" + "SOLID right\n" + two + "endsolid\nsolid\n" + two +
-                  "endsolid\n") == Objects{{2, "left arm"}, {4, "right"}, {6, ""}});
-  CHECK(objectsOf("solid a " + two + "endsolid a solid b " + two + "endsolid") == Objects{{0, "a"}, {2, ""}});
-  CHECK(objectsOf("solid a facet\nof two lines\nsolid c\n" + two + "endsolid\n") == Objects{{0, "a facet"}});
+                  "endsolid\n") == Named{{2, "left arm"}, {4, "right"}, {6, ""}});
+  CHECK(objectsOf("solid a " + two + "endsolid a solid b " + two + "endsolid") == Named{{0, "a"}, {2, ""}});
+  CHECK(objectsOf("solid a facet\nof two lines\nsolid c\n" + two + "endsolid\n") == Named{{0, "a facet"}});
   CHECK(objectsOf("solid " + stripStl(12).substr(6)).empty());
 }
 
