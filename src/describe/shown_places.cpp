@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/text.h"
 #include "describe/report_text.h"
 
 namespace asdfvk {
