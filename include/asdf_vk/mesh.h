@@ -48,7 +48,7 @@ struct Polygons {
 /// An object of a file, for example a solid or a node.
 struct NamedFaces {
   uint64_t firstFace = 0;  ///< Index of an input face.
-  std::string name;        ///< Valid UTF-8 on one line; at most 200 bytes. Empty after the end of a named object.
+  std::string name;        ///< Valid UTF-8 on one line; at most 200 bytes. Empty if the faces have no name.
 
   bool operator==(const NamedFaces&) const = default;
 };

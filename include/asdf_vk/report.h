@@ -243,7 +243,7 @@ struct SealedVoid {
   bool isCertain = true;
 };
 
-/// Two bodies that touch, cross or overlap: there is no gap, also not of width 0.
+/// Two bodies that touch, cross or overlap. Where they do, they have no gap, not even one of width 0.
 struct BodyContact {
   std::vector<std::string> bodies;  ///< Their names, see ThinRegion::bodies.
 };
@@ -320,7 +320,7 @@ struct UnjudgedFaces {
 /// The wall thickness (docs/thickness.md), or the width of gaps. Lengths are in the unit of the mesh. In a report on
 /// gaps, the thickness is that of the space, walls are gaps, and ThinKind::Gap replaces ThinKind::Wall.
 struct ThicknessReport {
-  bool isOfGaps = false;                    ///< The report is on gaps.
+  bool isOfGaps = false;                    ///< The report is about gaps, not about walls.
   std::optional<ThicknessVerdict> verdict;  ///< Unset without a limit.
   /// The first line of the text report: the verdict in one sentence. Without a limit, the least wall.
   std::string sentence;

@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+
+#include "shared/cone_hit.h"
 
 namespace asdfvk {
 
@@ -33,13 +36,18 @@ std::vector<std::string> BodyNames::of(uint32_t triangle, uint32_t other) const 
   return names;
 }
 
-std::vector<std::string> BodyNames::ofAll(std::vector<uint32_t> triangles) const {
-  if (isPlain_) return {};
-  const auto rank = [&](uint32_t triangle) { return surface_.bodyOf(triangle); };
-  std::stable_sort(triangles.begin(), triangles.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-  std::vector<std::string> names;
-  for (size_t i = 0; i < triangles.size(); ++i)
-    if (i == 0 || rank(triangles[i]) != rank(triangles[i - 1])) names.push_back(nameOf(triangles[i]));
+std::vector<std::vector<std::string>> BodyNames::ofGroups(const JudgedSurface& faces, std::span<const uint32_t> groupOf,
+                                                          size_t groupCount) const {
+  std::vector<std::vector<std::string>> names(groupCount);
+  if (isPlain_) return names;
+  std::vector<std::map<uint32_t, uint32_t>> firstTriangles(groupCount);  // By body.
+  for (uint32_t face = 0; face < groupOf.size(); ++face) {
+    if (groupOf[face] == kNoFace) continue;
+    const uint32_t triangle = faces.triangleOf(face);
+    firstTriangles[groupOf[face]].try_emplace(surface_.bodyOf(triangle), triangle);
+  }
+  for (size_t group = 0; group < groupCount; ++group)
+    for (const auto& [body, triangle] : firstTriangles[group]) names[group].push_back(nameOf(triangle));
   return names;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "asdf_vk/report.h"
@@ -18,8 +19,11 @@ class BodyNames {
   /// The names of the bodies of two triangles of the mesh, one name if they are equal. Empty if the mesh has one body
   /// without a name.
   [[nodiscard]] std::vector<std::string> of(uint32_t triangle, uint32_t other) const;
-  /// The names of the bodies of all triangles, each body once. Triangles may repeat.
-  [[nodiscard]] std::vector<std::string> ofAll(std::vector<uint32_t> triangles) const;
+  /// For each group of faces, the names of their bodies, each body once. faces: the surface, or that of the space.
+  /// groupOf: for each of its faces the group, or kNoFace.
+  [[nodiscard]] std::vector<std::vector<std::string>> ofGroups(const JudgedSurface& faces,
+                                                               std::span<const uint32_t> groupOf,
+                                                               size_t groupCount) const;
   [[nodiscard]] std::vector<BodyContact> contacts() const;
 
  private:

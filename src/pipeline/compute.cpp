@@ -128,18 +128,19 @@ void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& 
   for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
     for (const uint32_t vertex : prepared.mesh.faces[face])
       boxes[space.solids().solidOf[face]].add(prepared.mesh.vertices[vertex]);
-  for (const EnclosedSpace& each : space.voids()) {
-    SealedVoid found{.volume = each.volume,
-                     .face = prepared.mesh.inputFaceOf(each.firstFace),
-                     .place = prepared.geometry.barycentres[each.firstFace],
-                     .size = boxes[each.part].size(),
-                     .isCertain = each.isCertain};
-    std::vector<uint32_t> loose;
-    for (uint32_t face = 0; face < prepared.mesh.faceCount() && !each.looseParts.empty(); ++face)
-      if (std::binary_search(each.looseParts.begin(), each.looseParts.end(), space.solids().solidOf[face]))
-        loose.push_back(space.triangleOf(face));
-    found.looseBodies = names.ofAll(std::move(loose));
-    report.voids.push_back(std::move(found));
+  std::vector<uint32_t> voidOf(boxes.size(), kNoFace), groupOf;
+  for (uint32_t i = 0; i < space.voids().size(); ++i)
+    for (const uint32_t part : space.voids()[i].looseParts) voidOf[part] = i;
+  for (const uint32_t part : space.solids().solidOf) groupOf.push_back(voidOf[part]);
+  std::vector<std::vector<std::string>> looseBodies = names.ofGroups(space, groupOf, space.voids().size());
+  for (size_t i = 0; i < space.voids().size(); ++i) {
+    const EnclosedSpace& each = space.voids()[i];
+    report.voids.push_back({.volume = each.volume,
+                            .face = prepared.mesh.inputFaceOf(each.firstFace),
+                            .place = prepared.geometry.barycentres[each.firstFace],
+                            .size = boxes[each.part].size(),
+                            .looseBodies = std::move(looseBodies[i]),
+                            .isCertain = each.isCertain});
   }
   report.contacts = names.contacts();
 }

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "mesh/closed_surface.h"
 #include "mesh/coincident_faces.h"
+#include "mesh/orientation.h"
 
 namespace asdfvk {
 namespace {
@@ -109,16 +110,11 @@ class SurfaceBuilder {
 /// The same faces, in the same order, with the opposite orientation.
 PreparedMesh reversed(const PreparedMesh& prepared) {
   PreparedMesh result;
-  const TriangleMesh& mesh = prepared.mesh;
-  result.storage.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
-  for (const auto& [a, b, c] : mesh.faces) result.storage.faces.push_back({a, c, b});
-  Polygons& polygons = result.storage.polygons;
-  polygons.firstCorner.assign(mesh.polygons.firstCorner.begin(), mesh.polygons.firstCorner.end());
-  polygons.corners.assign(mesh.polygons.corners.begin(), mesh.polygons.corners.end());
-  polygons.inputFaceOf.assign(mesh.polygons.inputFaceOf.begin(), mesh.polygons.inputFaceOf.end());
-  result.mesh = result.storage;
+  result.mesh = prepared.mesh;
   result.geometry = prepared.geometry;
-  for (Vec3d& normal : result.geometry.normals) normal = -normal;
+  ownArrays(result);
+  flipFaces(result.storage, result.geometry, std::vector<uint8_t>(prepared.mesh.faceCount(), 1));
+  result.mesh = result.storage;
   result.components = prepared.components;
   result.representatives = prepared.representatives;
   result.unit = prepared.unit;

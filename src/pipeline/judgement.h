@@ -19,8 +19,8 @@ class Judgement {
   [[nodiscard]] bool isJudged(uint32_t face) const {
     return !isWoundAgainst(face) && !isInverted(face) && !isDoubleSided(face);
   }
-  /// A face of two sheets in contact: its thickness is 0.
-  /// To the space around, a sheet is a wall like any other.
+  /// Whether the face belongs to two sheets in contact, so that its thickness is 0. For the surface of the space, such
+  /// a face is an ordinary one.
   [[nodiscard]] bool isSheet(uint32_t face) const { return !surface_.isSpace() && hasNoThickness(face); }
   /// Whether all faces of the component of the face are sheets.
   [[nodiscard]] bool isInSheet(uint32_t face) const {

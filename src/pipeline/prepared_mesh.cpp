@@ -70,19 +70,6 @@ constexpr double kMaxSpacing = kAgreementTolerance / 10;
 // The greatest step of float32 coordinates without a warning, in bounding-box diagonals.
 constexpr double kMaxFloat32StepShare = 1e-5;
 
-/// Copies arrays of the caller, so that faces can be reversed.
-void ownArrays(PreparedMesh& prepared) {
-  const TriangleMesh mesh = prepared.mesh;
-  const auto copy = [](auto& target, const auto& source) {
-    if (target.data() != source.data()) target.assign(source.begin(), source.end());
-  };
-  copy(prepared.storage.vertices, mesh.vertices);
-  copy(prepared.storage.faces, mesh.faces);
-  copy(prepared.storage.polygons.firstCorner, mesh.polygons.firstCorner);
-  copy(prepared.storage.polygons.corners, mesh.polygons.corners);
-  copy(prepared.storage.polygons.inputFaceOf, mesh.polygons.inputFaceOf);
-}
-
 /// reverse(): reverses faces of prepared.storage.
 template <typename Reverse>
 void reverseFaces(PreparedMesh& prepared, const Reverse& reverse) {
@@ -157,6 +144,18 @@ void requireResolved(const Box3d& bounds) {
 }
 
 }  // namespace
+
+void ownArrays(PreparedMesh& prepared) {
+  const TriangleMesh mesh = prepared.mesh;
+  const auto copy = [](auto& target, const auto& source) {
+    if (target.data() != source.data()) target.assign(source.begin(), source.end());
+  };
+  copy(prepared.storage.vertices, mesh.vertices);
+  copy(prepared.storage.faces, mesh.faces);
+  copy(prepared.storage.polygons.firstCorner, mesh.polygons.firstCorner);
+  copy(prepared.storage.polygons.corners, mesh.polygons.corners);
+  copy(prepared.storage.polygons.inputFaceOf, mesh.polygons.inputFaceOf);
+}
 
 PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClock& clock, const RunControl& control) {
   const auto scope = clock.time(Stage::Geometry);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,12 @@ struct PreparedMesh {
   std::vector<uint32_t> invertedComponents;  ///< Inverted components that were left unchanged. Ascending.
   std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.
   MeshDefects defects;
-  std::string unit;                  ///< Mesh::unit.
-  double chordError = 0;             ///< Mesh::chordError.
-  uint32_t statedPartCount = 0;      ///< Mesh::statedPartCount.
-  uint32_t negativeVolumeCount = 0;  ///< Mesh::negativeVolumeCount.
-  double float32Step = 0;            ///< float32StepOf() of the mesh or of the parts of its file.
-  std::vector<NamedFaces> objects;   ///< Mesh::objects.
+  std::string unit;                     ///< Mesh::unit.
+  double chordError = 0;                ///< Mesh::chordError.
+  uint32_t statedPartCount = 0;         ///< Mesh::statedPartCount.
+  uint32_t negativeVolumeCount = 0;     ///< Mesh::negativeVolumeCount.
+  double float32Step = 0;               ///< float32StepOf() of the mesh or of the parts of its file.
+  std::span<const NamedFaces> objects;  ///< Mesh::objects of the caller.
   std::vector<Warning> warnings;
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };
@@ -45,6 +46,9 @@ struct PreparedMesh {
 /// `storage` must outlive the result. Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange},
 /// Error{MeshTooLarge}.
 [[nodiscard]] TriangleMesh trianglesOf(const MeshView& view, Mesh& storage);
+
+/// Copies the arrays that `mesh` views to `storage`, so that faces can be reversed. Does not change `mesh`.
+void ownArrays(PreparedMesh& prepared);
 
 /// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
 /// result. Throws the errors of trianglesOf(), Error{FarFromOrigin} and, between its steps, Error{Cancelled}.

@@ -1,8 +1,5 @@
 #include "pipeline/space_parts.h"
 
-#include <cmath>
-#include <utility>
-
 #include "bvh/leaf_faces.h"
 #include "core/box3.h"
 #include "core/parallel.h"
@@ -118,15 +115,17 @@ SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)
   }
   if (result.voids.empty()) return result;
   const std::vector<uint32_t> parentOf = findCavities(mesh, parts).parentOf;
-  for (EnclosedSpace& each : result.voids) {
-    for (uint32_t part = 0; part < parts.components.size(); ++part) {
-      if (part == each.part || parentOf[part] != each.part) continue;
-      each.volume += sizes[part].volume;
-      each.looseParts.push_back(part);
-    }
-    // Other bodies inside would limit the largest ball.
-    result.solids.isClosed[each.part] = each.isCertain && each.looseParts.empty() ? 1 : 0;
+  std::vector<uint32_t> voidOf(parts.components.size(), kNoFace);
+  for (uint32_t i = 0; i < result.voids.size(); ++i) voidOf[result.voids[i].part] = i;
+  for (uint32_t part = 0; part < parts.components.size(); ++part) {
+    if (parentOf[part] == part || voidOf[parentOf[part]] == kNoFace) continue;
+    EnclosedSpace& around = result.voids[voidOf[parentOf[part]]];
+    around.volume += sizes[part].volume;
+    around.looseParts.push_back(part);
   }
+  // Other bodies inside would limit the largest ball.
+  for (const EnclosedSpace& each : result.voids)
+    result.solids.isClosed[each.part] = each.isCertain && each.looseParts.empty() ? 1 : 0;
   return result;
 }
 

@@ -192,19 +192,21 @@ class Description {
     ThickReport thick{.thickerThan = limit};
     const double tooThick = limit / kThinShare;
     bool isDecided = true;
+    std::vector<uint32_t> bodyOfSolid(thickness_.sections.size(), kNoFace), groupOf;
     for (uint32_t solid = 0; solid < thickness_.sections.size(); ++solid) {
       const GreatestSection& section = thickness_.sections[solid];
       if (!std::isfinite(section.diameter)) continue;
       const double diameter = unit_.toMeshLength(section.diameter);
       if (diameter > tooThick) {
-        std::vector<uint32_t> triangles;  // Bodies that meet are one solid.
-        for (uint32_t face = 0; face < prepared_.mesh.faceCount(); ++face)
-          if (surface_.solids().solidOf[face] == solid) triangles.push_back(surface_.triangleOf(face));
-        thick.bodies.push_back({names_.ofAll(std::move(triangles)), diameter, placeInMesh(section.centre)});
+        bodyOfSolid[solid] = static_cast<uint32_t>(thick.bodies.size());
+        thick.bodies.push_back({{}, diameter, placeInMesh(section.centre)});
       } else if (unit_.toMeshLength(section.bound) > tooThick * (1 + kSectionTolerance)) {
         isDecided = false;
       }
     }
+    for (const uint32_t solid : surface_.solids().solidOf) groupOf.push_back(bodyOfSolid[solid]);
+    std::vector<std::vector<std::string>> names = names_.ofGroups(surface_, groupOf, thick.bodies.size());
+    for (size_t i = 0; i < names.size(); ++i) thick.bodies[i].bodies = std::move(names[i]);
     std::stable_sort(thick.bodies.begin(), thick.bodies.end(),
                      [](const ThickBody& a, const ThickBody& b) { return a.diameter > b.diameter; });
     thick.verdict = verdictIf(!thick.bodies.empty());
