@@ -9,15 +9,16 @@
 ///   asdfvk::writeResult("horse.vtu", mesh, result.fields);
 ///
 /// The included headers need the standard library only.
-#include "asdf_vk/cgal.h"         // IWYU pragma: export
-#include "asdf_vk/choices.h"      // IWYU pragma: export
-#include "asdf_vk/error.h"        // IWYU pragma: export
-#include "asdf_vk/field.h"        // IWYU pragma: export
-#include "asdf_vk/files.h"        // IWYU pragma: export
-#include "asdf_vk/mesh.h"         // IWYU pragma: export
-#include "asdf_vk/options.h"      // IWYU pragma: export
-#include "asdf_vk/report.h"       // IWYU pragma: export
-#include "asdf_vk/run_control.h"  // IWYU pragma: export
-#include "asdf_vk/scene.h"        // IWYU pragma: export
-#include "asdf_vk/session.h"      // IWYU pragma: export
-#include "asdf_vk/version.h"      // IWYU pragma: export
+#include "asdf_vk/cgal.h"              // IWYU pragma: export
+#include "asdf_vk/choices.h"           // IWYU pragma: export
+#include "asdf_vk/error.h"             // IWYU pragma: export
+#include "asdf_vk/field.h"             // IWYU pragma: export
+#include "asdf_vk/files.h"             // IWYU pragma: export
+#include "asdf_vk/mesh.h"              // IWYU pragma: export
+#include "asdf_vk/options.h"           // IWYU pragma: export
+#include "asdf_vk/report.h"            // IWYU pragma: export
+#include "asdf_vk/run_control.h"       // IWYU pragma: export
+#include "asdf_vk/scene.h"             // IWYU pragma: export
+#include "asdf_vk/session.h"           // IWYU pragma: export
+#include "asdf_vk/thickness_report.h"  // IWYU pragma: export
+#include "asdf_vk/version.h"           // IWYU pragma: export

@@ -130,6 +130,12 @@ typedef int (*asdf_vk_progress)(double fraction, const char* stage, void* user);
 ASDF_VK_C_API asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk_options* options,
                                              asdf_vk_progress progress, void* user, asdf_vk_result** result);
 
+/* Like asdf_vk_compute(), and compares the wall thickness with a former version of the mesh, a scene of the same
+ * session: field "thickness_change", and "/comparison" of the report. See Scene::compare() in asdf_vk/scene.h. */
+ASDF_VK_C_API asdf_vk_status asdf_vk_compare(asdf_vk_scene* scene, asdf_vk_scene* former,
+                                             const asdf_vk_options* options, asdf_vk_progress progress, void* user,
+                                             asdf_vk_result** result);
+
 /* Computes the shape diameter at points, or the wall thickness if `options` has ("measure", "thickness"). points,
  * normals: 3 * point_count numbers each. values: receives point_count numbers in the unit of the mesh; NaN: no value.
  * options: must not hold an option without effect on these values. The options with an effect are those of the cone of

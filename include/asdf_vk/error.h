@@ -40,6 +40,7 @@ enum class ErrorCode {
   NoValues,         ///< No face has a value.
   TooFewValues,     ///< There are fewer distinct values than clusters.
   ValueOutOfRange,  ///< A value per face from the caller is out of range, or a result does not fit into float32.
+  UnitsDiffer,      ///< Meshes of one computation state different units.
   // Device
   NoVulkanLoader,     ///< libvulkan.so.1 is not installed.
   NoVulkanDriver,     ///< No driver is installed or can be loaded.

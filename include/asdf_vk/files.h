@@ -38,6 +38,12 @@ struct ReadOptions {
 /// Reads a mesh from the bytes of a mesh file, as readMesh() does, but opens no other file.
 [[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, const ReadOptions& options = {});
 
+/// One mesh with the faces of all meshes, in their order; for example the parts of an assembly, or an outer and an
+/// inner surface. names: a name per mesh, for the faces before its first object. The meshes share no vertices. Throws
+/// Error{UnitsDiffer} if meshes state different units (a mesh without a unit may be in mm), Error{MeshTooLarge} if
+/// 32-bit indices do not suffice, and Error{ArraySize}.
+[[nodiscard]] ASDFVK_API Mesh joinMeshes(std::span<const Mesh* const> meshes, std::span<const std::string> names);
+
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
 /// The extensions are in lower case and without the dot.
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshExtensions();

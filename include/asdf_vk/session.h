@@ -47,6 +47,8 @@ struct ThinSurface {
 /// - "thickness" and "least_thickness", with Options::measuresThickness(): the wall thickness at the barycentre, and
 ///   the least one over all points of the face, in the unit of the mesh. A polygon has the least value of its
 ///   triangles.
+/// - "thickness_change", of Scene::compare(): the thickness minus that of the former version.
+/// - "gap" and "least_gap", with Options::measuresGap(): the width of the space in front of the face.
 /// - "centre" and "component", with Options::computesCentres: the skeleton point (the barycentre, moved inwards along
 /// the normal by half of the shape diameter); the number of the component. Edges connect the faces of a component.
 /// With PerElement::Vertices, fields per vertex with the same names follow.

@@ -21,8 +21,8 @@ from ._errors import (
     OutputError,
     UsageError,
 )
-from ._files import Mesh, mesh_of_polygons, read_mesh, write, write_points
-from ._functions import compute, radii, segment, shape_diameter, skeleton_points, thickness
+from ._files import Mesh, join_meshes, mesh_of_polygons, read_mesh, write, write_points
+from ._functions import compare, compute, radii, segment, shape_diameter, skeleton_points, thickness
 from ._info import Info
 from ._scene import Scene
 from ._session import Device, Session, close_default_sessions, devices
@@ -43,8 +43,10 @@ __all__ = [
     "UsageError",
     "__version__",
     "close_default_sessions",
+    "compare",
     "compute",
     "devices",
+    "join_meshes",
     "mesh_of_polygons",
     "radii",
     "read_mesh",

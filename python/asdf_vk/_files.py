@@ -57,6 +57,19 @@ def read_mesh(
     return _core.read_mesh(_path(source), *options)
 
 
+def join_meshes(meshes: Sequence[Mesh], names: Sequence[str] | None = None) -> Mesh:
+    """Joins meshes into one: the faces of all meshes in their order, for example the parts of an assembly.
+
+    names: a name per mesh for `objects`, for the faces before the first object of the mesh. The meshes share no
+    vertices. Compute a part among the others by a region: Scene(joined).compute(faces=range(meshes[0].face_count)).
+    Raises InputError if the meshes state different units; a mesh without a unit may be in mm.
+    """
+    given = list(meshes)
+    if not all(isinstance(mesh, Mesh) for mesh in given):
+        raise error_of("arrayType", "meshes has an item that is not a Mesh; read_mesh and mesh_of_polygons return them")
+    return _core.join_meshes(given, [""] * len(given) if names is None else [str(name) for name in names])
+
+
 def mesh_of_polygons(vertices: ArrayLike, corners: ArrayLike, first_corner: ArrayLike) -> Mesh:
     """Makes a Mesh of faces with any number of corners, for example from Blender or VTK.
 

@@ -43,6 +43,25 @@ def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[Fun
     return info_of(_computed(vertices, faces, dict(options)))
 
 
+def compare(
+    vertices: Any, faces: ArrayLike | None = None, *, former: Any, **options: Unpack[FunctionOptions]
+) -> Info:
+    """Compares the wall thickness of a mesh with a former version of it, which may be triangulated differently.
+
+    vertices, faces: as for compute(). former: a mesh with `vertices` and `faces`, or a tuple (vertices, faces).
+    options: as for compute(). With thinner_than=X, `comparison` of the result counts the walls that are new, thinner,
+        kept and gone, and its verdict is "failed" if a wall is new or thinner.
+
+    Returns the report with the fields, among them "thickness_change": the thickness minus that of the former version at
+    the same place, NaN if it has no wall there. Raises and warns like compute().
+    """
+    given: dict[str, Any] = dict(options)
+    common: dict[str, Any] = {"session": session_of(given), "orient": given.get("orient") or "keep"}
+    before = former if isinstance(former, tuple) else (former,)
+    with Scene(*before, **common) as old, Scene(vertices, faces, **common) as new:
+        return new.compare(old, **given)
+
+
 def shape_diameter(
     vertices: Any, faces: ArrayLike | None = None, **options: Unpack[FunctionOptions]
 ) -> NDArray[np.float32]:

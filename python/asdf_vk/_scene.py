@@ -105,6 +105,16 @@ class Scene:
         """Like asdf_vk.compute(), for the whole mesh or for a region (faces)."""
         return info_of(self._computed(faces, dict(options)))
 
+    def compare(
+        self, former: Scene, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]
+    ) -> Info:
+        """Like asdf_vk.compare(), for the whole mesh or for a region (faces). former: the former version."""
+        other = former._opened
+        scene = self._opened
+        mask = None if faces is None else mask_array(faces, self.face_count)
+        given = dict(options)
+        return info_of(computed(lambda own, progress: scene.compare(other, own, mask, progress), given, {}))
+
     def shape_diameter(
         self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]
     ) -> NDArray[np.float32]:

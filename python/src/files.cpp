@@ -147,6 +147,9 @@ void bindFiles(py::module_& module) {
   module.def("parse_mesh", parseWithoutGil);
   module.def("mesh_extensions", meshExtensions);
   module.def("mesh_of_polygons", meshOfPolygons);
+  module.def("join_meshes", [](const std::vector<const Mesh*>& meshes, const std::vector<std::string>& names) {
+    return joinMeshes(meshes, names);
+  });
   module.def("write", write);
   module.def("write_points", writePointsOf);
 }

@@ -91,8 +91,9 @@ std::string similarKeywords(std::string_view name, const std::vector<std::string
   return isAllowed ? keyword : similarNames(name, keywords);
 }
 
-Options optionsOf(const py::dict& values) {
+Options optionsOf(const py::dict& values, bool compares) {
   ComputationSettings computation;
+  computation.compares = compares;
   complete(computation, setOptions(computationRows(), &computation, values));
   return computation.options;
 }

@@ -27,6 +27,7 @@ py::object objectOf(const std::string& text) { return python::textOf(text); }
 py::object objectOf(const Vec3d& point) { return py::make_tuple(point.x, point.y, point.z); }
 py::object objectOf(WarningCode code) { return py::str(nameOf(code)); }
 py::object objectOf(ThinKind kind) { return py::str(nameOf(kind)); }
+py::object objectOf(WallChange change) { return py::str(nameOf(change)); }
 py::object objectOf(ThicknessVerdict verdict) { return py::str(nameOf(verdict)); }
 py::object objectOf(UnjudgedCause cause) { return py::str(nameOf(cause)); }
 py::object objectOf(const std::vector<ErrorDetail>& details) { return dictOf(details); }

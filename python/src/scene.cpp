@@ -63,6 +63,16 @@ class SharedScene {
                  [&](Session&, const RunControl& control) { return scene_->compute(parsed, mask, control); });
   }
 
+  [[nodiscard]] Result compare(const SharedScene& former, const py::dict& options, const py::object& region,
+                               const py::object& progress) {
+    const Options parsed = optionsOf(options, true);
+    std::span<const uint8_t> mask;
+    if (!region.is_none()) mask = entriesOf<uint8_t>(region.cast<py::array>());
+    return runOn(*session_, progress, [&](Session&, const RunControl& control) {
+      return scene_->compare(*former.scene_, parsed, mask, control);
+    });
+  }
+
   /// points, normals: #P x 3 double. Returns #P float.
   [[nodiscard]] py::array_t<float> valuesAt(const py::array& points, const py::array& normals, const py::dict& options,
                                             const py::object& progress) {
@@ -160,6 +170,7 @@ void bindScenes(py::module_& module) {
   py::class_<SharedScene>(module, "Scene")
       .def(py::init<std::shared_ptr<SharedSession>, const py::object&, const py::dict&, const py::object&>())
       .def("compute", &SharedScene::compute)
+      .def("compare", &SharedScene::compare)
       .def("values_at", &SharedScene::valuesAt)
       .def("thickness_at", &SharedScene::thicknessAt)
       .def("nearest_faces", &SharedScene::nearestFaces)

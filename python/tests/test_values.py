@@ -61,6 +61,42 @@ def test_gaps_voids_and_thick_bodies() -> None:
     np.testing.assert_array_equal(asdf_vk.shape_diameter(vertices, faces, measure="thickness,gap"), expected)
 
 
+def test_a_comparison_with_a_former_version() -> None:
+    vertices, faces = cube()
+    plate = vertices * [10, 10, 0.5]
+    info = asdf_vk.compare(plate, faces, former=(vertices * [10, 10, 2], faces), thinner_than=0.8)
+    assert info.comparison is not None and info.comparison.verdict == "failed" and info.comparison.new_count == 1
+    assert info.thickness is not None and info.thickness.regions[0].change == "new" and "sdf" not in info.fields
+    assert info.comparison.thinner[0].former_thickness == pytest.approx(2, rel=2e-3)
+    change = info.fields["thickness_change"]
+    assert change.shape == (len(faces),) and np.nanmin(change) == pytest.approx(-1.5, rel=2e-3)
+    with asdf_vk.Scene(plate, faces) as now, asdf_vk.Scene(plate * [1, 1, 4], faces) as other:
+        same = now.compare(now, thinner_than=0.8).comparison
+        assert same is not None and same.verdict == "passed" and same.kept_count == 1
+        region = now.compare(other, thinner_than=0.8, faces=[0]).comparison
+        assert region is not None and region.verdict == "failed"
+    with pytest.raises(asdf_vk.UsageError, match="a comparison needs measure='thickness'"):
+        asdf_vk.compare(plate, faces, former=(plate, faces), measure="sdf")
+
+
+def test_joined_meshes(tmp_path: Path) -> None:
+    vertices, faces = cube()
+    path = tmp_path / "cube.off"
+    rows = [" ".join(map(str, row)) for row in vertices] + ["3 " + " ".join(map(str, face)) for face in faces]
+    path.write_text("\n".join(["OFF", f"{len(vertices)} {len(faces)} 0", *rows]))
+    first = asdf_vk.read_mesh(path)
+    corners = [index for face in faces for index in face]
+    second = asdf_vk.mesh_of_polygons(vertices + [1.2, 0, 0], corners, range(0, 3 * len(faces) + 1, 3))
+    joined = asdf_vk.join_meshes([first, second], ["lid", "base"])
+    assert joined.face_count == 2 * len(faces) and joined.objects == ((0, "lid"), (len(faces), "base"))
+    gap = asdf_vk.Scene(joined).compute(faces=range(len(faces)), closer_than=0.3).gap
+    assert gap is not None and gap.regions[0].bodies == ("lid", "base") and gap.regions[0].min_face < len(faces)
+    with pytest.raises(asdf_vk.InputError, match="a name per mesh"):
+        asdf_vk.join_meshes([first], [])
+    with pytest.raises(asdf_vk.InputError, match="is not a Mesh"):
+        asdf_vk.join_meshes([(vertices, faces)])
+
+
 def test_the_verdict_of_the_thickness() -> None:
     vertices, faces = cube()
     info = asdf_vk.compute(vertices * [60, 1, 20], faces, measure="thickness", thinner_than=1.5)
@@ -181,7 +217,7 @@ def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Pa
     info = asdf_vk.compute(asdf_vk.read_mesh(path), measure="thickness", thinner_than=limit)
     document, ours = printed["thickness"], info.thickness
     assert ours is not None and document["regions"]
-    of_program = {"mesh", "output", "picture", "points", "fields", "version", "commit", "options"}
+    of_program = {"mesh", "output", "picture", "points", "with", "former", "fields", "version", "commit", "options"}
     snake = {re.sub(r"(?=[A-Z])", "_", key).lower() for key in printed.keys() - of_program}
     assert snake == {field.name for field in dataclasses.fields(_report.Report)}
 

@@ -46,8 +46,8 @@ def _check_libraries() -> None:
     for carried in sorted((package / "libs").iterdir()):
         name = carried.name.split("-")[0].split(".")[0]
         files = [file for file in loaded if pathlib.Path(file).name.startswith((f"{name}-", f"{name}."))]
-        if files != [str(carried)]:
-            raise Failed(f"{name} is loaded from {files} instead of {carried}")
+        if str(carried) not in files:  # Python may have its own copy of a library, such as expat.
+            raise Failed(f"{name} is loaded from {files}, not from {carried}")
         print(f"loaded: {carried}")
 
 

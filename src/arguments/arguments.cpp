@@ -138,6 +138,7 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
                       : isFlag(argument)
                           ? app.add_flag(argument.names)->disable_flag_override()
                           : app.add_option(argument.names)->expected(static_cast<int>(argument.valueCount)));
+    if (argument.isRepeatable) app.get_option(argument.name())->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   }
   std::vector<std::string> reversed = withAttachedValues(arguments);
   std::reverse(reversed.begin(), reversed.end());  // CLI11 reads the arguments from the back.
@@ -164,6 +165,8 @@ void ArgumentParser::read(const std::vector<std::string>& arguments) {
     const std::vector<std::string>& values = options[i]->results();
     if (isFlag(entries_[i].argument))
       given.resize(values.size());
+    else if (entries_[i].argument.isRepeatable)
+      for (const std::string& value : values) given.push_back({value});
     else if (!values.empty())
       given = {values.front() == kMissingValue ? Argument::Values{} : values};
   }

@@ -63,14 +63,15 @@ SessionSettings sessionSettings(const asdf_vk_options* options) {
   return session;
 }
 
-ComputationSettings computationSettings(const asdf_vk_options* options) {
+ComputationSettings computationSettings(const asdf_vk_options* options, bool compares) {
   ComputationSettings computation;
+  computation.compares = compares;
   complete(computation, setAll(computationRows(), &computation, options, sessionRows(), "session"));
   return computation;
 }
 
 Options pointOptions(const asdf_vk_options* handle) {
-  Options options = computationSettings(handle).options;
+  Options options = computationSettings(handle, false).options;
   if (options.measure != Measure::ShapeDiameter && options.measure != Measure::Thickness)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("measure={} is for faces only; at points, measure either the diameter or the thickness",

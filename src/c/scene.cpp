@@ -93,6 +93,32 @@ void addScene(std::shared_ptr<asdf_vk_session> session, Mesh mesh, asdf_vk_scene
   *scene = handles<asdf_vk_scene>().add(std::make_shared<asdf_vk_scene>(std::move(session), std::move(mesh)));
 }
 
+/// former: the former version for a comparison, or null.
+void computeScene(const std::shared_ptr<asdf_vk_scene>& scene, asdf_vk_scene* former, const asdf_vk_options* options,
+                  const RunControl& control, asdf_vk_result** result) {
+  requireArgument(result, "the output");
+  auto object = std::make_shared<asdf_vk_result>();
+  object->mesh = scene->mesh;
+  object->computation = computationSettings(options, former != nullptr);
+  object->session = scene->session->settings;
+  const Options& computed = object->computation.options;
+  const SessionUse use(*scene->session);
+  StageSeconds& seconds = object->result.report.stageSeconds;
+  StageSeconds preparation;
+  const auto prepare = [&](asdf_vk_scene& each) -> Scene& {
+    bool isNew = false;
+    Scene& prepared = preparedScene(each, computed.orientation, control, &isNew);
+    for (size_t i = 0; i < kStageCount && isNew; ++i)
+      preparation.seconds[i] += prepared.preparationSeconds().seconds[i];
+    return prepared;
+  };
+  Scene& prepared = prepare(*scene);
+  object->result = former != nullptr ? prepared.compare(prepare(*former), computed, {}, control)
+                                     : prepared.compute(computed, {}, control);
+  for (size_t i = 0; i < kStageCount; ++i) seconds.seconds[i] += preparation.seconds[i];
+  *result = handles<asdf_vk_result>().add(std::move(object));
+}
+
 }  // namespace
 }  // namespace asdfvk::c
 
@@ -186,23 +212,17 @@ void asdf_vk_scene_destroy(asdf_vk_scene* scene) { handles<asdf_vk_scene>().dest
 asdf_vk_status asdf_vk_compute(asdf_vk_scene* scene, const asdf_vk_options* options, asdf_vk_progress progress,
                                void* user, asdf_vk_result** result) {
   ProgressCall call(progress, user);
+  return guarded([&] { computeScene(handles<asdf_vk_scene>().get(scene), nullptr, options, call.control(), result); });
+}
+
+asdf_vk_status asdf_vk_compare(asdf_vk_scene* scene, asdf_vk_scene* former, const asdf_vk_options* options,
+                               asdf_vk_progress progress, void* user, asdf_vk_result** result) {
+  ProgressCall call(progress, user);
   return guarded([&] {
-    requireArgument(result, "the output");
-    const auto used = handles<asdf_vk_scene>().get(scene);
-    auto object = std::make_shared<asdf_vk_result>();
-    object->mesh = used->mesh;
-    object->computation = computationSettings(options);
-    object->session = used->session->settings;
-    const Options& computed = object->computation.options;
-    const RunControl control = call.control();
-    const SessionUse use(*used->session);
-    bool isNew = false;
-    Scene& prepared = preparedScene(*used, computed.orientation, control, &isNew);
-    object->result = prepared.compute(computed, {}, control);
-    if (isNew)
-      for (size_t i = 0; i < kStageCount; ++i)
-        object->result.report.stageSeconds.seconds[i] += prepared.preparationSeconds().seconds[i];
-    *result = handles<asdf_vk_result>().add(std::move(object));
+    const auto used = handles<asdf_vk_scene>().get(scene), other = handles<asdf_vk_scene>().get(former);
+    if (used->session != other->session)
+      throw Error(ErrorCode::InvalidArgument, "the scenes are of different sessions; create both on one session");
+    computeScene(used, other.get(), options, call.control(), result);
   });
 }
 

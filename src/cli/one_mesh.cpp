@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -91,7 +92,9 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
     else
       notJudged.push_back({ExitCode::CheckFailed, message, "notJudged"});
   };
-  if (computation.failIfThinner)
+  if (computation.failIfThinner && report.comparison)
+    add(*report.comparison->verdict, report.comparison->sentence, report.thickness->unjudged, "becameThin");
+  else if (computation.failIfThinner)
     add(*report.thickness->verdict, report.thickness->sentence, report.thickness->unjudged, "tooThin");
   if (computation.failIfThicker)
     add(report.thickness->thick->verdict, report.thickness->thick->sentence, report.thickness->unjudged, "tooThick");
@@ -166,9 +169,13 @@ class MeshFiles {
   void writeResult(AtomicFiles& files, Mesh& mesh, const Options& options, const Result& result) const {
     if (output_.empty()) return;
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
-    flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has its own copy of the faces.
+    const auto end = std::lower_bound(result.reversedFaces.begin(), result.reversedFaces.end(), mesh.inputFaceCount());
+    flipInputFaces(mesh,
+                   {result.reversedFaces.begin(), end});  // The scene of the result has its own copy of the faces.
     const AwaitedReader reader(output_, stop_);
-    asdfvk::writeResult(files, output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
+    const std::vector<Field> own = ownFields(mesh, result);
+    asdfvk::writeResult(files, output_, mesh,
+                        writableFields(writing, options.per, output_, own.empty() ? result.fields : own), writing);
   }
 
   void writePage(AtomicFiles& files, const Page& page) const {
@@ -176,10 +183,11 @@ class MeshFiles {
     asdfvk::writePage(files, output_, page);
   }
 
-  void writePoints(AtomicFiles& files, const Result& result) const {
+  void writePoints(AtomicFiles& files, const Mesh& mesh, const Result& result) const {
     if (settings_.outputs.points.empty()) return;
     const AwaitedReader reader(settings_.outputs.points, stop_);
-    asdfvk::writePoints(files, settings_.outputs.points, result.fields, {stop_, {}, {}});
+    const std::vector<Field> own = ownFields(mesh, result);
+    asdfvk::writePoints(files, settings_.outputs.points, own.empty() ? result.fields : own, {stop_, {}, {}});
   }
 
   /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.
@@ -193,6 +201,11 @@ class MeshFiles {
   }
 
  private:
+  /// The fields of the mesh if the result also has faces of other meshes, else empty.
+  [[nodiscard]] std::vector<Field> ownFields(const Mesh& mesh, const Result& result) const {
+    return settings_.others.with.empty() ? std::vector<Field>() : fieldsOfMesh(mesh, result.fields);
+  }
+
   const std::string& input_;
   const std::string& output_;
   const MeshSettings& settings_;
@@ -256,23 +269,29 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
   const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
   const bool hasPicture = !settings.outputs.picture.empty();
   const auto compute = [&] {
-    Result result = files.withProgress(
-        [&](const RunControl& control) { return session.compute(loaded.mesh, settings.computation.options, control); });
+    const Options& options = settings.computation.options;
+    ComputedMesh computed = files.withProgress([&](const RunControl& control) {
+      return settings.others.isEmpty()
+                 ? ComputedMesh{{}, session.compute(loaded.mesh, options, control)}
+                 : computeAmong(session, loaded.mesh, input, settings.others, settings.reading, options, control);
+    });
+    Result& result = computed.result;
     if (deadline.token().stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     StageSeconds& seconds = result.report.stageSeconds;
-    seconds[Stage::Read] = loaded.seconds;
+    seconds[Stage::Read] += loaded.seconds;
     const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
-    const MeshOutcome outcome{input, output, settings.computation, settings.session, settings.outputs, result};
+    const MeshOutcome outcome{input, output, settings.computation, settings.session, settings.others, settings.outputs,
+                              result};
     const Stopwatch watch;
     removeOutputRecord(output);
     AtomicFiles written;
     if (page == nullptr) {
-      files.writeResult(written, loaded.mesh, settings.computation.options, result);
+      files.writeResult(written, loaded.mesh, options, result);
     } else {
       files.withProgress([&](const RunControl& control) { addToPage(*page, outcome, shown, control); });
       if (ownPage) files.writePage(written, *ownPage);
     }
-    files.writePoints(written, result);
+    files.writePoints(written, loaded.mesh, result);
     seconds[Stage::Write] = watch.seconds();
     if (hasPicture) files.writePicture(written, result, pictureField);
     written.commit();

@@ -19,6 +19,7 @@ struct MeshSettings {
   SessionSettings session;
   ComputationSettings computation;
   ReadOptions reading;
+  OtherMeshes others;  ///< Empty for one of several meshes and in batches.
   Outputs outputs;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
   bool makesFolders = false;  ///< Whether a missing folder of the result is created.

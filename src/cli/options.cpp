@@ -121,7 +121,8 @@ void addArguments(const OptionTable& table, std::vector<Argument>& arguments) {
                       .placeholder = isFlag(row) ? "" : placeholderOf(row),
                       .text = helpText(row, table),
                       .receive = {},
-                      .group = row.group};
+                      .group = row.group,
+                      .isRepeatable = row.isRepeatable};
     if (isFlag(row))
       argument.receive = [&row, target, value = !flag.starts_with("--no-")](const Argument::Values&) {
         setOption(row, target, value, "", OptionSpelling::Flag);
@@ -156,6 +157,8 @@ void completeFields(CommandLine& line) {
       refuseOptions(fmt::format("{} {} needs --{}", field.first, row.name, row.needs));
     if (field.second == "error" && !estimates(options))
       refuseOptions(fmt::format("{} error needs an error estimate; drop --no-estimate and --seeds all", field.first));
+    if (field.second == "thickness_change" && line.others.former.empty())
+      refuseOptions(fmt::format("{} {} needs --{}", field.first, row.name, row.needs));
   }
 }
 
@@ -219,6 +222,19 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
     refuseOptions("a batch writes a page per mesh: give -o a folder, with --format html, and drop --open");
 }
 
+void validateOthers(const CommandLine& line) {
+  const OtherMeshes& others = line.others;
+  if (others.isEmpty()) return;
+  const char* const name = others.with.empty() ? "--compare" : "--with";
+  if (line.batch.isBatch() || line.meshes.size() != 1)
+    refuseOptions(fmt::format("{} takes one mesh; run asdf-vk once per mesh, without a batch", name));
+  const Options& options = line.computation.options;
+  if (!others.with.empty() && (options.segmentation != Segmentation::None || options.postprocesses()))
+    refuseOptions(
+        "--with computes the faces of the first mesh only, and parts need all; drop --with, or --segment and "
+        "--postprocess");
+}
+
 void validateOptions(const CommandLine& line) {
   if (line.meshes.empty() && line.batch.list.empty() && !line.listDevices && !line.deviceReport)
     refuseOptions("no mesh was given; asdf-vk --help lists the options");
@@ -278,6 +294,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
     for (const OptionRow& row : table.rows)
       if (const std::string flag = spelled(row, OptionSpelling::Flag); !flag.empty() && parser.isGiven(flag))
         given.names.insert(row.name);
+  line.computation.compares = !line.others.former.empty();
   complete(line.computation, given);
   requireValid(line.session, given.spelling);
   for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
@@ -290,6 +307,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   completePage(line);
   completeBatch(line, given);
   validateOptions(line);
+  validateOthers(line);
   return line;
 }
 

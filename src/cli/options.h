@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arguments/arguments.h"
+#include "cli/other_meshes.h"
 #include "cli/outputs.h"
 #include "describe/computation_options.h"
 #include "describe/report_json.h"
@@ -18,6 +19,7 @@ struct CommandLine {
   SessionSettings session;
   ComputationSettings computation;
   ReadOptions reading;
+  OtherMeshes others;
   Outputs outputs;
   BatchOptions batch;
   bool listDevices = false;
@@ -33,6 +35,7 @@ struct OptionTable {
 /// All options of the program, in the order of the help.
 [[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
 [[nodiscard]] OptionRows readingRows();
+[[nodiscard]] OptionRows otherMeshRows();
 [[nodiscard]] OptionRows outputRows();
 
 /// Makes the parser of the program. The options of the parser set `line`.

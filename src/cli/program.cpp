@@ -36,6 +36,7 @@ MeshSettings settingsOf(const CommandLine& line) {
   return {.session = line.session,
           .computation = line.computation,
           .reading = line.reading,
+          .others = line.others,
           .outputs = line.outputs,
           .timeoutSeconds = line.batch.timeoutSeconds,
           .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),

@@ -9,15 +9,13 @@
 #include "asdf_vk/error.h"
 #include "cli/options.h"
 #include "core/text.h"
-#include "describe/option_values.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr const char* kInputGroup = "Input";
 constexpr const char* kPictureGroup = "Picture";
 constexpr const char* kBatchGroup = "Many meshes";
-constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024, kMaxFaceCount = 4294967295;
+constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024;
 
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
@@ -78,21 +76,6 @@ std::vector<std::string> pictureFields() {
   std::vector<std::string> names = resultFieldNames();
   std::erase(names, "centre");
   return names;
-}
-
-bool readChordError(void* target, const OptionValue& value) {
-  auto& reading = *static_cast<ReadOptions*>(target);
-  std::optional<LengthLimit> length;
-  if (!readLength(value, length)) return false;
-  reading.chordError = length->value;
-  reading.chordErrorUnit = length->unit;
-  return true;
-}
-
-OptionValue chordErrorValue(const void* target) {
-  const auto& reading = *static_cast<const ReadOptions*>(target);
-  if (!(reading.chordError > 0)) return {};
-  return lengthValue(LengthLimit(reading.chordError, reading.chordErrorUnit));
 }
 
 bool readMemory(void* target, const OptionValue& value) {
@@ -215,27 +198,6 @@ const std::array kOutputRows{
               .needs = "picture"},
 };
 
-const std::array kReadingRows{
-    OptionRow{.name = "max-faces",
-              .group = kInputGroup,
-              .access = ASDFVK_MEMBER(ReadOptions, maxFaces),
-              .range = fromTo(0, kMaxFaceCount),
-              .text = "Refuse a file with more faces. A small file can describe many faces by instances",
-              .placeholder = "N",
-              .defaultText = "100 per byte of the file, and at least 100,000"},
-    OptionRow{.name = "chord-error",
-              .group = kInputGroup,
-              .range = above(0),
-              .text = "STEP: greatest distance between the triangles and the curved surfaces of the file, in the unit "
-                      "of the file or with a unit, such as 0.02mm",
-              .more = "The report states the value ([formats.md](formats.md#step)).",
-              .placeholder = "LENGTH",
-              .defaultText = "1/50 of the limit of --thinner-than, or 1/1000 of the diagonal of the bounding box",
-              .wanted = kLengthWanted,
-              .read = readChordError,
-              .write = chordErrorValue},
-};
-
 const std::array kBatchRows{
     OptionRow{.name = "recursive",
               .group = kBatchGroup,
@@ -308,8 +270,6 @@ const std::array kDeviceRows{
 
 }  // namespace
 
-OptionRows readingRows() { return kReadingRows; }
-
 OptionRows outputRows() {
   static const auto rows = withGroups(kOutputRows);
   return rows;
@@ -318,9 +278,13 @@ OptionRows outputRows() {
 std::vector<OptionTable> optionTables(CommandLine& line) {
   static const auto batchRows = withGroups(kBatchRows);
   static const auto deviceRows = withGroups(kDeviceRows);
-  return {{computationRows(), &line.computation}, {readingRows(), &line.reading},
-          {outputRows(), &line.outputs},          {batchRows, &line.batch},
-          {sessionRows(), &line.session},         {deviceRows, &line}};
+  return {{computationRows(), &line.computation},
+          {readingRows(), &line.reading},
+          {otherMeshRows(), &line.others},
+          {outputRows(), &line.outputs},
+          {batchRows, &line.batch},
+          {sessionRows(), &line.session},
+          {deviceRows, &line}};
 }
 
 std::optional<uint64_t> parseByteCount(const std::string& text) {

@@ -21,6 +21,7 @@ struct MeshOutcome {
   const std::string& output;  ///< Path of the result; "-" for standard output; empty: none.
   const ComputationSettings& computation;
   const SessionSettings& session;
+  const OtherMeshes& others;
   const Outputs& outputs;
   const Result& result;
 };

@@ -55,7 +55,9 @@ std::string jsonReport(const MeshOutcome& outcome) {
   Json json{{"mesh", outcome.mesh},
             {"output", orNull(outcome.output)},
             {"picture", orNull(outcome.outputs.picture)},
-            {"points", orNull(outcome.outputs.points)}};
+            {"points", orNull(outcome.outputs.points)},
+            {"with", outcome.others.with},
+            {"former", orNull(outcome.others.former)}};
   Report report = outcome.result.report;
   for (Warning& warning : report.warnings) warning.message = textWarning(warning, OptionSpelling::Flag);
   json.update(resultJson(report, outcome.result.fields, outcome.computation, outcome.session));

@@ -33,6 +33,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     ErrorRow{ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
     ErrorRow{ErrorCode::ValueOutOfRange, ErrorKind::Input, "valueOutOfRange"},
+    ErrorRow{ErrorCode::UnitsDiffer, ErrorKind::Input, "unitsDiffer"},
     ErrorRow{ErrorCode::NoVulkanLoader, ErrorKind::Device, "noVulkanLoader"},
     ErrorRow{ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     ErrorRow{ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},

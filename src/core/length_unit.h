@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "asdf_vk/options.h"
@@ -31,5 +32,9 @@ inline constexpr std::array<LengthUnitRow, 6> kLengthUnits{{{LengthUnit::Microme
     if (row.unit == unit) return &row;
   return nullptr;
 }
+
+/// The unit of two meshes that state these units (Mesh::unit). A mesh without a unit may be in millimetres. Throws
+/// Error{UnitsDiffer}.
+[[nodiscard]] std::string commonUnit(const std::string& unit, const std::string& other);
 
 }  // namespace asdfvk

@@ -62,6 +62,12 @@ constexpr std::array kFields{
              .needs = "measure thickness",
              .isComputed = measuresThickness,
              .meaning = "least wall thickness over all points of the face"},
+    FieldRow{.name = "thickness_change",
+             .label = "change of the wall thickness",
+             .unit = "length",
+             .needs = "compare",
+             .meaning = "wall thickness minus that of the former version at the nearest point of its surface; no value "
+                        "if the former version has no wall there ([thickness.md](thickness.md#two-versions))"},
     FieldRow{.name = "gap",
              .label = "gap",
              .unit = "length",

@@ -114,6 +114,7 @@ struct OptionRow {
   const char* bareValue = nullptr;  ///< Value of an option that is given without a value; null: a value is required.
   /// Description of valid values for messages: "an error such as 1%". Options of the computation are in braces.
   const char* wanted = nullptr;
+  bool isRepeatable = false;  ///< The program calls `read` for each occurrence of the option.
   /// Returns false or throws for an invalid value.
   bool (*read)(void* target, const OptionValue& value) = nullptr;
   OptionValue (*write)(const void* target) = nullptr;

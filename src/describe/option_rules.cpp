@@ -37,15 +37,19 @@ void applyLimits(ComputationSettings& computation, const GivenOptions& given) {
              implied, given);
   applyLimit(limits.closerThan, computation.failIfCloser, "closer-than", "fail-if-closer", Measure::Gap, implied,
              given);
+  if (computation.compares) implied = implied ? united(*implied, Measure::Thickness) : Measure::Thickness;
   if (computation.failsIfVoids) implied = implied ? united(*implied, Measure::Gap) : Measure::Gap;
   if (!implied) return;
+  if (given.has("measure") && options.measure == Measure::ShapeDiameter && computation.compares)
+    refuseOption("a comparison needs {measure=thickness}, or both", given.spelling);
   if (given.has("measure") && options.measure == Measure::ShapeDiameter)
-    refuseOption(
-        fmt::format("{{{}}} contradicts {{measure=sdf}}; drop one of the two", limits.thinnerThan   ? "thinner-than"
-                                                                               : limits.thickerThan ? "thicker-than"
-                                                                               : limits.closerThan  ? "closer-than"
-                                                                                                    : "fail-if-voids"),
-        given.spelling);
+    refuseOption(fmt::format("{{{}}} contradicts {{measure=sdf}}; drop one of the two",
+                             limits.thinnerThan     ? "thinner-than"
+                             : limits.thickerThan   ? "thicker-than"
+                             : limits.closerThan    ? "closer-than"
+                             : computation.compares ? "compare"
+                                                    : "fail-if-voids"),
+                 given.spelling);
   options.measure =
       given.has("measure") || options.measure != Measure::ShapeDiameter ? united(options.measure, *implied) : *implied;
 }

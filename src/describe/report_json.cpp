@@ -11,6 +11,7 @@ namespace asdfvk {
 void to_json(Json& json, const Vec3d& point) { json = arrayOf(point); }
 void to_json(Json& json, WarningCode code) { json = nameOf(code); }
 void to_json(Json& json, ThinKind kind) { json = nameOf(kind); }
+void to_json(Json& json, WallChange change) { json = nameOf(change); }
 void to_json(Json& json, ThicknessVerdict verdict) { json = nameOf(verdict); }
 void to_json(Json& json, UnjudgedCause cause) { json = nameOf(cause); }
 void to_json(Json& json, const StageSeconds& seconds) {

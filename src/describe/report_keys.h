@@ -1,4 +1,4 @@
-// Written by scripts/write-report-keys from include/asdf_vk/report.h.
+// Written by scripts/write-report-keys from include/asdf_vk/thickness_report.h and include/asdf_vk/report.h.
 // clang-format off
 #pragma once
 
@@ -11,16 +11,17 @@
 
 namespace asdfvk {
 
+inline constexpr std::array kThinKindNames{"wall", "gap", "detail", "edge"};
+inline constexpr std::array kWallChangeNames{"new", "thinner", "kept", "gone"};
+inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
+inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided",
+    "negativeVolumes", "coarseCoordinates"};
 inline constexpr std::array kStageNames{"read", "geometry", "graph", "bvh", "encode", "upload", "sample", "trace",
     "thickness", "predict", "solve", "estimate", "smooth", "postprocess", "segment", "write"};
 inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "facesReversed",
     "missingValues", "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged",
     "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "negativeVolumes",
     "coarseCoordinates", "uncertainParts", "coarseParts"};
-inline constexpr std::array kThinKindNames{"wall", "gap", "detail", "edge"};
-inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
-inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided",
-    "negativeVolumes", "coarseCoordinates"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
 template <typename Visit, typename... Members>
@@ -50,12 +51,15 @@ ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairab
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
 ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, oppositeFace, bodies, least, angleDegrees, width,
-            faceCount, area, areaShare)
+            faceCount, area, areaShare, change)
 ASDFVK_KEYS(ThickBody, bodies, diameter, centre)
 ASDFVK_KEYS(ThickReport, thickerThan, verdict, sentence, ratio, bodies)
 ASDFVK_KEYS(ThicknessReport, isOfGaps, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace,
             minPlace, minOpposite, percentile1, percentile5, median, percentile95, max, noValueCount, unjudged,
             greatestSection, thinArea, thinAreaShare, regions, thick)
+ASDFVK_KEYS(ThinnerRegion, thickness, formerThickness, face, place, faceCount, area, areaShare)
+ASDFVK_KEYS(ComparisonReport, verdict, sentence, newCount, thinnerCount, keptCount, goneCount, formerVerdict, gone,
+            unmatchedFaceCount, thinnerArea, thinnerAreaShare, thinner)
 ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies, isCertain)
 ASDFVK_KEYS(BodyContact, bodies)
 ASDFVK_KEYS(WorstFace, face, error)
@@ -71,7 +75,7 @@ ASDFVK_KEYS(Warning, code, message, details)
 ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, chordError,
             seedCount, rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount,
             backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, solver, sdf, postprocess,
-            segmentCount, parts, thickness, gap, voids, contacts, estimatedError, check, defects, warnings)
+            segmentCount, parts, thickness, gap, comparison, voids, contacts, estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
 
 }  // namespace asdfvk

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "describe/comparison_text.h"
 #include "describe/computation_options.h"
 
 namespace asdfvk {
@@ -199,6 +200,11 @@ ReportRows shortReportRows(const Report& report, OptionSpelling spelling) {
   bool hasDiameter = true;
   if (report.thickness || report.gap) {
     rows = shortThicknessRows(report.thickness ? *report.thickness : *report.gap, spelling);
+    if (report.comparison) {
+      rows.front().second = comparisonSentence(report);
+      std::erase_if(rows, [](const auto& row) { return row.first == "thickness"; });
+      for (auto& row : comparisonRows(report)) rows.push_back(std::move(row));
+    }
     for (auto& row : spaceRows(report)) rows.push_back(std::move(row));
     if (std::string question = unitQuestion(report); !question.empty())
       rows.emplace_back("unit", std::move(question));

@@ -36,6 +36,9 @@ struct ReportTexts {
 /// A point of an input face: "at (1, 2, 3), face 4".
 [[nodiscard]] std::string placeText(const Vec3d& point, uint64_t face);
 
+/// ", between lid and base", ", in lid", or nothing. bodies: ThinRegion::bodies.
+[[nodiscard]] std::string bodiesText(const std::vector<std::string>& bodies);
+
 /// Verdict, unjudged faces, size, thin regions and more. Precondition: report.thickness or report.gap is set.
 [[nodiscard]] ReportRows thicknessRows(const Report& report, OptionSpelling spelling);
 

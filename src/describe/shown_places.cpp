@@ -5,14 +5,15 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "describe/comparison_text.h"
 #include "describe/report_text.h"
 
 namespace asdfvk {
 namespace {
 
 /// The sentence for a picture, without the verdict: "2 walls thinner than 0.8: 0.3".
-std::string legendOf(const ThicknessReport& thickness) {
-  return verdictSentence(thickness, false).substr(std::string(verdictWord(*thickness.verdict)).size() + 2);
+std::string legendOf(const std::string& sentence, ThicknessVerdict verdict) {
+  return sentence.substr(std::string(verdictWord(verdict)).size() + 2);
 }
 
 /// Failed precedes NotJudged, which precedes Passed.
@@ -29,9 +30,14 @@ std::optional<ShownPlaces> shownPlaces(const Report& report) {
     const ThicknessReport& thickness = **measured;
     const bool isFirst = !shown;
     if (isFirst) shown.emplace().limit = *thickness.thinnerThan;
-    if (severityOf(*thickness.verdict) > severityOf(shown->verdict)) shown->verdict = *thickness.verdict;
-    shown->sentence += (isFirst ? "" : "; gaps: ") + verdictSentence(thickness);
-    shown->legend += (isFirst ? "" : "; ") + legendOf(thickness);
+    const bool isCompared = report.comparison && !thickness.isOfGaps;
+    const auto sentence = [&](bool hasPlaces) {
+      return isCompared ? comparisonSentence(report, hasPlaces) : verdictSentence(thickness, hasPlaces);
+    };
+    const ThicknessVerdict verdict = isCompared ? *report.comparison->verdict : *thickness.verdict;
+    if (severityOf(verdict) > severityOf(shown->verdict)) shown->verdict = verdict;
+    shown->sentence += (isFirst ? "" : "; gaps: ") + sentence(true);
+    shown->legend += (isFirst ? "" : "; ") + legendOf(sentence(false), verdict);
     shown->title += fmt::format("{}{} than {}", isFirst ? "" : " or ", thickness.isOfGaps ? "closer" : "thinner",
                                 limitText(*thickness.thinnerThan));
     shown->countsDetails = thickness.counts(ThinKind::Detail);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/text.h"
+#include "describe/comparison_text.h"
 #include "describe/computation_options.h"
 #include "describe/report_text.h"
 #include "describe/unjudged_text.h"
@@ -16,13 +17,6 @@ namespace {
 constexpr size_t kListedCount = 5;
 /// Relative difference of thicknesses that are reported as different.
 constexpr double kEqualThickness = 0.01;
-
-/// ", between lid and base", ", in lid", or nothing.
-std::string bodiesText(const std::vector<std::string>& bodies) {
-  if (bodies.empty()) return "";
-  return bodies.size() == 1 ? fmt::format(", in {}", bodies[0])
-                            : fmt::format(", between {} and {}", bodies[0], bodies[1]);
-}
 
 /// The least thickness: "0.3 at (1, 2, 3), face 12", or "0.3". Precondition: there is one.
 std::string leastText(const ThicknessReport& thickness, bool hasPlace) {
@@ -71,7 +65,8 @@ std::string regionText(const ThinRegion& region, const ThicknessReport& thicknes
                        lengthOf(region.min), placeText(region.place, region.minFace) + bodiesText(region.bodies), size);
   const std::string beside =
       region.least < region.min * (1 - kEqualThickness) ? fmt::format(", {} beside it", lengthOf(region.least)) : "";
-  return fmt::format("{} {} from {} to {}, face {}{}; {}", nameOf(region.kind), lengthOf(region.min),
+  const std::string change = region.change ? fmt::format("{} ", nameOf(*region.change)) : "";
+  return fmt::format("{}{} {} from {} to {}, face {}{}; {}", change, nameOf(region.kind), lengthOf(region.min),
                      pointText(region.place), pointText(region.opposite), region.minFace,
                      bodiesText(region.bodies) + beside, size);
 }
@@ -153,6 +148,12 @@ std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g},
 
 std::string placeText(const Vec3d& point, uint64_t face) {
   return fmt::format("at {}, face {}", pointText(point), face);
+}
+
+std::string bodiesText(const std::vector<std::string>& bodies) {
+  if (bodies.empty()) return "";
+  return bodies.size() == 1 ? fmt::format(", in {}", bodies[0])
+                            : fmt::format(", between {} and {}", bodies[0], bodies[1]);
 }
 
 const char* verdictWord(ThicknessVerdict verdict) {
@@ -256,6 +257,11 @@ ReportRows spaceRows(const Report& report) {
 ReportRows thicknessRows(const Report& report, OptionSpelling spelling) {
   const ThicknessReport& first = report.thickness ? *report.thickness : *report.gap;
   ReportRows rows{{"verdict", verdictSentence(first)}};
+  if (report.comparison) {
+    rows.front().second = comparisonSentence(report);
+    for (auto& row : comparisonRows(report)) rows.push_back(std::move(row));
+    for (auto& row : comparedPlaceRows(*report.comparison)) rows.push_back(std::move(row));
+  }
   if (std::string question = unitQuestion(report); !question.empty()) rows.emplace_back("unit", std::move(question));
   for (auto& row : unjudgedRows(first.unjudged, spelling)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,

@@ -29,6 +29,7 @@ static_assert(kStageNames.size() == kStageCount);
 const char* nameOf(Stage stage) { return kStageNames[static_cast<size_t>(stage)]; }
 const char* nameOf(ThinKind kind) { return kThinKindNames[static_cast<size_t>(kind)]; }
 const char* nameOf(ThicknessVerdict verdict) { return kThicknessVerdictNames[static_cast<size_t>(verdict)]; }
+const char* nameOf(WallChange change) { return kWallChangeNames[static_cast<size_t>(change)]; }
 const char* nameOf(UnjudgedCause cause) { return kUnjudgedCauseNames[static_cast<size_t>(cause)]; }
 bool concernsWholeMesh(UnjudgedCause cause) {
   return cause == UnjudgedCause::NegativeVolumes || cause == UnjudgedCause::CoarseCoordinates;

@@ -36,6 +36,7 @@ Json describe(const PageThinPlaces& thin) {
                                {"faceCount", region.faceCount},
                                {"kind", nameOf(region.kind)},
                                {"bodies", region.bodies},
+                               {"change", region.change ? Json(nameOf(*region.change)) : Json(nullptr)},
                                {"place", arrayOf(region.place)},
                                {"opposite", arrayOf(region.opposite)}});
   return json;

@@ -13,7 +13,6 @@
 #include "core/parallel.h"
 #include "describe/computation_options.h"
 #include "describe/fields.h"
-#include "describe/report_text.h"
 #include "estimate/reference_check.h"
 #include "pipeline/aggregated_mesh.h"
 #include "pipeline/input_face_values.h"
@@ -22,7 +21,7 @@
 #include "pipeline/seed_tracing.h"
 #include "pipeline/segments.h"
 #include "pipeline/skeleton_points.h"
-#include "pipeline/thickness.h"
+#include "pipeline/surface_measures.h"
 #include "pipeline/value_report.h"
 #include "pipeline/vertex_fields.h"
 #include "poisson/poisson_solver.h"
@@ -101,62 +100,6 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
         makeField("normalized", valuesOfInputFaces(prepared.mesh, std::move(segmented.normalized), areas)));
   if (!segmented.segments.empty()) fields.push_back(makeField("segment", std::move(segmented.segments)));
   return fields;
-}
-
-/// Measures a surface, and adds the fields "thickness" and "least_thickness", or "gap" and "least_gap".
-void measureSurface(Result& result, const Computation& ofMesh, const JudgedSurface& surface, const BodyNames& names,
-                    const RunControl& control) {
-  const TraceScene scene = surface.scene().view();
-  const Computation computation{ofMesh.options, surface.scene().prepared, ofMesh.domain, scene,          ofMesh.cone,
-                                ofMesh.backend, ofMesh.solvers,           ofMesh.clock,  ofMesh.warnings};
-  const FaceThickness thickness = measureThickness(computation, surface, control);
-  const TriangleMesh& mesh = computation.prepared.mesh;
-  const std::string name = surface.isSpace() ? "gap" : "thickness";
-  result.fields.push_back(makeField(name, thicknessOfInputFaces(mesh, thickness.atBarycentre)));
-  result.fields.push_back(makeField("least_" + name, thicknessOfInputFaces(mesh, thickness.least)));
-  Report& report = result.report;
-  const auto firstRegion = static_cast<uint32_t>(report.thickness ? report.thickness->regions.size() : 0);
-  std::optional<ThicknessReport>& described = surface.isSpace() ? report.gap : report.thickness;
-  described = describeThickness(computation, surface, thickness, names, firstRegion, result.thinSurface);
-  described->sentence = verdictSentence(*described);
-  if (described->thick) described->thick->sentence = thickSentence(*described);
-}
-
-void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& names) {
-  const PreparedMesh& prepared = space.scene().prepared;
-  std::vector<Box3d> boxes(space.solids().isClosed.size());
-  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
-    for (const uint32_t vertex : prepared.mesh.faces[face])
-      boxes[space.solids().solidOf[face]].add(prepared.mesh.vertices[vertex]);
-  std::vector<uint32_t> voidOf(boxes.size(), kNoFace), groupOf;
-  for (uint32_t i = 0; i < space.voids().size(); ++i)
-    for (const uint32_t part : space.voids()[i].looseParts) voidOf[part] = i;
-  for (const uint32_t part : space.solids().solidOf) groupOf.push_back(voidOf[part]);
-  std::vector<std::vector<std::string>> looseBodies = names.ofGroups(space, groupOf, space.voids().size());
-  for (size_t i = 0; i < space.voids().size(); ++i) {
-    const EnclosedSpace& each = space.voids()[i];
-    report.voids.push_back({.volume = each.volume,
-                            .face = prepared.mesh.inputFaceOf(each.firstFace),
-                            .place = prepared.geometry.barycentres[each.firstFace],
-                            .size = boxes[each.part].size(),
-                            .looseBodies = std::move(looseBodies[i]),
-                            .isCertain = each.isCertain});
-  }
-  report.contacts = names.contacts();
-}
-
-void measureThickness(Result& result, const Computation& ofMesh, const PreparedScene& preparedScene,
-                      const RunControl& control) {
-  const auto scope = ofMesh.clock.time(Stage::Thickness);
-  const Options& options = ofMesh.options;
-  const JudgedSurface material(preparedScene, options.orientation == Orientation::Flip, control.withoutProgress());
-  const BodyNames names(material);
-  const double end = options.measuresThickness() && options.measuresGap() ? 0.5 : 1;
-  if (options.measuresThickness()) measureSurface(result, ofMesh, material, names, control.part(0, end));
-  if (!options.measuresGap()) return;
-  const JudgedSurface space(material, JudgedSurface::Space{});
-  measureSurface(result, ofMesh, space, names, control.part(options.measuresThickness() ? end : 0, 1));
-  describeSpace(result.report, space, names);
 }
 
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
@@ -277,7 +220,7 @@ Options completedFor(const SessionState& session, const Options& options) {
 void computeOn(const ComputationInput& input, const Options& requested, StageClock& clock, const RunControl& control,
                Result& result) {
   Report& report = result.report;
-  const auto& [session, sharedScene, domain, tracers, isLast] = input;
+  const auto& [session, sharedScene, domain, tracers, isLast, former] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
   // The backend may have changed.
@@ -302,8 +245,8 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
     measureDiameter(result, computation, *sharedScene, input.tracers, keepsNodes, control);
   if (options.measuresThickness() || options.measuresGap()) {
     sharedScene->requireHierarchy(bvhOptionsFor(backend), clock, control.withoutProgress());
-    measureThickness(result, computation, *sharedScene,
-                     options.measuresDiameter() ? control.withoutProgress() : control);
+    measureSurfaces(result, computation, *sharedScene, former,
+                    options.measuresDiameter() ? control.withoutProgress() : control);
   }
   addDerivedFields(result.fields, prepared, options);
   backend.requireSilentValidation();

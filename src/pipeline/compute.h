@@ -5,6 +5,7 @@
 #include "asdf_vk/session.h"
 #include "cone/cone.h"
 #include "pipeline/face_domain.h"
+#include "pipeline/judged_surface.h"
 #include "pipeline/kept_tracers.h"
 #include "pipeline/prepared_scene.h"
 #include "pipeline/session_state.h"
@@ -18,6 +19,7 @@ struct ComputationInput {
   const FaceDomain& domain;  ///< A domain of the scene.
   KeptTracers& tracers;      ///< Tracers of the scene.
   bool isLast;  ///< Whether the scene is not used again, so that the computation may release its data early.
+  const JudgedSurface* former = nullptr;  ///< The surface of a former version for a comparison; null: none.
 };
 
 /// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. options: the

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/length_unit.h"
 #include "core/parallel.h"
 #include "core/vec3.h"
 #include "describe/computation_options.h"
@@ -143,6 +144,25 @@ struct Scene::State {
     return *surface_;
   }
 
+  /// former: see ComputationInput.
+  Result compute(const Options& given, std::span<const uint8_t> region, const JudgedSurface* former,
+                 const RunControl& control) {
+    requireNoConflict(given, orientation, !region.empty());
+    const Options options = completedFor(session, given);
+    control.checkpoint(0);
+    return session.compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
+      Result result;
+      StageClock clock(result.report.stageSeconds, rest.stageBegan);
+      const std::optional<Region> part = [&] {
+        const auto scope = clock.time(Stage::Sample);
+        return regionOf(scene->prepared, region);
+      }();
+      const FaceDomain domain = part ? part->domain() : wholeMesh(scene->prepared);
+      computeOn({session, scene, domain, tracers(), false, former}, options, clock, rest, result);
+      return result;
+    });
+  }
+
   SessionState& session;
   Orientation orientation;
   StageSeconds preparation;
@@ -161,21 +181,15 @@ Scene::~Scene() = default;
 const StageSeconds& Scene::preparationSeconds() const { return state_->preparation; }
 
 Result Scene::compute(const Options& given, std::span<const uint8_t> region, const RunControl& control) {
-  requireNoConflict(given, state_->orientation, !region.empty());
-  const Options options = completedFor(state_->session, given);
-  control.checkpoint(0);
-  return state_->session.compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
-    Result result;
-    StageClock clock(result.report.stageSeconds, rest.stageBegan);
-    const PreparedMesh& prepared = state_->scene->prepared;
-    const std::optional<Region> part = [&] {
-      const auto scope = clock.time(Stage::Sample);
-      return regionOf(prepared, region);
-    }();
-    const FaceDomain domain = part ? part->domain() : wholeMesh(prepared);
-    computeOn({state_->session, state_->scene, domain, state_->tracers(), false}, options, clock, rest, result);
-    return result;
-  });
+  return state_->compute(given, region, nullptr, control);
+}
+
+Result Scene::compare(const Scene& former, const Options& given, std::span<const uint8_t> region,
+                      const RunControl& control) {
+  (void)commonUnit(state_->scene->prepared.unit, former.state_->scene->prepared.unit);
+  Options options = given;
+  options.measure = united(options.measure, Measure::Thickness);
+  return state_->compute(options, region, &former.state_->judgedSurface(control), control);
 }
 
 std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<const double> normals,

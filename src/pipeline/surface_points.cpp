@@ -21,8 +21,8 @@ constexpr size_t kFirstChunkSize = 4096, kBlockSize = 256;
 constexpr double kMaxCoordinate = 2;
 // Normalised: the nearest point is a vertex, up to rounding.
 constexpr double kVertexReach = 1e-12;
-// Progress after the nearest triangles, and after the greatest sections.
-constexpr double kNearestDone = 0.3, kSectionsDone = 0.5;
+// Progress after the nearest triangles, and, at known faces, after the first greatest sections and after the balls.
+constexpr double kNearestDone = 0.3, kFirstSectionsDone = 0.2, kBallsDone = 0.8;
 
 ChunkSize chunkSizeOf(size_t count) { return {kFirstChunkSize, std::max<size_t>(count, 1)}; }
 
@@ -41,6 +41,17 @@ void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points
   forEachPoint(points.size(), control, [&](size_t i) {
     const Vec3d p = scene.bvh.normalization.toNormalized(points[i]);
     take(i, nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }));
+  });
+}
+
+void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, std::span<const Vec3d> normals,
+                       const RunControl& control, FunctionRef<void(size_t, const SurfacePoint&)> take) {
+  const TraceScene view = scene.view();
+  forEachPoint(points.size(), control, [&](size_t i) {
+    const Vec3d p = scene.bvh.normalization.toNormalized(points[i]);
+    take(i, nearestSurfacePoint(view, p, 0, [&](uint32_t face) {
+           return dot(normals[i], scene.prepared.geometry.normals[face]) > 0 ? face : kNoFace;
+         }));
   });
 }
 
@@ -70,54 +81,67 @@ std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Ve
 std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
                                       std::span<const Vec3d> normals, const ThicknessOptions& options,
                                       const RunControl& control) {
-  const PreparedScene& scene = surface.scene();
-  const TraceScene view = scene.view();
-  const Normalization& unit = scene.bvh.normalization;
   std::vector<uint32_t> nearest(points.size());
-  findNearestPoints(scene, points, control.part(0, kNearestDone),
+  findNearestPoints(surface.scene(), points, control.part(0, kNearestDone),
                     [&](size_t i, const SurfacePoint& found) { nearest[i] = found.face; });
+  return thicknessAtPoints(surface, points, normals, nearest, options, control.part(kNearestDone, 1));
+}
+
+std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
+                                      std::span<const Vec3d> normals, std::span<const uint32_t> faces,
+                                      const ThicknessOptions& options, const RunControl& control) {
+  const TraceScene view = surface.scene().view();
+  const Normalization& unit = view.bvh.normalization;
   const Solids& solids = surface.solids();
   std::vector<uint8_t> isWanted(solids.isClosed.size());
-  for (const uint32_t face : nearest)
+  for (const uint32_t face : faces)
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
-  const std::vector<GreatestSection> sections =
-      findGreatestSections(view, solids.solidOf, isWanted, kQuickSection, control.part(kNearestDone, kSectionsDone));
+  std::vector<GreatestSection> sections =
+      findGreatestSections(view, solids.solidOf, isWanted, kFirstSection, control.part(0, kFirstSectionsDone));
   const WallTree tree(view, makeOpposingWalls(options), &solids);
+  // Normalised diameters, infinite without a wall.
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
   // In the order of the hierarchy, consecutive points are near the same walls.
   const SeedOrder seedOrder(view);
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < points.size(); ++i) {
     const Vec3d p = unit.toNormalized(points[i]);
-    if (nearest[i] != kNoFace && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kMaxCoordinate)
+    if (faces[i] != kNoFace && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kMaxCoordinate)
       order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return seedOrder.primitiveOf(nearest[a]) < seedOrder.primitiveOf(nearest[b]);
+    return seedOrder.primitiveOf(faces[a]) < seedOrder.primitiveOf(faces[b]);
   });
   const auto measure = [&](std::span<const uint32_t> block) {
     std::vector<BallQuery> queries(block.size());
     for (size_t i = 0; i < block.size(); ++i) {
       const Vec3d p = unit.toNormalized(points[block[i]]);
-      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}, solids.bodyOf(nearest[block[i]])};
-      queries[i].atPoint.ball.diameter = sections[solids.solidOf[nearest[block[i]]]].bound;
+      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}, solids.bodyOf(faces[block[i]])};
+      queries[i].atPoint.ball.diameter = sections[solids.solidOf[faces[block[i]]]].bound;
       queries[i].least.ball.diameter = 0;  // Not needed.
     }
     tree.shrink(queries);
-    for (size_t i = 0; i < block.size(); ++i) {
-      const InscribedBall& found = queries[i].atPoint;
-      const GreatestSection& section = sections[solids.solidOf[nearest[block[i]]]];
-      const double diameter = found.wall == kNoFace ? section.diameter : section.capped(found.ball.diameter);
-      if (std::isfinite(diameter)) values[block[i]] = unit.toMeshLength(diameter);
-    }
+    for (size_t i = 0; i < block.size(); ++i)
+      values[block[i]] = queries[i].atPoint.wall == kNoFace ? std::numeric_limits<double>::infinity()
+                                                            : queries[i].atPoint.ball.diameter;
   };
-  forEachChunk(order.size(), chunkSizeOf(order.size()), control.part(kSectionsDone, 1), [&](size_t begin, size_t end) {
+  const RunControl ofBalls = control.part(kFirstSectionsDone, kBallsDone);
+  forEachChunk(order.size(), chunkSizeOf(order.size()), ofBalls, [&](size_t begin, size_t end) {
     const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
     forEachTask((chunk.size() + kBlockSize - 1) / kBlockSize, [&](size_t block) {
       const size_t first = block * kBlockSize;
       measure(chunk.subspan(first, std::min(kBlockSize, chunk.size() - first)));
     });
   });
+  std::fill(isWanted.begin(), isWanted.end(), uint8_t{0});
+  for (const uint32_t i : order)
+    if (const uint32_t solid = solids.solidOf[faces[i]]; sections[solid].caps(values[i])) isWanted[solid] = 1;
+  const std::vector<GreatestSection> caps =
+      findGreatestSections(view, solids.solidOf, isWanted, kQuickSection, control.part(kBallsDone, 1));
+  for (const uint32_t i : order) {
+    const double diameter = caps[solids.solidOf[faces[i]]].capped(values[i]);
+    values[i] = std::isfinite(diameter) ? unit.toMeshLength(diameter) : kNoValue;
+  }
   return values;
 }
 

@@ -20,6 +20,11 @@ namespace asdfvk {
 void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, const RunControl& control,
                        FunctionRef<void(size_t, const SurfacePoint&)> take);
 
+/// The same with the nearest point at which the normal of the surface differs by less than 90 degrees from normals[i].
+/// The search ignores faces without an area.
+void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points, std::span<const Vec3d> normals,
+                       const RunControl& control, FunctionRef<void(size_t, const SurfacePoint&)> take);
+
 /// Whether the surface is oriented away from a point: whether it is behind its nearest face. At a vertex, where several
 /// faces are equally near and the surface may be a saddle, the first face on the way to the nearest one decides. point:
 /// in the unit of the mesh, in its bounding box.
@@ -28,6 +33,11 @@ void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points
 /// See Scene::firstHits(). directions: unit. RayHit::face is a triangle or kNoFace.
 [[nodiscard]] std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Vec3d> origins,
                                                 std::span<const Vec3d> directions, const RunControl& control);
+
+/// The thickness at points of faces of the surface. faces: the face of each point, or kNoFace for no value.
+[[nodiscard]] std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
+                                                    std::span<const Vec3d> normals, std::span<const uint32_t> faces,
+                                                    const ThicknessOptions& options, const RunControl& control);
 
 /// See Scene::thicknessAt(). normals: unit.
 [[nodiscard]] std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,

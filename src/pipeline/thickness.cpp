@@ -32,8 +32,9 @@ constexpr double kLargestLimit = 2;
 
 class Measurement {
  public:
-  Measurement(const Computation& computation, const JudgedSurface& surface)
+  Measurement(const Computation& computation, const JudgedSurface& surface, bool isOfThinPlaces)
       : computation_(computation),
+        surface_(surface),
         judgement_(computation, surface),
         scene_(computation.scene),
         mesh_(computation.prepared.mesh),
@@ -41,10 +42,12 @@ class Measurement {
         opposing_(makeOpposingWalls(computation.options.thickness)),
         solids_(surface.solids()),
         isSpace_(surface.isSpace()),
+        isOfThinPlaces_(isOfThinPlaces),
         fans_(mesh_) {
     if (const std::optional<double> limit = surface.limitIn(computation.options.thickness))
       limit_ = std::max(*limit * unit_.scale, kLeastLimit);
-    if (isSpace_) greatestGap_ = limit_ ? kGapsPerLimit * *limit_ : kGreatestGap;
+    if (isSpace_) greatest_ = limit_ ? kGapsPerLimit * *limit_ : kGreatestGap;
+    if (isOfThinPlaces_) greatest_ = kCornerRange * limit_.value();
   }
 
   FaceThickness run(const RunControl& control) {
@@ -56,6 +59,7 @@ class Measurement {
                   {},
                   {},
                   {},
+                  {},
                   {}};
     walls_.resize(count);
     control.checkpoint(0);
@@ -63,18 +67,18 @@ class Measurement {
         findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, kFirstSection, control.withoutProgress());
     const WallTree tree(scene_, opposing_, &solids_, control.withoutProgress());
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(0, kBallsProgress));
-    searchCaps(sections, control.part(kBallsProgress, kSectionsProgress));
+    if (!isOfThinPlaces_) searchCaps(sections, control.part(kBallsProgress, kSectionsProgress));
     keepGreatest(sections);
     finishValues(sections);
     thickness_.unjudged = judgement_.unjudged();
     if (limit_) {
       ThinPieces pieces(tree, fans_, thin, kThinShare * *limit_);
       pieces.divide(std::max(*limit_ / kPiecesPerLimit, kMinPieceLength), control.withoutProgress());
-      thickness_.regions = findThinRegions(pieces, *limit_, control.withoutProgress());
+      thickness_.regions = findThinRegions(pieces, *limit_, bodiesOfFaces(), control.withoutProgress());
       addThinBodies(sections, control.withoutProgress());
     }
     const auto isWall = [](const ConnectedThinParts& region) { return region.kind == ThinKind::Wall; };
-    if (!thickness_.unjudged.preventVerdict() &&
+    if (!isOfThinPlaces_ && !thickness_.unjudged.preventVerdict() &&
         std::none_of(thickness_.regions.begin(), thickness_.regions.end(), isWall))
       keepNextWall(tree, sections, control.withoutProgress());
     if (const auto& limit = computation_.options.thickness.thickerThan; limit && !isSpace_)
@@ -88,6 +92,13 @@ class Measurement {
   struct FaceWalls {
     uint32_t atBarycentre = kNoFace, least = kNoFace;
   };
+
+  /// The bodies of the faces of a space; empty for a material, whose walls are all of one body.
+  [[nodiscard]] std::vector<uint32_t> bodiesOfFaces() const {
+    std::vector<uint32_t> bodies(isSpace_ ? mesh_.faceCount() : 0);
+    for (uint32_t face = 0; face < bodies.size(); ++face) bodies[face] = surface_.bodyOf(surface_.triangleOf(face));
+    return bodies;
+  }
 
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
 
@@ -159,7 +170,7 @@ class Measurement {
       if (thinnest == nullptr || section.bound < thinnest->bound) thinnest = &section;
     }
     if (thinnest == nullptr) return;
-    const double last = std::min({thinnest->bound / kThinShare, kLargestLimit, greatestGap_});
+    const double last = std::min({thinnest->bound / kThinShare, kLargestLimit, greatest_});
     const LeastLimit next = findNextWall(
         tree, fans_, least, [&](uint32_t face) { return ballsOf(face); }, limit_.value_or(kLeastWallLimit), last,
         computation_.options.thickness.findsNextWall ? kFullNextWall : quickNextWall(mesh_.faceCount()), control);
@@ -208,7 +219,7 @@ class Measurement {
       std::vector<FaceBalls> balls(end - begin);
       for (size_t i = begin; i < end; ++i) {
         balls[i - begin].face = faces[i];
-        const double bound = std::min(sections[solids_.solidOf[faces[i]]].bound, greatestGap_);
+        const double bound = std::min(sections[solids_.solidOf[faces[i]]].bound, greatest_);
         balls[i - begin].atBarycentre.ball.diameter = balls[i - begin].least.ball.diameter = bound;
       }
       const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(faces.size()); };
@@ -286,6 +297,7 @@ class Measurement {
   }
 
   const Computation& computation_;
+  const JudgedSurface& surface_;
   Judgement judgement_;
   const TraceScene& scene_;
   const TriangleMesh& mesh_;
@@ -293,7 +305,8 @@ class Measurement {
   OpposingWalls opposing_;
   const Solids& solids_;
   bool isSpace_;
-  double greatestGap_ = kUnlimited;
+  bool isOfThinPlaces_;
+  double greatest_ = kUnlimited;  ///< Greater diameters are not measured.
   PointFans fans_;
   std::optional<double> limit_;   ///< Normalised.
   std::vector<FaceWalls> walls_;  ///< #F
@@ -304,7 +317,11 @@ class Measurement {
 
 FaceThickness measureThickness(const Computation& computation, const JudgedSurface& surface,
                                const RunControl& control) {
-  return Measurement(computation, surface).run(control);
+  return Measurement(computation, surface, false).run(control);
+}
+
+FaceThickness findThinPlaces(const Computation& computation, const JudgedSurface& surface, const RunControl& control) {
+  return Measurement(computation, surface, true).run(control);
 }
 
 std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values) {

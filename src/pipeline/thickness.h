@@ -14,6 +14,9 @@
 
 namespace asdfvk {
 
+/// A place is thinner than in another version of the mesh if its thickness is below this share of the other.
+inline constexpr double kThinnerShare = 0.95;
+
 /// Thickness of all triangles of the domain. Lengths are in the unit of the mesh unless stated.
 struct FaceThickness {
   std::vector<double> atBarycentre;  ///< #F; NaN for no value.
@@ -25,6 +28,7 @@ struct FaceThickness {
   std::optional<WallPlace> nextWall;        ///< Normalised. Unset without a limit, if there is a wall, or if not found.
   /// With ThicknessOptions::thickerThan: the greatest section of each solid, normalised; infinite for those not closed.
   std::vector<GreatestSection> sections;
+  std::vector<std::optional<WallChange>> wallChanges;  ///< For each region; empty without a comparison.
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
@@ -32,6 +36,12 @@ struct FaceThickness {
 /// NoThickness has the thickness 0. computation: its mesh and scene are those of the surface.
 [[nodiscard]] FaceThickness measureThickness(const Computation& computation, const JudgedSurface& surface,
                                              const RunControl& control);
+/// Only the thin regions and the unjudged faces, in less time. Precondition: there is a limit.
+[[nodiscard]] FaceThickness findThinPlaces(const Computation& computation, const JudgedSurface& surface,
+                                           const RunControl& control);
+
+/// Area of the faces of the domain.
+[[nodiscard]] double areaOfDomain(const Computation& computation);
 
 /// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);

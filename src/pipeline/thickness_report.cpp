@@ -81,14 +81,17 @@ class Description {
   void describeRegions(uint32_t firstRegion, ThinSurface& thin) {
     const std::span<const ConnectedThinParts> found = thickness_.regions;
     std::vector<ThinRegion> regions;
-    for (const ConnectedThinParts& region : found) regions.push_back(describeRegion(region));
+    for (size_t i = 0; i < found.size(); ++i) {
+      regions.push_back(describeRegion(found[i]));
+      if (!thickness_.wallChanges.empty()) regions.back().change = thickness_.wallChanges[i];
+    }
     std::vector<uint32_t> order(regions.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
       const auto rank = [&](uint32_t i) { return std::tuple(regions[i].kind, regions[i].min, -regions[i].area); };
       return rank(a) < rank(b);
     });
-    const double total = totalArea();
+    const double total = areaOfDomain(computation_);
     report_.thinArea = report_.thinAreaShare = 0;
     for (const uint32_t i : order) {
       ThinRegion& region = regions[i];
@@ -142,14 +145,6 @@ class Description {
   [[nodiscard]] double areaOf(const ThinPart& part) const {
     const auto& [a, b, c] = part.corners;
     return 0.5 * length(cross(b - a, c - a)) / unit_.scale / unit_.scale;
-  }
-
-  /// Area of the faces of the domain.
-  [[nodiscard]] double totalArea() const {
-    double total = 0;
-    for (uint32_t face = 0; face < prepared_.mesh.faceCount(); ++face)
-      if (computation_.domain.contains(prepared_.mesh.inputFaceOf(face))) total += prepared_.geometry.areas[face];
-    return total;
   }
 
   /// The least thickness of the regions that count, or the next wall.
@@ -225,6 +220,14 @@ class Description {
 };
 
 }  // namespace
+
+double areaOfDomain(const Computation& computation) {
+  const PreparedMesh& prepared = computation.prepared;
+  double total = 0;
+  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
+    if (computation.domain.contains(prepared.mesh.inputFaceOf(face))) total += prepared.geometry.areas[face];
+  return total;
+}
 
 ThicknessReport describeThickness(const Computation& computation, const JudgedSurface& surface,
                                   const FaceThickness& thickness, const BodyNames& names, uint32_t firstRegion,

@@ -16,7 +16,8 @@ struct Side {
 
 class Regions {
  public:
-  Regions(ThinPieces& pieces, double limit) : pieces_(pieces), limit_(limit) {
+  Regions(ThinPieces& pieces, double limit, std::span<const uint32_t> bodyOf = {})
+      : pieces_(pieces), limit_(limit), bodyOf_(bodyOf) {
     for (uint32_t i = 0; i < pieces.size(); ++i)
       if (pieces.isThin(i) && pieces[i].firstHalf == kNoPiece) leaves_.push_back(i);
   }
@@ -54,6 +55,12 @@ class Regions {
     return sides;
   }
 
+  /// The body of the wall of a leaf.
+  [[nodiscard]] uint32_t wallBodyOf(uint32_t leaf) const {
+    const uint32_t wall = pieces_[leaves_[leaf]].least.wall;
+    return bodyOf_.empty() || wall == kNoFace ? kNoBody : bodyOf_[wall];
+  }
+
   /// Pieces are neighbours if their sides overlap on a line. A side without a neighbour belongs to the border.
   void connect() {
     const std::vector<Side> sides = sidesOfLeaves();
@@ -62,8 +69,10 @@ class Regions {
     for (size_t i = 1, reaching = 0; i < sides.size(); ++i) {
       const Side &farthest = sides[reaching], &other = sides[i];
       if (other.line == farthest.line && other.from < farthest.to) {
-        sets.join(farthest.piece, other.piece);
-        isInner[reaching] = isInner[i] = 1;
+        if (wallBodyOf(farthest.piece) == wallBodyOf(other.piece)) {
+          sets.join(farthest.piece, other.piece);
+          isInner[reaching] = isInner[i] = 1;
+        }
         if (other.to <= farthest.to) continue;
       }
       reaching = i;
@@ -142,6 +151,7 @@ class Regions {
 
   ThinPieces& pieces_;
   double limit_;
+  std::span<const uint32_t> bodyOf_;
   std::vector<uint32_t> leaves_, regionOf_;            // Thin pieces that are not halved, and their regions.
   std::vector<std::vector<uint32_t>> piecesOf_;        // The pieces of each region.
   std::vector<double> perimeters_;                     // One entry per region.
@@ -150,8 +160,9 @@ class Regions {
 
 }  // namespace
 
-std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit, const RunControl& control) {
-  return Regions(pieces, limit).run(control);
+std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit, std::span<const uint32_t> bodyOf,
+                                                const RunControl& control) {
+  return Regions(pieces, limit, bodyOf).run(control);
 }
 
 LeastLimit findLeastLimit(ThinPieces& pieces, double limit, double floor, size_t maxWork, const RunControl& control) {

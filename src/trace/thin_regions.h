@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "asdf_vk/report.h"
@@ -28,8 +29,10 @@ struct ConnectedThinParts {
 };
 
 /// The thin regions at a limit. pieces: divided pieces; receives diameters at corners. Two sides belong to one region
-/// if the place of each side is opposite to the other side. Throws Error{Cancelled}.
+/// if the place of each side is opposite to the other side. bodyOf: #F; parts whose walls are of different bodies
+/// belong to different regions. Empty: all faces are of one body. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit,
+                                                              std::span<const uint32_t> bodyOf,
                                                               const RunControl& control);
 
 /// The wall at the least limit from `floor` to `limit`. pieces: divided or not.

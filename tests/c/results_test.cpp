@@ -15,6 +15,31 @@
 using namespace asdfvk;
 using namespace asdfvk::test;
 
+TEST_CASE("a comparison is that of the library, and needs scenes of one session") {
+  const Mesh former = shapes::box({10, 10, 2}), mesh = shapes::box({10, 10, 0.5}, 3);
+  const Owned<asdf_vk_session> own = sessionOfC("cpu"), otherSession = sessionOfC("cpu");
+  const Owned<asdf_vk_scene> scene = sceneOfC(own.get(), mesh), before = sceneOfC(own.get(), former),
+                             foreign = sceneOfC(otherSession.get(), former);
+  const Owned<asdf_vk_options> options = optionsOfC({{"thinner-than", "0.8"}});
+  asdf_vk_result* handle = nullptr;
+  requireDone(asdf_vk_compare(scene.get(), before.get(), options.get(), nullptr, nullptr, &handle));
+  const Owned<asdf_vk_result> result(handle);
+  CHECK(jsonAt(result.get(), "/comparison/verdict") == "\"failed\"");
+  CHECK(jsonAt(result.get(), "/comparison/newCount") == "1");
+  Options same;
+  same.measure = Measure::Thickness;
+  same.thickness.thinnerThan = 0.8;
+  Scene prepared(referenceSession(), mesh), preparedFormer(referenceSession(), former);
+  const Result expected = prepared.compare(preparedFormer, same);
+  for (const char* name : {"thickness", "thickness_change"})
+    CHECK(haveSameBits(numbersOf(result.get(), name), *expected.field(name)->reals()));
+  handle = nullptr;
+  CHECK(asdf_vk_compare(scene.get(), foreign.get(), options.get(), nullptr, nullptr, &handle) != ASDF_VK_OK);
+  CHECK(std::string(asdf_vk_last_error()).find("different sessions") != std::string::npos);
+  CHECK(asdf_vk_compare(scene.get(), nullptr, options.get(), nullptr, nullptr, &handle) != ASDF_VK_OK);
+  CHECK(handle == nullptr);
+}
+
 TEST_CASE("values, labels and the report are those of the library, with the backends cpu and vulkan") {
   const Mesh mesh = makeAnimal(4000).mesh;
   (void)vulkanSession();  // Turns the validation layers on.

@@ -78,6 +78,11 @@ const std::vector<OptionCase>& optionCases() {
       {{"--fail-if-thicker", "2"}, [](const Line& l) { return l.computation.failIfThicker == 2.0; }},
       {{"--closer-than", "0.5"}, [](const Line& l) { return l.computation.options.thickness.closerThan == 0.5; }},
       {{"--fail-if-closer", "0.5"}, [](const Line& l) { return l.computation.failIfCloser == 0.5; }},
+      {{"--with", "b.stl", "--with", "c.stl"},
+       [](const Line& l) {
+         return l.others.with == std::vector<std::string>{"b.stl", "c.stl"};
+       }},
+      {{"--compare", "b.stl"}, [](const Line& l) { return l.others.former == "b.stl" && l.computation.compares; }},
       {{"--fail-if-voids"}, [](const Line& l) { return l.computation.failsIfVoids; }},
       {{"--count-details", "--thinner-than", "0.5"},
        [](const Line& l) { return l.computation.options.thickness.countsDetails; }},
@@ -208,7 +213,9 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
       "-o",           "--output",  "--points",  "--picture",   "--picture-of",   "--picture-view",
       "--picture-up",  // Other outputs.
       "--log",        "--shard",   "--null",    "--recursive", "--files-from",   "--skip-existing",
-      "--jobs",       "--threads", "--isolate", "--timeout",   "--memory-limit", "--max-faces"};
+      "--jobs",       "--threads", "--isolate", "--timeout",   "--memory-limit", "--max-faces",
+      "--with",  // For one mesh only.
+      "--compare"};
   const auto hashOf = [](std::vector<std::string> arguments, const std::vector<std::string>& more = {}) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     arguments.emplace_back("a.ply");
@@ -219,8 +226,8 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
     const std::string& name = option.arguments.front();
     INFO(name);
     if (exceptions.contains(name)) {
-      // --points implies a field, --open a format; a batch refuses both.
-      if (name != "--points" && name != "--open") CHECK_EQ(hashOf(option.arguments), hashOf({}));
+      // --points implies a field, --open a format, --compare a measure; a batch refuses them.
+      if (name != "--points" && name != "--open" && name != "--compare") CHECK_EQ(hashOf(option.arguments), hashOf({}));
     } else {
       CHECK_MESSAGE(hashes.insert(hashOf(option.arguments)).second, "the hash of other options");
     }

@@ -31,7 +31,7 @@ Result sampleResult() {
 }
 
 MeshOutcome outcomeOf(const CommandLine& line, const Result& result) {
-  return {kMesh, kOutput, line.computation, line.session, line.outputs, result};
+  return {kMesh, kOutput, line.computation, line.session, line.others, line.outputs, result};
 }
 
 CommandLine fullReport() {

@@ -79,6 +79,18 @@ std::string cubeBinaryStl() {
   return bytes;
 }
 
+std::string boxObj(const Vec3d& min, const Vec3d& max, bool isReversed) {
+  constexpr int kQuads[6][4]{{-8, -6, -5, -7}, {-4, -3, -1, -2}, {-8, -7, -3, -4},
+                             {-6, -2, -1, -5}, {-8, -4, -2, -6}, {-7, -5, -1, -3}};
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += fmt::format("v {} {} {}\n", (i & 1) != 0 ? max.x : min.x, (i & 2) != 0 ? max.y : min.y,
+                        (i & 4) != 0 ? max.z : min.z);
+  for (const auto& [p, q, r, t] : kQuads)
+    text += isReversed ? fmt::format("f {} {} {} {}\n", t, r, q, p) : fmt::format("f {} {} {} {}\n", p, q, r, t);
+  return text;
+}
+
 std::string sphereOff(int rings) {
   const int sectors = 2 * rings;
   const double pi = std::numbers::pi;

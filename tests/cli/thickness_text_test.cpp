@@ -31,7 +31,7 @@ const std::string kPart = "part.stl", kPartOutput = "part.ply";
 const CommandLine kDefaults;
 
 MeshOutcome outcomeOf(const Result& result, const Outputs& outputs) {
-  return {kPart, kPartOutput, kDefaults.computation, kDefaults.session, outputs, result};
+  return {kPart, kPartOutput, kDefaults.computation, kDefaults.session, kDefaults.others, outputs, result};
 }
 
 std::string textOf(const Result& result) {
@@ -247,7 +247,7 @@ TEST_CASE("the document has every value of the thickness") {
   CHECK_EQ(json.at("countsEdges"), false);
   CHECK_EQ(json.at("regions"), Json::parse(R"([{"kind": "wall", "min": 1, "minFace": 3, "place": [1, 2, 3],
       "opposite": [1, 2, 4], "oppositeFace": null, "bodies": [], "least": 0.5, "angleDegrees": 5, "width": 2, "faceCount": 2, "area": 12.5,
-      "areaShare": 0.02}])"));
+      "areaShare": 0.02, "change": null}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
       "crossedCount": 4, "insideCount": 5, "reasons": [{"cause": "woundAgainst", "faceCount": 5, "edgeCount": 6,
       "face": 7, "place": [1, 2, 3], "isRepairable": true, "amount": 0}]})"));

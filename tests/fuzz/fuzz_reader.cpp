@@ -1,16 +1,23 @@
 // The harness of the reader of ASDFVK_FORMAT, or of parseMesh() for "gz". It requires that the reader either throws
 // Error of kind Input with one line, or returns a mesh whose arrays fit together; and that its memory never exceeds 64
 // times the input plus 256 KiB, or 128 MiB more for formats with instances. For "gz" the input counts with its greatest
-// unpacked size. A model of 3MF may also be given without its archive.
+// unpacked size. A model of 3MF may also be given without its archive. For "gltf" the document ends before the first
+// zero byte, and the bytes after it are the file data.bin beside it.
 #include <sanitizer/allocator_interface.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
 #include <string_view>
 
+#include <unistd.h>
+
 #include "asdf_vk/error.h"
+#include "io/files_beside.h"
 #include "io/formats.h"
 #include "stored_archive.h"
 
@@ -66,8 +73,40 @@ void requireSound(const Mesh& mesh) {
   require(triangle == mesh.faces.size(), "a triangle belongs to no polygon");
 }
 
+/// A folder of this process with the file beside.
+class FolderWithData {
+ public:
+  FolderWithData() : path_(std::filesystem::temp_directory_path() / ("asdf-vk-fuzz-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~FolderWithData() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  FolderWithData(const FolderWithData&) = delete;
+  FolderWithData& operator=(const FolderWithData&) = delete;
+
+  [[nodiscard]] std::string document() const { return path_ / "mesh.gltf"; }
+  void write(std::string_view data) const {
+    std::ofstream(path_ / "data.bin", std::ios::binary).write(data.data(), static_cast<std::streamsize>(data.size()));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The mesh of a document with a file beside.
+Mesh parseWithFile(const FileFormat& format, std::span<const char> bytes) {
+  static const FolderWithData folder;
+  const size_t end = std::string_view(bytes.data(), bytes.size()).find('\0');
+  if (end == std::string_view::npos) return format.parseMesh({.bytes = bytes});
+  folder.write({bytes.data() + end + 1, bytes.size() - end - 1});
+  FilesBeside beside(folder.document(), {});
+  return format.parseMesh({.bytes = bytes.first(end), .path = folder.document(), .beside = &beside});
+}
+
 /// format: null for parseMesh().
-int readOnce(const FileFormat* format, const uint8_t* data, size_t size) {
+int readOnce(const FileFormat* format, const uint8_t* data, size_t size, bool hasFile = false) {
   static const int isInstalled = __sanitizer_install_malloc_and_free_hooks(onMalloc, onFree);
   require(isInstalled != 0, "the allocation hooks could not be installed");
   liveBytes = 0;
@@ -76,7 +115,9 @@ int readOnce(const FileFormat* format, const uint8_t* data, size_t size) {
   try {
     const std::span bytes(reinterpret_cast<const char*>(data), size);
     static_cast<void>(detectFormat(bytes, ""));
-    const Mesh mesh = format != nullptr ? format->parseMesh({.bytes = bytes}) : parseMesh(bytes);
+    const Mesh mesh = format == nullptr ? parseMesh(bytes)
+                      : hasFile         ? parseWithFile(*format, bytes)
+                                        : format->parseMesh({.bytes = bytes});
     isCounting = false;
     requireSound(mesh);
   } catch (const Error& error) {
@@ -104,5 +145,5 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string archive = asdfvk::storedArchive(text);
     return asdfvk::readOnce(format, reinterpret_cast<const uint8_t*>(archive.data()), archive.size());
   }
-  return asdfvk::readOnce(format, data, size);
+  return asdfvk::readOnce(format, data, size, std::string_view(ASDFVK_FORMAT) == "gltf");
 }

@@ -41,7 +41,7 @@ struct ThinMesh {
     divided.divide(maxLength * unit, control);
     for (uint32_t i = 0; i < divided.size(); ++i)
       if (divided.isThin(i) && divided[i].firstHalf == kNoPiece) pieces.push_back(divided[i]);
-    regions = findThinRegions(divided, limit * unit, control);
+    regions = findThinRegions(divided, limit * unit, {}, control);
   }
 
   /// Area of the parts that are thin at their middle.

@@ -46,12 +46,15 @@ function thinReport(mesh, index, hasOthers, visits) {
     const value = link(formatValue(region.value, limit), `thin-${index}-${i}`, visits && (() => visits.region(index, i)));
     const area = `${formatValue(region.area)} (${formatShare(region.areaShare)})`, count = formatCount(region.faceCount);
     if (region.kind === 'edge') return [value, `${formatValue(region.angleDegrees)}°`, formatValue(region.width), area, count];
-    return [value, formatValue(region.least, limit), area, count, ...(region.kind === 'gap' ? [region.bodies.join(' and ')] : [])];
+    return [value, formatValue(region.least, limit), area, count, ...(region.kind === 'gap' ? [region.bodies.join(' and ')] : []),
+      ...(region.change ? [region.change] : [])];
   };
   const list = (kind) => {
     const rows = regions.flatMap((region, i) => region.kind === kind ? [row(region, i)] : []);
+    const isCompared = regions.some((region) => region.kind === kind && region.change);
     const heads = kind === 'edge' ? ['least', 'angle', 'width', 'thin area', 'faces']
       : kind === 'gap' ? ['width', 'least beside it', 'area', 'faces', 'bodies'] : ['thickness', 'least beside it', 'thin area', 'faces'];
+    if (isCompared && kind !== 'edge') heads.push('compared');
     return rows.length ? table(kKinds[kind] + (counts[kind] ? '' : ', not counted'), heads, rows) : [];
   };
   return [

@@ -1,0 +1,126 @@
+// The options --with and --compare.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/program_under_test.h"
+#include "cli/refusal.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+using OtherJson = nlohmann::json;
+
+ChildOutcome runOnCpu(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--backend", "reference"});
+  return runAsdf(arguments);
+}
+
+std::string contentOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_CASE("--with adds bodies, and the result has the faces of the first mesh") {
+  const ScratchFolder folder;
+  const std::string lid = folder.write("lid.obj", boxObj({0, 0, 0}, {1, 1, 1})),
+                    base = folder.write("base.obj", boxObj({0, 0, -1.2}, {1, 1, -0.2})),
+                    out = folder / "out.csv", points = folder / "out.ply";
+  checkFailure(runOnCpu({lid, "--with", base, "--fail-if-closer", "0.3", "--quiet"}), 6,
+               "FAIL: 1 gap closer than 0.3: 0.2 at (");
+  checkFailure(runOnCpu({lid, "--with", base, "--fail-if-closer", "0.3", "--quiet"}), 6, "between lid and base");
+  CHECK_EQ(runOnCpu({lid, "--with", base, "--fail-if-closer", "0.1", "--quiet"}).exitCode, 0);
+  const ChildOutcome outcome = runOnCpu({lid, "--with", base, "--measure", "sdf,gap", "--json", "--fields", "gap,sdf",
+                                         "-o", out, "--points", points});
+  REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.error);
+  const std::string table = contentOf(out);
+  CHECK_EQ(std::count(table.begin(), table.end(), '\n'), 7);
+  const OtherJson json = OtherJson::parse(outcome.output);
+  CHECK_EQ(json.at("with"), OtherJson({base}));
+  CHECK(json.at("former").is_null());
+  CHECK_EQ(json.at("faceCount"), 12);
+  CHECK_EQ(json.at("regionFaceCount"), 6);
+  CHECK(std::filesystem::file_size(points) > 100);
+  // A second body beside the first one.
+  const std::string side = folder.write("side.obj", boxObj({1.1, 0, 0}, {2, 1, 1}));
+  checkFailure(runOnCpu({lid, "--with", base, "--with", side, "--fail-if-closer", "0.3", "--quiet"}), 6,
+               "FAIL: 2 gaps closer than 0.3: 0.1 at (");
+}
+
+TEST_CASE("--with and --orient auto measure the wall between an outer and an inner surface") {
+  const ScratchFolder folder;
+  const std::string outer = folder.write("outer.obj", boxObj({0, 0, 0}, {5, 5, 5})),
+                    inner = folder.write("inner.obj", boxObj({0.5, 1, 1}, {4, 4, 4}));
+  checkFailure(runOnCpu({outer, "--with", inner, "--orient", "auto", "--fail-if-thinner", "0.6", "--quiet"}), 6,
+               "thinner than 0.6: 0.5 at (");
+  CHECK_EQ(runOnCpu({outer, "--with", inner, "--orient", "auto", "--fail-if-thinner", "0.4", "--quiet"}).exitCode, 0);
+}
+
+TEST_CASE("--compare fails only for walls that are new or became thinner") {
+  const ScratchFolder folder;
+  const auto part = [&](const std::string& name, double first, double second) {
+    return folder.write(name, boxObj({0, 0, 0}, {5, 5, first}) + boxObj({10, 0, 0}, {15, 5, second}));
+  };
+  const std::string former = part("former.obj", 0.5, 2), same = part("same.obj", 0.5, 2),
+                    worse = part("worse.obj", 0.5, 0.6), thinner = part("thinner.obj", 0.3, 2);
+  const auto check = [&](const std::string& mesh) {
+    return runOnCpu({mesh, "--compare", former, "--fail-if-thinner", "0.8"});
+  };
+  const ChildOutcome passed = check(same);
+  CHECK_EQ(passed.exitCode, 0);
+  CHECK_MESSAGE(passed.error.find("PASS: no new wall thinner than 0.8; 1 wall kept\n") != std::string::npos,
+                passed.error);
+  CHECK_MESSAGE(passed.error.find("in all    1 wall thinner than 0.8: 0.5 at (") != std::string::npos, passed.error);
+  CHECK_EQ(runOnCpu({same, "--fail-if-thinner", "0.8", "--quiet"}).exitCode, 6);
+  const ChildOutcome isNew = check(worse), isThinner = check(thinner);
+  CHECK_EQ(isNew.exitCode, 6);
+  CHECK_MESSAGE(isNew.error.find("FAIL: 1 new wall (limit 0.8): 0.6 at (") != std::string::npos, isNew.error);
+  CHECK_EQ(isThinner.exitCode, 6);
+  CHECK_MESSAGE(isThinner.error.find("FAIL: 1 wall that became thinner (limit 0.8): 0.3 at (") != std::string::npos,
+                isThinner.error);
+  CHECK_MESSAGE(isThinner.error.find("change    thinner than before at ") != std::string::npos, isThinner.error);
+  const std::string page = folder / "page.html";
+  const ChildOutcome outcome =
+      runOnCpu({worse, "--compare", former, "--thinner-than", "0.8", "--json", "-o", page, "--quiet"});
+  REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.error);
+  const OtherJson comparison = OtherJson::parse(outcome.output).at("comparison");
+  CHECK_EQ(comparison.at("verdict"), "failed");
+  CHECK_EQ(comparison.at("newCount"), 1);
+  CHECK_EQ(comparison.at("keptCount"), 1);
+  // The upper side moved by more than half of the thickness, so it has no counterpart.
+  CHECK(comparison.at("thinnerArea").get<double>() == doctest::Approx(25 + 12));
+  CHECK(contentOf(page).find("thickness_change") != std::string::npos);
+}
+
+TEST_CASE("other meshes are refused where they have no effect, and their errors name the file") {
+  const auto isRefused = [](const std::vector<std::string>& arguments, const std::string& part) {
+    const std::string message = refusal(arguments);
+    CHECK_MESSAGE(message.find(part) != std::string::npos, message);
+  };
+  isRefused({"a.ply", "b.ply", "--with", "c.ply"}, "--with takes one mesh");
+  isRefused({"a.ply", "--compare", "c.ply", "--log", "x.jsonl"}, "--compare takes one mesh");
+  isRefused({"a.ply", "--with", "-"}, "--with: '-' is not the name of a file");
+  isRefused({"a.ply", "--compare", ""}, "--compare: '' is not the name of a file");
+  isRefused({"a.ply", "--with", "b.ply", "--segment"}, "drop --with, or --segment and --postprocess");
+  isRefused({"a.ply", "--fields", "thickness_change"}, "--fields thickness_change needs --compare");
+  isRefused({"a.ply", "--compare", "b.ply", "--measure", "sdf"}, "a comparison needs --measure thickness");
+  CHECK(parseCommandLine({"a.ply", "--compare", "b.ply"}).computation.options.measure == Measure::Thickness);
+  const ScratchFolder folder;
+  const std::string cube = folder.write("cube.off", cubeOff()), broken = folder.write("broken.off", "OFF\n1 1\n");
+  for (const char* const option : {"--with", "--compare"}) {
+    checkFailure(runOnCpu({cube, option, folder / "missing.stl", "--quiet"}), 2, "missing.stl");
+    checkFailure(runOnCpu({cube, option, broken, "--quiet"}), 2, "broken.off");
+    CHECK_FALSE(std::filesystem::exists(folder / "cube.asdf.ply"));
+  }
+}
+
+}  // namespace
+}  // namespace asdfvk::test

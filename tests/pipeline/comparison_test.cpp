@@ -1,0 +1,171 @@
+// Comparison of two versions of a mesh (docs/thickness.md#two-versions).
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "asdf_vk/scene.h"
+#include "core/vec3.h"
+#include "support/extrusion.h"
+#include "support/require_failure.h"
+#include "support/separated_faces.h"
+#include "support/shapes.h"
+#include "support/shared_session.h"
+
+using namespace asdfvk;
+
+namespace {
+
+Result compareVersionsOf(const Mesh& mesh, const Mesh& former, std::optional<double> limit, Options options = {}) {
+  options.measure = Measure::Thickness;
+  if (limit) options.thickness.thinnerThan = *limit;
+  Scene before(test::referenceSession(), former), now(test::referenceSession(), mesh);
+  return now.compare(before, options);
+}
+
+/// A plate of 10 x 10, centred.
+Mesh plate(double thickness, uint32_t side = 4) { return shapes::box({10, 10, thickness}, side); }
+
+/// Two plates, 20 apart.
+Mesh platesOf(double first, double second) { return shapes::joined(plate(first), plate(second), {20, 0, 0}); }
+
+std::vector<uint64_t> countsOf(const ComparisonReport& report) {
+  return {report.newCount, report.thinnerCount, report.keptCount, report.goneCount};
+}
+using Counts = std::vector<uint64_t>;
+
+}  // namespace
+
+TEST_CASE("a version that is only triangulated differently has no change, on both sides of the limit") {
+  const Mesh former = plate(1, 1);
+  for (const Mesh& mesh : {plate(1, 7), separated(plate(1, 1)), shapes::refined(plate(1, 2), 0.7)})
+    for (const double limit : {0.9, 1.1}) {
+      CAPTURE(limit);
+      const Result result = compareVersionsOf(mesh, former, limit);
+      const ComparisonReport& comparison = result.report.comparison.value();
+      CHECK(comparison.verdict == ThicknessVerdict::Passed);
+      CHECK(result.report.thickness->verdict ==
+            (limit < 1 ? ThicknessVerdict::Passed : ThicknessVerdict::Failed));
+      CHECK(comparison.formerVerdict == result.report.thickness->verdict);
+      CHECK(countsOf(comparison) == Counts{0, 0, limit < 1 ? 0u : 1u, 0});
+      CHECK(comparison.unmatchedFaceCount == 0);
+      CHECK(comparison.thinner.empty());
+      const std::vector<double>& change = *result.field("thickness_change")->reals();
+      REQUIRE(change.size() == mesh.faceCount());
+      for (const double value : change) CHECK(std::abs(value) < 1e-6);
+    }
+}
+
+TEST_CASE("a wall is new, thinner, kept or gone") {
+  const auto check = [](const Mesh& mesh, const Mesh& former, const Counts& counts, ThicknessVerdict verdict) {
+    const Result result = compareVersionsOf(mesh, former, 0.8);
+    CHECK(countsOf(*result.report.comparison) == counts);
+    CHECK(result.report.comparison->verdict == verdict);
+    CHECK(result.report.comparison->gone.size() == counts[3]);
+  };
+  using enum ThicknessVerdict;
+  check(platesOf(0.5, 2), platesOf(2, 2), {1, 0, 0, 0}, Failed);
+  check(platesOf(0.5, 0.7), platesOf(0.5, 2), {1, 0, 1, 0}, Failed);
+  check(platesOf(0.5, 2), platesOf(0.7, 2), {0, 1, 0, 0}, Failed);
+  check(platesOf(0.69, 2), platesOf(0.7, 2), {0, 0, 1, 0}, Passed);
+  check(platesOf(0.7, 2), platesOf(0.5, 2), {0, 0, 1, 0}, Passed);
+  check(platesOf(0.5, 2), platesOf(0.5, 0.5), {0, 0, 1, 1}, Passed);
+  check(platesOf(2, 2), platesOf(0.5, 0.5), {0, 0, 0, 2}, Passed);
+  check(plate(0.5), shapes::box({10, 10, 10}), {1, 0, 0, 0}, Failed);
+  // The other plate is elsewhere.
+  check(shapes::scaledAndShifted(plate(0.5), 1, {0, 0, 3}), plate(0.5), {1, 0, 0, 1}, Failed);
+  // One side of the plate moved.
+  check(shapes::scaledAndShifted(plate(0.3), 1, {0, 0, 0.2}), plate(0.7), {0, 1, 0, 0}, Failed);
+}
+
+TEST_CASE("a fin between other fins is new") {
+  Mesh former, mesh;
+  for (const double x : {0.0, 0.7, 1.4})
+    former = shapes::joined(former, shapes::box({0.2, 5, 5}), {x, 0, 0});
+  mesh = shapes::joined(former, shapes::box({0.1, 5, 5}), {0.35, 0, 0});
+  CHECK(countsOf(*compareVersionsOf(mesh, former, 0.3).report.comparison) == Counts{1, 0, 3, 0});
+  CHECK(countsOf(*compareVersionsOf(former, mesh, 0.3).report.comparison) == Counts{0, 0, 3, 1});
+}
+
+TEST_CASE("without a limit, the thinner part of the surface is reported with its area and place") {
+  const Mesh former = platesOf(3, 3), mesh = platesOf(3, 2);
+  const Result result = compareVersionsOf(mesh, former, {});
+  const ComparisonReport& comparison = *result.report.comparison;
+  CHECK_FALSE(comparison.verdict);
+  CHECK_FALSE(comparison.formerVerdict);
+  CHECK(countsOf(comparison) == Counts{0, 0, 0, 0});
+  // The plate is one region: its greatest section also limits the thickness of its narrow sides.
+  REQUIRE(comparison.thinner.size() == 1);
+  const ThinnerRegion& region = comparison.thinner[0];
+  CHECK(region.thickness == doctest::Approx(2).epsilon(2e-3));
+  CHECK(region.formerThickness == doctest::Approx(3).epsilon(2e-3));
+  CHECK(region.area == doctest::Approx(200 + 40 * 2).epsilon(1e-6));
+  CHECK(region.faceCount == plate(2).faceCount());
+  CHECK(region.face >= plate(2).faceCount());
+  CHECK(region.place.x > 10);
+  CHECK(comparison.thinnerAreaShare == doctest::Approx(280.0 / (280 + 200 + 40 * 3)).epsilon(1e-6));
+  const std::vector<double>& change = *result.field("thickness_change")->reals();
+  CHECK(*std::min_element(change.begin(), change.end()) == doctest::Approx(-1).epsilon(2e-3));
+  CHECK(std::abs(*std::max_element(change.begin(), change.end())) < 1e-6);
+}
+
+TEST_CASE("a part of the mesh that the former version does not have has no change") {
+  const Result result = compareVersionsOf(platesOf(2, 2), plate(2), {});
+  const ComparisonReport& comparison = *result.report.comparison;
+  CHECK(comparison.unmatchedFaceCount == plate(2).faceCount());
+  CHECK(comparison.thinner.empty());
+}
+
+TEST_CASE("details and edges are compared if they count") {
+  Options options;
+  options.thickness.countsEdges = true;
+  const Mesh wedge = shapes::extruded({{0, 0}, {10, 0}, {0, 8}}, 10), box = shapes::box({10, 10, 10});
+  const Result result = compareVersionsOf(wedge, box, 0.5, options);
+  CHECK(result.report.comparison->newCount > 0);
+  CHECK(result.report.comparison->verdict == ThicknessVerdict::Failed);
+  CHECK(compareVersionsOf(wedge, wedge, 0.5, options).report.comparison->verdict == ThicknessVerdict::Passed);
+  CHECK(compareVersionsOf(wedge, box, 0.5).report.comparison->verdict == ThicknessVerdict::Passed);
+}
+
+TEST_CASE("what cannot be judged is told, and the former version may be open") {
+  const Mesh open = shapes::openBox({10, 10, 10}, 2);
+  CHECK(compareVersionsOf(open, plate(1), 0.5).report.comparison->verdict == ThicknessVerdict::NotJudged);
+  const Result result = compareVersionsOf(plate(1), open, 0.5);
+  CHECK(result.report.comparison->verdict == ThicknessVerdict::Passed);
+  CHECK(result.report.comparison->formerVerdict == ThicknessVerdict::NotJudged);
+}
+
+TEST_CASE("a comparison is independent of the unit and of the size of the other version") {
+  for (const double scale : {1e-3, 1e3}) {
+    const Mesh mesh = shapes::scaledAndShifted(platesOf(0.5, 2), scale, {3 * scale, 0, 0}),
+               former = shapes::scaledAndShifted(shapes::joined(platesOf(0.7, 2), plate(4), {80, 0, 0}), scale,
+                                                 {3 * scale, 0, 0});
+    CHECK(countsOf(*compareVersionsOf(mesh, former, 0.8 * scale).report.comparison) == Counts{0, 1, 0, 0});
+  }
+}
+
+TEST_CASE("meshes with different units are not compared") {
+  Mesh mesh = plate(1), former = plate(1);
+  mesh.unit = "in";
+  former.unit = "mm";
+  test::requireFailure([&] { (void)compareVersionsOf(mesh, former, 1); }, ErrorCode::UnitsDiffer, "one mesh is in in");
+  former.unit = "";
+  test::requireFailure([&] { (void)compareVersionsOf(mesh, former, 1); }, ErrorCode::UnitsDiffer, "states no unit");
+  mesh.unit = "mm";
+  CHECK(compareVersionsOf(mesh, former, 0.5).report.comparison->verdict == ThicknessVerdict::Passed);
+}
+
+TEST_CASE("a region is compared with the whole former version") {
+  const Mesh mesh = platesOf(0.5, 0.5), former = platesOf(0.5, 2);
+  Options options;
+  options.measure = Measure::Thickness;
+  options.thickness.thinnerThan = 0.8;
+  std::vector<uint8_t> region(mesh.faceCount(), 0);
+  std::fill_n(region.begin(), plate(1).faceCount(), uint8_t{1});
+  Scene before(test::referenceSession(), former), now(test::referenceSession(), mesh);
+  CHECK(countsOf(*now.compare(before, options, region).report.comparison) == Counts{0, 0, 1, 0});
+  CHECK(countsOf(*now.compare(before, options).report.comparison) == Counts{1, 0, 1, 0});
+}
