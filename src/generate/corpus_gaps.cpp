@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -153,6 +154,12 @@ void addContacts(std::vector<KnownPart>& parts) {
       "The boxes overlap by 0.3, which is no gap.");
   add("gap-contact-at-an-edge", solids::joined({solids::box({0, 0, 0}, {4, 4, 4}), solids::box({4, 4, 0}, {8, 8, 4})}),
       "The boxes touch at an edge, in angles of 90 degrees.");
+  parts.push_back(
+      {"gap-beside-contact", "gaps",
+       solids::joined({solids::box({0, -6, 0}, {10, 0, 2}),
+                       solids::turned(solids::extruded({{0, 2}, {4, 2}, {4, 2.3}, {10, 2.3}, {10, 4}, {0, 4}}, 6), 0,
+                                      std::numbers::pi / 2)}),
+       gapAnswers(0.3, "The clearance beside the contact of two bodies")});
   parts.push_back({"gap-open-surface",
                    "gaps",
                    solids::without(solids::box({0, 0, 0}, {4, 4, 4}), 10, 2),

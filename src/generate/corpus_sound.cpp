@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

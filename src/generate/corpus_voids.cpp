@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "generate/block_solid.h"
 #include "generate/corpus.h"
 #include "generate/solids.h"
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "generate/block_solid.h"
 #include "generate/corpus.h"
 #include "generate/solids.h"
 #include "generate/thickness_parts.h"
@@ -147,6 +149,9 @@ std::vector<KnownPart> wallParts() {
   add("wall-rod", solids::box({0, 0, 0}, {20000, 1, 1}), 1, {}, "The rod", "off");
   add("wall-angle", solids::extruded(angle(12, 0.9), 15), 0.9, Place{Vec3d{6, 0, 7}, Vec3d{6, 0.9, 7}},
       "Each leg of the angle");
+  add("wall-rib-cut-at-45-degrees",
+      solids::extruded({{-8, -4}, {8, -4}, {8, 0}, {0.2, 0}, {0.2, 9.8}, {-0.2, 10.2}, {-0.2, 0}, {-8, 0}}, 6), 0.4,
+      Place{Vec3d{-0.2, 5, 3}, Vec3d{0.2, 5, 3}}, "The rib, whose top is an edge of 45 degrees,");
   add("wall-hollow-box",
       solids::joined(
           {solids::box({0, 0, 0}, {20, 20, 20}), solids::inverted(solids::box({0.6, 0.6, 0.6}, {19.4, 19.4, 19.4}))}),
@@ -157,6 +162,9 @@ std::vector<KnownPart> wallParts() {
     add(fmt::format("wall-tube-{}", sideCount), solids::tube(sideCount, 6, 6, 6.5, 0, 12), wall, {},
         "The wall of the tube");
   }
+  std::vector<Mesh> stack;
+  for (int i = 0; i < 9; ++i) stack.push_back(solids::box({0, 0, 3.0 * i}, {20, 20, 3.0 * i + 0.5}));
+  add("wall-nine-plates", solids::joined(stack), 0.5, {}, "Each of the nine plates");
   // A crumb that lies beside a sound body.
   parts.push_back({"wall-crumb", "walls",
                    solids::joined({solids::box({0, 0, 0}, {10, 10, 10}), solids::box({12, 0, 0}, {12.3, 0.3, 0.3})}),

@@ -113,10 +113,12 @@ TEST_CASE("walls, edges, gaps and thick bodies have closed surfaces, wound outwa
   }
 }
 
+// Without the rib whose top is a sharp edge.
 TEST_CASE("walls of constant thickness have their thickness by brute force") {
   for (const KnownPart& part : corpusParts()) {
     const KnownAnswer& answer = part.answers[0];
-    if (part.category != "walls" || !answer.value || part.mesh.faceCount() > 200 || part.name.starts_with("thin-body"))
+    if (part.category != "walls" || !answer.value || part.mesh.faceCount() > 200 ||
+        part.name.starts_with("thin-body") || part.name.ends_with("45-degrees"))
       continue;
     CAPTURE(part.name);
     const test::BruteForceThickness thickness(part.mesh, -0.499,

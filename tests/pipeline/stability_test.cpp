@@ -116,8 +116,9 @@ TEST_CASE("a part has one verdict on each side of its least wall: refined, decim
                                                            {"quads", quads},
                                                            {"six digits", withSixDigits(turned)},
                                                            {"turned", turned}};
-    for (const auto& [name, mesh] : meshes) {
-      CAPTURE(name);
+    for (const auto& each : meshes) {
+      CAPTURE(each.first);
+      const Mesh& mesh = each.second;
       CHECK(judgedAs(mesh, part.passes).verdict == ThicknessVerdict::Passed);
       if (part.fails == 0) continue;
       const ThicknessReport failed = judgedAs(mesh, part.fails);
