@@ -15,6 +15,9 @@ ArgumentParser parserOf(GeneratorOptions& options) {
        fmt::format("One of {}; or a part: {}", joined(shapeNames(), ", "), joined(thicknessPartNames(), ", ")),
        into(options.shape)},
       {"-o,--output", "FILE.ply|-", "The PLY file to write; - is standard output", into(options.output)},
+      {"--corpus", "FOLDER",
+       "Write all parts of known truth, and truth.json with the right verdicts, to a new or empty folder",
+       into(options.corpus)},
       {"--faces", "N",
        fmt::format("Approximate number of faces of a shape of known diameter; default {}", options.faceCount),
        into(options.faceCount)},
@@ -25,10 +28,8 @@ ArgumentParser parserOf(GeneratorOptions& options) {
       {"--scale", "S", fmt::format("Factor on all lengths; default {}", options.scale), into(options.scale)},
       {"--translate", "X Y Z", "Shift, after the scaling", into(options.translate)},
       {"--double", "", "Write vertices as double instead of float", into(options.doubleVertices)}};
-  for (Argument& argument : arguments) {
-    argument.isRequired = argument.names == "shape" || argument.names == "-o,--output";
+  for (Argument& argument : arguments)
     if (argument.names == "--translate") argument.valueCount = options.translate.size();
-  }
   return ArgumentParser(
       "asdf-vk-generate",
       "Generates closed triangle meshes as binary PLY: shapes whose parts and local diameters are known, and "

@@ -12,6 +12,7 @@ namespace asdfvk {
 /// The command line of asdf-vk-generate.
 struct GeneratorOptions {
   std::string shape, output;
+  std::string corpus;          ///< Folder of the parts of known truth; empty: a shape.
   uint64_t faceCount = 20000;  ///< Only for shapes of known diameter.
   double longestEdge = 0;      ///< Only for parts of known least thickness; 0: as few faces as possible.
   double scale = 1;

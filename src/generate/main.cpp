@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 #include "asdf_vk/error.h"
+#include "generate/corpus_files.h"
 #include "generate/generated_shape.h"
 #include "generate/generator_options.h"
 #include "generate/shapes.h"
@@ -40,7 +42,19 @@ GeneratedShape make(const ArgumentParser& parser, const GeneratorOptions& option
   return isPart ? makePart(options) : generateShape(options.shape, options.faceCount);
 }
 
+void runCorpus(const ArgumentParser& parser, const GeneratorOptions& options) {
+  if (parser.givenNames().size() > 1)
+    throw Error(ErrorCode::OptionConflict, "--corpus FOLDER takes no shape and no other option");
+  const size_t count = writeCorpus(options.corpus);
+  fmt::print(stderr, "{}: {} parts, truth.json\n", options.corpus, count);
+}
+
 void run(const ArgumentParser& parser, const GeneratorOptions& options) {
+  if (parser.isGiven("--corpus")) return runCorpus(parser, options);
+  for (const auto& [name, value] : {std::pair("SHAPE", options.shape), std::pair("--output", options.output)})
+    if (value.empty())
+      throw Error(ErrorCode::OptionOutOfRange,
+                  fmt::format("{} is missing; asdf-vk-generate --help lists the options", name));
   if (!(options.scale > 0) || !std::isfinite(options.scale))
     throw Error(ErrorCode::OptionOutOfRange, "--scale must be a positive number");
   if (parser.isGiven("--longest-edge") && !(options.longestEdge > 0))

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "generate/block_solid.h"
+#include "generate/extrusion.h"
 #include "generate/thickness_parts.h"
 #include "mesh/face_geometry.h"
-#include "support/extrusion.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
 
@@ -18,7 +18,7 @@
 // are in units of the limit.
 
 using namespace asdfvk;
-using shapes::Outline;
+using solids::Outline;
 
 namespace {
 
@@ -51,7 +51,7 @@ Outline wedge(double degrees, double cut = 0) {
 
 /// A body on whose flat bottom a fillet runs out tangentially.
 Outline runOut(double radius) {
-  Outline outline = shapes::arc(0, radius, radius, -90, -90 + 64.16, 24);
+  Outline outline = solids::arc(0, radius, radius, -90, -90 + 64.16, 24);
   const double x = outline.back().first;
   outline.insert(outline.end(), {{x, 3 * radius}, {8 + radius, 3 * radius}, {8 + radius, 0}});
   return outline;
@@ -59,9 +59,9 @@ Outline runOut(double radius) {
 
 /// A plate with round notches of radius 2 in two opposite sides, and a ligament between them.
 Outline notched(double ligament) {
-  Outline outline = shapes::arc(0, -2 - ligament / 2, 2, 180, 0, 24);
+  Outline outline = solids::arc(0, -2 - ligament / 2, 2, 180, 0, 24);
   const double y = 2 + ligament / 2;
-  const Outline upper = shapes::arc(0, y, 2, 0, -180, 24);
+  const Outline upper = solids::arc(0, y, 2, 0, -180, 24);
   outline.insert(outline.end(), {{10, -y}, {10, y}});
   outline.insert(outline.end(), upper.begin(), upper.end());
   outline.insert(outline.end(), {{-10, y}, {-10, -y}});
@@ -91,7 +91,7 @@ std::vector<Case> thresholdCases() {
 
 /// The faces whose normals are along y are refined, so that their edges lie on whole edges of the other faces.
 Mesh withTJunctions(const Mesh& coarse) {
-  const Mesh fine = shapes::refined(coarse, 1.5);
+  const Mesh fine = solids::refined(coarse, 1.5);
   Mesh mixed;
   for (const bool isAlongY : {false, true}) {
     const Mesh& mesh = isAlongY ? fine : coarse;
@@ -138,8 +138,8 @@ TEST_CASE("shapes on both sides of each threshold, in two triangulations, turned
           doctest::test_suite("slow")) {
   for (const Case& each : thresholdCases()) {
     CAPTURE(each.name);
-    const Mesh coarse = shapes::extruded(each.outline, kDepth);
-    const std::array meshes{coarse, shapes::turned(coarse, 0.5, 1.1), shapes::refined(coarse, 1.5)};
+    const Mesh coarse = solids::extruded(each.outline, kDepth);
+    const std::array meshes{coarse, solids::turned(coarse, 0.5, 1.1), solids::refined(coarse, 1.5)};
     for (size_t i = 0; i < meshes.size(); ++i)
       for (const double limit : {0.8, 25.4 * 0.8}) {
         CAPTURE(i);
@@ -181,14 +181,14 @@ TEST_CASE("n pockets are n walls with their own thickness and place") {
           CHECK(std::max(std::abs(place.x / unit - pocket.x), std::abs(place.y / unit - pocket.y)) <= 2.01);
       }
     }
-    const ThicknessReport turned = judge(shapes::turned(coarse, 0.5, 1.1), kLimit);
+    const ThicknessReport turned = judge(solids::turned(coarse, 0.5, 1.1), kLimit);
     CHECK(turned.regions.size() == count);
     CHECK(turned.min == doctest::Approx(plate.pockets[0].floor).epsilon(1e-6));
   }
 }
 
 TEST_CASE("a rib lower than 2/3 of the limit is a detail, and a wall at a smaller limit") {
-  const Mesh coarse = shapes::extruded(ribbed(0.6), kDepth);
+  const Mesh coarse = solids::extruded(ribbed(0.6), kDepth);
   for (const Mesh& mesh : {coarse, withTJunctions(coarse)}) {
     const ThicknessReport low = judge(mesh, 1);
     CHECK(low.verdict == ThicknessVerdict::Passed);
@@ -205,7 +205,7 @@ TEST_CASE("a limit that finds a wall or a detail finds one at each greater limit
     // The search for details looks at a limited number of points. It may miss the detail of a shape that tapers.
     if (each.name == "cut wedge of 17.8 degrees" || each.name.starts_with("run-out")) continue;
     CAPTURE(each.name);
-    const Mesh mesh = shapes::extruded(each.outline, kDepth);
+    const Mesh mesh = solids::extruded(each.outline, kDepth);
     bool isFound = false;
     for (int i = 0; i < 20; ++i) {
       const double limit = 0.3 * std::pow(1.1, i);

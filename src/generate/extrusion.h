@@ -6,8 +6,8 @@
 
 #include "mesh/mesh.h"
 
-/// Solids from outlines, for tests of the wall thickness.
-namespace asdfvk::shapes {
+/// Solids from outlines.
+namespace asdfvk::solids {
 
 /// A point (x, y).
 using OutlinePoint = std::pair<double, double>;
@@ -22,4 +22,4 @@ Mesh refined(Mesh mesh, double longestEdge);
 /// Rotated around z, then around x.
 Mesh turned(Mesh mesh, double yaw, double pitch);
 
-}  // namespace asdfvk::shapes
+}  // namespace asdfvk::solids

@@ -1,4 +1,4 @@
-#include "support/extrusion.h"
+#include "generate/extrusion.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-namespace asdfvk::shapes {
+namespace asdfvk::solids {
 namespace {
 
 /// Twice the area of a triangle; positive if it turns left.
@@ -115,4 +115,4 @@ Mesh turned(Mesh mesh, double yaw, double pitch) {
   return mesh;
 }
 
-}  // namespace asdfvk::shapes
+}  // namespace asdfvk::solids
