@@ -197,8 +197,8 @@ struct ThinnerRegion {
 
 /// Comparison of the wall thickness with a former version of the mesh (docs/thickness.md#two-versions).
 struct ComparisonReport {
-  /// Unset without a limit. Failed: a wall is new or thinner. NotJudged: none is, but a part of the surface could not be
-  /// judged; or a wall is, but the whole former version could not be judged.
+  /// Unset without a limit. Failed: a wall is new or thinner. NotJudged: none is, but a part of the surface could not
+  /// be judged; or a wall is, but the whole former version could not be judged.
   std::optional<ThicknessVerdict> verdict;
   std::string sentence;  ///< The verdict in one sentence; without a limit, where the mesh became thinner.
   /// Numbers of walls, and of other places that count, by WallChange.

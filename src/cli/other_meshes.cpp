@@ -52,8 +52,8 @@ ComputedMesh computeAmong(Session& session, const Mesh& mesh, const std::string&
   Scene scene(session, whole, options.orientation, control.withoutProgress());
   std::optional<Scene> formerScene;
   if (!others.former.empty()) formerScene.emplace(session, former, options.orientation, control.withoutProgress());
-  computed.result = formerScene ? scene.compare(*formerScene, options, region, control)
-                                : scene.compute(options, region, control);
+  computed.result =
+      formerScene ? scene.compare(*formerScene, options, region, control) : scene.compute(options, region, control);
   StageSeconds& seconds = computed.result.report.stageSeconds;
   seconds[Stage::Read] += readSeconds;
   add(scene.preparationSeconds(), seconds);

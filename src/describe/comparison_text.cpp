@@ -66,7 +66,8 @@ std::string comparisonSentence(const Report& report, bool hasPlaces) {
   const ThinRegion& worst = *worstOf(thickness);
   const std::string least = lengthText(worst.min, thickness.thinnerThan);
   return begin + fmt::format("{} (limit {}): {}{}{}", enumeration(worse), limitText(*thickness.thinnerThan), least,
-                             hasPlaces ? " " + placeText(worst.place, worst.minFace) + bodiesText(worst.bodies) : "", othersText(comparison, noun));
+                             hasPlaces ? " " + placeText(worst.place, worst.minFace) + bodiesText(worst.bodies) : "",
+                             othersText(comparison, noun));
 }
 
 ReportRows comparisonRows(const Report& report) {

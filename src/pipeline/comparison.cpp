@@ -167,8 +167,7 @@ CommonWalls findCommonWalls(const MeasuredVersion& from, const MeasuredVersion& 
   const std::vector<ConnectedThinParts>&regions = from.thickness.regions, &others = to.thickness.regions;
   CommonWalls common{std::vector<uint8_t>(regions.size()), std::vector<uint8_t>(others.size()),
                      std::vector<uint8_t>(regions.size())};
-  const double scaleRatio =
-      from.surface.scene().bvh.normalization.scale / to.surface.scene().bvh.normalization.scale;
+  const double scaleRatio = from.surface.scene().bvh.normalization.scale / to.surface.scene().bvh.normalization.scale;
   const WallPoints points = wallPointsOf(from, control);
   const std::vector<Counterpart> counterparts = counterpartsOf(points.placed, to, control);
   const CountedParts parts(to);
@@ -186,10 +185,10 @@ CommonWalls findCommonWalls(const MeasuredVersion& from, const MeasuredVersion& 
     if (points.placed.thickness[i] < kThinnerShare * at.thickness) ++thinnerCounts[region];
   }
   for (size_t i = 0; i < regions.size(); ++i)
-    common.isThinner[i] = leastOf(regions[i]) < kThinnerShare * leastOfOthers[i] ||
-                                  thinnerCounts[i] * kPointsPerThinnerPoint > counts[i]
-                              ? 1
-                              : 0;
+    common.isThinner[i] =
+        leastOf(regions[i]) < kThinnerShare * leastOfOthers[i] || thinnerCounts[i] * kPointsPerThinnerPoint > counts[i]
+            ? 1
+            : 0;
   return common;
 }
 
@@ -206,9 +205,8 @@ void setWallChanges(const MeasuredVersion& now, const MeasuredVersion& former, c
     if (forward.ofFrom[i] == 0 && back.ofTo[i] == 0) return WallChange::New;
     return forward.isThinner[i] != 0 ? WallChange::Thinner : WallChange::Kept;
   });
-  set(former, [&](size_t i) {
-    return forward.ofTo[i] == 0 && back.ofFrom[i] == 0 ? WallChange::Gone : WallChange::Kept;
-  });
+  set(former,
+      [&](size_t i) { return forward.ofTo[i] == 0 && back.ofFrom[i] == 0 ? WallChange::Gone : WallChange::Kept; });
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct MeasuredVersion {
 /// less than 90 degrees from that of the other, and at most half of the greater thickness away. A wall is a wall of the
 /// other version if a point of it is at the same place as a point of that wall. It became thinner if its least
 /// thickness, or that at an eighth of its points, is below kThinnerShare of that of the former version. Sets
-/// FaceThickness::wallChanges of both versions. Returns for each face (#F) the thickness of the former version at the barycentre; NaN if there is none.
-/// Throws Error{Cancelled}.
+/// FaceThickness::wallChanges of both versions. Returns for each face (#F) the thickness of the former version at the
+/// barycentre; NaN if there is none. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<double> compareVersions(const MeasuredVersion& now, const MeasuredVersion& former,
                                                   const RunControl& control);
 

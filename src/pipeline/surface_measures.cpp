@@ -21,9 +21,11 @@ constexpr double kMeasured = 0.4, kFormerMeasured = 0.7;
 class SurfaceComputation {
  public:
   SurfaceComputation(const Computation& ofMesh, const JudgedSurface& surface, const FaceDomain& domain)
-      : scene_(surface.scene().view()),
-        computation_{ofMesh.options, surface.scene().prepared, domain,       scene_,         ofMesh.cone,
-                     ofMesh.backend, ofMesh.solvers,           ofMesh.clock, ofMesh.warnings} {}
+      : scene_(surface.scene().view()), computation_{ofMesh.options, surface.scene().prepared,
+                                                     domain,         scene_,
+                                                     ofMesh.cone,    ofMesh.backend,
+                                                     ofMesh.solvers, ofMesh.clock,
+                                                     ofMesh.warnings} {}
   SurfaceComputation(const SurfaceComputation&) = delete;
   SurfaceComputation& operator=(const SurfaceComputation&) = delete;
 

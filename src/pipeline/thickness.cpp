@@ -75,6 +75,7 @@ class Measurement {
       ThinPieces pieces(tree, fans_, thin, kThinShare * *limit_);
       pieces.divide(std::max(*limit_ / kPiecesPerLimit, kMinPieceLength), control.withoutProgress());
       thickness_.regions = findThinRegions(pieces, *limit_, bodiesOfFaces(), control.withoutProgress());
+      if (isSpace_) removeContacts();
       addThinBodies(sections, control.withoutProgress());
     }
     const auto isWall = [](const ConnectedThinParts& region) { return region.kind == ThinKind::Wall; };
@@ -101,6 +102,13 @@ class Measurement {
   }
 
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
+
+  /// Removes gaps that float32 does not tell from contact.
+  void removeContacts() {
+    std::erase_if(thickness_.regions, [](const ConnectedThinParts& region) {
+      return region.kind == ThinKind::Wall && region.place.ball.ball.diameter <= kUnresolved;
+    });
+  }
 
   /// A body whose greatest section is below the limit is a wall as a whole, and so is a body of sheets.
   void addThinBodies(std::vector<GreatestSection>& sections, const RunControl& control) {
@@ -238,8 +246,10 @@ class Measurement {
   void keep(FaceBalls& balls) {
     const uint32_t face = balls.face;
     if (judgement_.isSheet(face)) balls = sheetBalls(face);
+    // Contact is no gap. Beside it the gap has a taper, which also ends with 0.
+    const bool isContact = isSpace_ && balls.atBarycentre.ball.diameter <= kUnresolved;
     const auto diameterOf = [&](InscribedBall& ball) {
-      if (isSpace_ && ball.ball.diameter <= kUnresolved) ball.wall = kNoFace;  // Contact is no gap.
+      if (isContact) ball.wall = kNoFace;
       return ball.wall == kNoFace && !judgement_.isSheet(face) ? kUnlimited : ball.ball.diameter;
     };
     thickness_.atBarycentre[face] = diameterOf(balls.atBarycentre);

@@ -14,8 +14,8 @@
 namespace asdfvk {
 namespace {
 
-/// In contact lengths.
-constexpr double kPlaceResolution = 64;
+/// Coordinates of places are rounded to 0 below this share of the diameter, and below this number of contact lengths.
+constexpr double kSmallShare = 1e-3, kLeastCoordinate = 0x1p-20;
 
 class Description {
  public:
@@ -51,11 +51,13 @@ class Description {
 
  private:
   [[nodiscard]] Vec3d toMesh(const Vec3d& p) const { return p / unit_.scale + unit_.centre; }
-  /// A place, with 0 for coordinates that are 0 up to the size of the smallest balls.
-  [[nodiscard]] Vec3d placeInMesh(const Vec3d& p) const {
+  /// A point of a ball, with 0 for coordinates that are nearly 0 compared with the ball.
+  [[nodiscard]] Vec3d placeInMesh(const Vec3d& p, double diameter) const {
     Vec3d place = toMesh(p);
+    const double small = std::clamp(kSmallShare * unit_.toMeshLength(diameter),
+                                    kLeastCoordinate * unit_.contactLength(), unit_.contactLength());
     for (size_t axis = 0; axis < 3; ++axis)
-      if (std::abs(place[axis]) < kPlaceResolution * unit_.contactLength()) place[axis] = 0;
+      if (std::abs(place[axis]) < small) place[axis] = 0;
     return place;
   }
   /// A thickness in the unit of the mesh; 0 if float32 does not resolve it.
@@ -120,8 +122,8 @@ class Description {
     region.kind = surface_.isSpace() && found.kind == ThinKind::Wall ? ThinKind::Gap : found.kind;
     region.min = thicknessOf(found.place);
     region.minFace = prepared_.mesh.inputFaceOf(found.place.face);
-    region.place = placeInMesh(found.place.ball.ball.onFace);
-    region.opposite = placeInMesh(found.place.ball.ball.onWall);
+    region.place = placeInMesh(found.place.ball.ball.onFace, found.place.ball.ball.diameter);
+    region.opposite = placeInMesh(found.place.ball.ball.onWall, found.place.ball.ball.diameter);
     const uint32_t wall = found.place.ball.wall, triangle = surface_.triangleOf(found.place.face);
     if (wall != kNoFace) region.oppositeFace = prepared_.mesh.inputFaceOf(wall);
     region.bodies = names_.of(triangle, wall == kNoFace ? triangle : surface_.triangleOf(wall));
@@ -157,8 +159,8 @@ class Description {
     // A wall that tapers may be thinner than the limit at which it becomes a wall.
     const double limit = report_.thinnerThan.value_or(0), least = thicknessOf(next);
     takeLeast(least < kThinShare * limit ? std::max(unit_.toMeshLength(next.limit), limit) : least,
-              prepared_.mesh.inputFaceOf(next.face), placeInMesh(next.ball.ball.onFace),
-              placeInMesh(next.ball.ball.onWall));
+              prepared_.mesh.inputFaceOf(next.face), placeInMesh(next.ball.ball.onFace, next.ball.ball.diameter),
+              placeInMesh(next.ball.ball.onWall, next.ball.ball.diameter));
   }
 
   void takeLeast(double least, uint64_t face, const Vec3d& place, const Vec3d& opposite) {
@@ -194,7 +196,7 @@ class Description {
       const double diameter = unit_.toMeshLength(section.diameter);
       if (diameter > tooThick) {
         bodyOfSolid[solid] = static_cast<uint32_t>(thick.bodies.size());
-        thick.bodies.push_back({{}, diameter, placeInMesh(section.centre)});
+        thick.bodies.push_back({{}, diameter, placeInMesh(section.centre, section.diameter)});
       } else if (unit_.toMeshLength(section.bound) > tooThick * (1 + kSectionTolerance)) {
         isDecided = false;
       }

@@ -32,14 +32,14 @@ std::string contentOf(const std::string& path) {
 TEST_CASE("--with adds bodies, and the result has the faces of the first mesh") {
   const ScratchFolder folder;
   const std::string lid = folder.write("lid.obj", boxObj({0, 0, 0}, {1, 1, 1})),
-                    base = folder.write("base.obj", boxObj({0, 0, -1.2}, {1, 1, -0.2})),
-                    out = folder / "out.csv", points = folder / "out.ply";
+                    base = folder.write("base.obj", boxObj({0, 0, -1.2}, {1, 1, -0.2})), out = folder / "out.csv",
+                    points = folder / "out.ply";
   checkFailure(runOnCpu({lid, "--with", base, "--fail-if-closer", "0.3", "--quiet"}), 6,
                "FAIL: 1 gap closer than 0.3: 0.2 at (");
   checkFailure(runOnCpu({lid, "--with", base, "--fail-if-closer", "0.3", "--quiet"}), 6, "between lid and base");
   CHECK_EQ(runOnCpu({lid, "--with", base, "--fail-if-closer", "0.1", "--quiet"}).exitCode, 0);
-  const ChildOutcome outcome = runOnCpu({lid, "--with", base, "--measure", "sdf,gap", "--json", "--fields", "gap,sdf",
-                                         "-o", out, "--points", points});
+  const ChildOutcome outcome = runOnCpu(
+      {lid, "--with", base, "--measure", "sdf,gap", "--json", "--fields", "gap,sdf", "-o", out, "--points", points});
   REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.error);
   const std::string table = contentOf(out);
   CHECK_EQ(std::count(table.begin(), table.end(), '\n'), 7);

@@ -9,7 +9,8 @@
 
 #include "asdf_vk/scene.h"
 #include "core/vec3.h"
-#include "support/extrusion.h"
+#include "generate/extrusion.h"
+
 #include "support/require_failure.h"
 #include "support/separated_faces.h"
 #include "support/shapes.h"
@@ -41,14 +42,13 @@ using Counts = std::vector<uint64_t>;
 
 TEST_CASE("a version that is only triangulated differently has no change, on both sides of the limit") {
   const Mesh former = plate(1, 1);
-  for (const Mesh& mesh : {plate(1, 7), separated(plate(1, 1)), shapes::refined(plate(1, 2), 0.7)})
+  for (const Mesh& mesh : {plate(1, 7), separated(plate(1, 1)), solids::refined(plate(1, 2), 0.7)})
     for (const double limit : {0.9, 1.1}) {
       CAPTURE(limit);
       const Result result = compareVersionsOf(mesh, former, limit);
       const ComparisonReport& comparison = result.report.comparison.value();
       CHECK(comparison.verdict == ThicknessVerdict::Passed);
-      CHECK(result.report.thickness->verdict ==
-            (limit < 1 ? ThicknessVerdict::Passed : ThicknessVerdict::Failed));
+      CHECK(result.report.thickness->verdict == (limit < 1 ? ThicknessVerdict::Passed : ThicknessVerdict::Failed));
       CHECK(comparison.formerVerdict == result.report.thickness->verdict);
       CHECK(countsOf(comparison) == Counts{0, 0, limit < 1 ? 0u : 1u, 0});
       CHECK(comparison.unmatchedFaceCount == 0);
@@ -83,8 +83,7 @@ TEST_CASE("a wall is new, thinner, kept or gone") {
 
 TEST_CASE("a fin between other fins is new") {
   Mesh former, mesh;
-  for (const double x : {0.0, 0.7, 1.4})
-    former = shapes::joined(former, shapes::box({0.2, 5, 5}), {x, 0, 0});
+  for (const double x : {0.0, 0.7, 1.4}) former = shapes::joined(former, shapes::box({0.2, 5, 5}), {x, 0, 0});
   mesh = shapes::joined(former, shapes::box({0.1, 5, 5}), {0.35, 0, 0});
   CHECK(countsOf(*compareVersionsOf(mesh, former, 0.3).report.comparison) == Counts{1, 0, 3, 0});
   CHECK(countsOf(*compareVersionsOf(former, mesh, 0.3).report.comparison) == Counts{0, 0, 3, 1});
@@ -122,7 +121,7 @@ TEST_CASE("a part of the mesh that the former version does not have has no chang
 TEST_CASE("details and edges are compared if they count") {
   Options options;
   options.thickness.countsEdges = true;
-  const Mesh wedge = shapes::extruded({{0, 0}, {10, 0}, {0, 8}}, 10), box = shapes::box({10, 10, 10});
+  const Mesh wedge = solids::extruded({{0, 0}, {10, 0}, {0, 8}}, 10), box = shapes::box({10, 10, 10});
   const Result result = compareVersionsOf(wedge, box, 0.5, options);
   CHECK(result.report.comparison->newCount > 0);
   CHECK(result.report.comparison->verdict == ThicknessVerdict::Failed);

@@ -17,13 +17,6 @@ import verify_report
 
 PROGRAM, GENERATOR = os.environ["ASDF_VK_PROGRAM"], os.environ["ASDF_VK_GENERATE"]
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/verify-report"
-# Claims of the program that do not hold; thickness.md has them in "Parts of known truth".
-KNOWN_FAULTS = {
-    "gap-groove-8.ply": "is missing",
-    "danger-slab-1e-4.ply": "away from the face",
-    "danger-fin-1e-4.ply": "away from the face",
-    "edge-run-out-16.ply": "away from the face",
-}
 # Numbers of points of the search: less than for a user, so that the tests take seconds.
 search.GREATEST_COUNT, search.TRIED_PER_CLUSTER = 3_000, 12
 # Fine meshes, on which brute force takes seconds.
@@ -62,15 +55,11 @@ class VerifyTest(unittest.TestCase):
         """The last row of each file: the limit is above its least wall or gap."""
         last = {row["file"]: row for row in self.rows if row["check"] in ("thinner", "closer")}
         for index, (name, row) in enumerate(last.items()):
-            if name in LEFT_OUT or (index % EACH and name not in KNOWN_FAULTS and "ASDF_VK_VERIFY_ALL" not in os.environ):
+            if name in LEFT_OUT or (index % EACH and "ASDF_VK_VERIFY_ALL" not in os.environ):
                 continue
             with self.subTest(file=name, limit=row["limit"]):
                 mesh, report = self.report(name, row["limit"], row["check"])
-                wrong = wrong_claims(mesh, report)
-                if name in KNOWN_FAULTS:
-                    self.assertIn(KNOWN_FAULTS[name], wrong, "a known fault is gone: remove it here and in thickness.md")
-                else:
-                    self.assertEqual(wrong, "")
+                self.assertEqual(wrong_claims(mesh, report), "")
 
     def refused(self, mesh: pathlib.Path, report: dict, reason: str, change) -> None:
         """The report holds; after the change, it is refused for this reason."""
