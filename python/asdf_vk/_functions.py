@@ -43,12 +43,10 @@ def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[Fun
     return info_of(_computed(vertices, faces, dict(options)))
 
 
-def compare(
-    vertices: Any, faces: ArrayLike | None = None, *, former: Any, **options: Unpack[FunctionOptions]
-) -> Info:
+def compare(mesh: Any, former: Any, **options: Unpack[FunctionOptions]) -> Info:
     """Compares the wall thickness of a mesh with a former version of it, which may be triangulated differently.
 
-    vertices, faces: as for compute(). former: a mesh with `vertices` and `faces`, or a tuple (vertices, faces).
+    mesh, former: objects with `vertices` and `faces` (Mesh, trimesh.Trimesh), or tuples (vertices, faces).
     options: as for compute(). With thinner_than=X, `comparison` of the result counts the walls that are new, thinner,
         kept and gone, and its verdict is "failed" if a wall is new or thinner.
 
@@ -57,8 +55,8 @@ def compare(
     """
     given: dict[str, Any] = dict(options)
     common: dict[str, Any] = {"session": session_of(given), "orient": given.get("orient") or "keep"}
-    before = former if isinstance(former, tuple) else (former,)
-    with Scene(*before, **common) as old, Scene(vertices, faces, **common) as new:
+    before, now = (each if isinstance(each, tuple) else (each,) for each in (former, mesh))
+    with Scene(*before, **common) as old, Scene(*now, **common) as new:
         return new.compare(old, **given)
 
 

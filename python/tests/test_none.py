@@ -48,6 +48,7 @@ def test_none_is_the_default(tmp_path: Path) -> None:
     scene = asdf_vk.Scene(*MESH)
     calls: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
         (asdf_vk.compute, MESH),
+        (asdf_vk.compare, (MESH, MESH)),
         (asdf_vk.shape_diameter, MESH),
         (asdf_vk.thickness, MESH),
         (asdf_vk.segment, MESH),
@@ -59,7 +60,9 @@ def test_none_is_the_default(tmp_path: Path) -> None:
         (asdf_vk.Scene, MESH),
         (scene.at, (TOP, TOP)),
         (scene.compute, ()),
+        (scene.compare, (scene,)),
         (asdf_vk.read_mesh, (off,)),
+        (asdf_vk.join_meshes, ([asdf_vk.read_mesh(off)],)),
         (scene.shape_diameter, ()),
         (scene.thickness, ()),
         (scene.segment, ()),

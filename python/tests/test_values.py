@@ -64,7 +64,7 @@ def test_gaps_voids_and_thick_bodies() -> None:
 def test_a_comparison_with_a_former_version() -> None:
     vertices, faces = cube()
     plate = vertices * [10, 10, 0.5]
-    info = asdf_vk.compare(plate, faces, former=(vertices * [10, 10, 2], faces), thinner_than=0.8)
+    info = asdf_vk.compare((plate, faces), (vertices * [10, 10, 2], faces), thinner_than=0.8)
     assert info.comparison is not None and info.comparison.verdict == "failed" and info.comparison.new_count == 1
     assert info.thickness is not None and info.thickness.regions[0].change == "new" and "sdf" not in info.fields
     assert info.comparison.thinner[0].former_thickness == pytest.approx(2, rel=2e-3)
@@ -76,7 +76,7 @@ def test_a_comparison_with_a_former_version() -> None:
         region = now.compare(other, thinner_than=0.8, faces=[0]).comparison
         assert region is not None and region.verdict == "failed"
     with pytest.raises(asdf_vk.UsageError, match="a comparison needs measure='thickness'"):
-        asdf_vk.compare(plate, faces, former=(plate, faces), measure="sdf")
+        asdf_vk.compare((plate, faces), (plate, faces), measure="sdf")
 
 
 def test_joined_meshes(tmp_path: Path) -> None:
@@ -94,7 +94,7 @@ def test_joined_meshes(tmp_path: Path) -> None:
     with pytest.raises(asdf_vk.InputError, match="a name per mesh"):
         asdf_vk.join_meshes([first], [])
     with pytest.raises(asdf_vk.InputError, match="is not a Mesh"):
-        asdf_vk.join_meshes([(vertices, faces)])
+        asdf_vk.join_meshes([(vertices, faces)])  # type: ignore[list-item]
 
 
 def test_the_verdict_of_the_thickness() -> None:

@@ -36,6 +36,7 @@ const std::vector<Row> kRows{
     {ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     {ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
     {ErrorCode::ValueOutOfRange, ErrorKind::Input, "valueOutOfRange"},
+    {ErrorCode::UnitsDiffer, ErrorKind::Input, "unitsDiffer"},
     {ErrorCode::NoVulkanLoader, ErrorKind::Device, "noVulkanLoader"},
     {ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     {ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},
