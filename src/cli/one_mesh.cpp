@@ -93,7 +93,7 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
       notJudged.push_back({ExitCode::CheckFailed, message, "notJudged"});
   };
   if (computation.failIfThinner && report.comparison)
-    add(*report.comparison->verdict, report.comparison->sentence, report.thickness->unjudged, "becameThin");
+    add(*report.comparison->verdict, report.comparison->sentence, report.thickness->unjudged, "tooThin");
   else if (computation.failIfThinner)
     add(*report.thickness->verdict, report.thickness->sentence, report.thickness->unjudged, "tooThin");
   if (computation.failIfThicker)
@@ -296,6 +296,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     if (hasPicture) files.writePicture(written, result, pictureField);
     written.commit();
     if (ownPage && settings.outputs.opensPage) openInBrowser(output);
+    if (!settings.others.with.empty()) result.fields = fieldsOfMesh(loaded.mesh, result.fields);
     addReport(outcome, settings.isOfBatch, run);
   };
 

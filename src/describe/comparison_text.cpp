@@ -65,9 +65,11 @@ std::string comparisonSentence(const Report& report, bool hasPlaces) {
                                othersText(comparison, noun));
   const ThinRegion& worst = *worstOf(thickness);
   const std::string least = lengthText(worst.min, thickness.thinnerThan);
-  return begin + fmt::format("{} (limit {}): {}{}{}", enumeration(worse), limitText(*thickness.thinnerThan), least,
+  const bool isFormerUnclear = comparison.formerVerdict == ThicknessVerdict::NotJudged;
+  return begin + fmt::format("{} (limit {}): {}{}{}{}", enumeration(worse), limitText(*thickness.thinnerThan), least,
                              hasPlaces ? " " + placeText(worst.place, worst.minFace) + bodiesText(worst.bodies) : "",
-                             othersText(comparison, noun));
+                             othersText(comparison, noun),
+                             isFormerUnclear ? "; the former version cannot be judged" : "");
 }
 
 ReportRows comparisonRows(const Report& report) {

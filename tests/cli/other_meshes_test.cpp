@@ -48,6 +48,8 @@ TEST_CASE("--with adds bodies, and the result has the faces of the first mesh") 
   CHECK(json.at("former").is_null());
   CHECK_EQ(json.at("faceCount"), 12);
   CHECK_EQ(json.at("regionFaceCount"), 6);
+  for (const OtherJson& field : json.at("fields"))
+    if (field.at("name") == "sdf") CHECK_EQ(field.at("missingCount"), 0);
   CHECK(std::filesystem::file_size(points) > 100);
   // A second body beside the first one.
   const std::string side = folder.write("side.obj", boxObj({1.1, 0, 0}, {2, 1, 1}));

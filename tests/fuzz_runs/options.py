@@ -52,6 +52,8 @@ _VALUES: dict[str, tuple[Values, Values]] = {
     "--picture-view": (("0,0", "30,18", "-360,90"), ("361,0", "0,91", "1", *_ILLEGAL_NUMBERS)),
     "--points": (("points.ply", "-"), ("", "absent/points.ply")),
     "--device": (("0", "llvmpipe", "7", "absent"), ("", "-1")),
+    "--with": (("mesh.off", "absent.off"), ("", "-")),
+    "--compare": (("mesh.off", "absent.off"), ("", "-")),
     "--files-from": (("list.txt", "absent.txt", "-"), ("",)),
 }
 _ROW = re.compile(

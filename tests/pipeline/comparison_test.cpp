@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -135,6 +136,9 @@ TEST_CASE("what cannot be judged is told, and the former version may be open") {
   const Result result = compareVersionsOf(plate(1), open, 0.5);
   CHECK(result.report.comparison->verdict == ThicknessVerdict::Passed);
   CHECK(result.report.comparison->formerVerdict == ThicknessVerdict::NotJudged);
+  const std::string sentence = compareVersionsOf(plate(0.4), open, 0.5).report.comparison->sentence;
+  CHECK_MESSAGE(sentence.starts_with("FAIL: 1 new wall (limit 0.5): 0.4 at ("), sentence);
+  CHECK_MESSAGE(sentence.ends_with("; the former version cannot be judged"), sentence);
 }
 
 TEST_CASE("a comparison is independent of the unit and of the size of the other version") {
