@@ -40,9 +40,9 @@ std::vector<Callout> calloutsOf(const ShownPlaces& shown) {
   std::vector<Callout> callouts;
   for (const ThinRegion& region : shown.regions) {
     if (callouts.size() == kMaxCount) break;
-    const std::string value = lengthText(region.min, shown.limit);
-    callouts.push_back({region.place, region.opposite,
-                        region.kind == ThinKind::Wall ? value : fmt::format("{} {}", nameOf(region.kind), value)});
+    const std::string change = region.change ? fmt::format("{} ", nameOf(*region.change)) : "";
+    const std::string kind = region.kind == ThinKind::Wall ? "" : fmt::format("{} ", nameOf(region.kind));
+    callouts.push_back({region.place, region.opposite, change + kind + lengthText(region.min, shown.limit)});
   }
   return callouts;
 }

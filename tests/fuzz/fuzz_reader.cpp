@@ -101,7 +101,7 @@ Mesh parseWithFile(const FileFormat& format, std::span<const char> bytes) {
   const size_t end = std::string_view(bytes.data(), bytes.size()).find('\0');
   if (end == std::string_view::npos) return format.parseMesh({.bytes = bytes});
   folder.write({bytes.data() + end + 1, bytes.size() - end - 1});
-  FilesBeside beside(folder.document(), {});
+  FilesBeside beside(folder.document(), [](std::span<const char>) {});
   return format.parseMesh({.bytes = bytes.first(end), .path = folder.document(), .beside = &beside});
 }
 
