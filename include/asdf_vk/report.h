@@ -46,6 +46,10 @@ struct StageSeconds {
 
   [[nodiscard]] double operator[](Stage stage) const { return seconds[static_cast<size_t>(stage)]; }
   [[nodiscard]] double& operator[](Stage stage) { return seconds[static_cast<size_t>(stage)]; }
+  StageSeconds& operator+=(const StageSeconds& other) {
+    for (size_t i = 0; i < kStageCount; ++i) seconds[i] += other.seconds[i];
+    return *this;
+  }
 };
 
 /// Defects of a mesh. Faces are counted as triangles, also in a mesh of polygons. An edge is counted only if its

@@ -15,7 +15,7 @@ namespace asdfvk {
 /// What a thin place is. L is the limit (docs/thickness.md). In a report on gaps, the space between two surfaces is
 /// thin.
 enum class ThinKind {
-  Wall,    ///< A point whose surroundings are all thin, and nowhere much thinner than the point. Fails the check.
+  Wall,    ///< The surface around the place is thin, and nowhere much thinner than at the place. Fails the check.
   Gap,     ///< A wall of the space: a slot of a body, or a clearance between bodies. Fails the check.
   Detail,  ///< Too small for a wall at L, but a wall at a smaller limit, such as a low rib or a letter.
   Edge,    ///< Any other thin place: the shape tapers off there.
@@ -33,6 +33,13 @@ enum class WallChange {
 /// The name of an enumerator with a small first letter, for example "new".
 [[nodiscard]] ASDFVK_API const char* nameOf(WallChange change);
 
+/// Whether a place of the kind fails the check. settings: ThicknessOptions or a ThicknessReport.
+template <typename Settings>
+[[nodiscard]] bool isCounted(const Settings& settings, ThinKind kind) {
+  return kind == ThinKind::Wall || kind == ThinKind::Gap || settings.countsEdges ||
+         (settings.countsDetails && kind == ThinKind::Detail);
+}
+
 /// A region is a connected part of the surface that is thinner than the limit, together with the thin part on the other
 /// side of the same wall. Lengths are in the unit of the mesh.
 struct ThinRegion {
@@ -41,7 +48,7 @@ struct ThinRegion {
   double min = 0;
   uint64_t minFace = 0;   ///< Input face with this thickness.
   Vec3d place, opposite;  ///< Point of this thickness on the face, and its counterpart on the opposing wall.
-  /// Input face of the counterpart; unset if a body is thin as a whole.
+  /// Input face of `opposite`; unset if a whole body is thin.
   std::optional<uint64_t> oppositeFace;
   /// Names of the one or two bodies at the place, or "component 3"; empty if the mesh has one body without a name.
   std::vector<std::string> bodies;
@@ -82,7 +89,7 @@ struct BodyContact {
 enum class ThicknessVerdict {
   Passed,     ///< No wall is thinner than the limit.
   Failed,     ///< A wall is thinner than the limit, or another thin place that counts.
-  NotJudged,  ///< No such place was found, but a part of the surface could not be judged.
+  NotJudged,  ///< No place that fails the check was found, but a part of the surface could not be judged.
 };
 /// The name of an enumerator with a small first letter, for example "notJudged".
 [[nodiscard]] ASDFVK_API const char* nameOf(ThicknessVerdict verdict);
@@ -90,7 +97,7 @@ enum class ThicknessVerdict {
 /// A body whose largest ball inside is greater than ThicknessOptions::thickerThan.
 struct ThickBody {
   std::vector<std::string> bodies;  ///< Its name, see ThinRegion::bodies.
-  double diameter = 0;              ///< Diameter of a large ball inside; the largest has at least this diameter.
+  double diameter = 0;              ///< Diameter of the largest ball that was found inside. A larger one may exist.
   Vec3d centre;                     ///< Centre of the ball.
 };
 
@@ -114,7 +121,7 @@ enum class UnjudgedCause {
   Inverted,           ///< Bodies wound inwards.
   DoubleSided,        ///< Each face has a copy that is wound the other way: there is no material.
   NegativeVolumes,    ///< The file has negative volumes, which were not subtracted from the bodies.
-  CoarseCoordinates,  ///< The steps of the coordinates, which are float32 values, exceed a quarter of the limit.
+  CoarseCoordinates,  ///< The coordinates are float32 values, whose steps exceed a quarter of the limit.
 };
 /// The name of an enumerator with a small first letter, for example "woundAgainst".
 [[nodiscard]] ASDFVK_API const char* nameOf(UnjudgedCause cause);
@@ -129,7 +136,7 @@ struct UnjudgedReason {
   uint64_t edgeCount = 0;                       ///< Edges with this cause; 0 for causes that are not at edges.
   uint64_t face = 0;                            ///< The first input face with this cause.
   Vec3d place;                                  ///< A point of this face, on the edge if the cause is at an edge.
-  bool isRepairable = false;                    ///< The orientation "auto" removes the cause.
+  bool isRepairable = false;                    ///< Whether the orientation "auto" removes the cause.
   /// Number of negative volumes, or the step of the coordinates in the unit of the mesh. 0 for the other causes.
   double amount = 0;
 };
@@ -178,10 +185,7 @@ struct ThicknessReport {
   std::vector<ThinRegion> regions;
   std::optional<ThickReport> thick;  ///< Set with ThicknessOptions::thickerThan.
 
-  [[nodiscard]] bool counts(ThinKind kind) const {
-    return kind == ThinKind::Wall || kind == ThinKind::Gap || countsEdges ||
-           (countsDetails && kind == ThinKind::Detail);
-  }
+  [[nodiscard]] bool counts(ThinKind kind) const { return isCounted(*this, kind); }
 };
 
 /// A connected part of the surface that is thinner than 0.95 of its former thickness.

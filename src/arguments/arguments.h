@@ -21,7 +21,7 @@ struct Argument {
   std::function<void(const Values&)> receive;
   std::string group = "Options";  ///< Heading in the help.
   bool isRequired = false, isList = false;
-  bool isRepeatable = false;  ///< An option with one value that may be given several times.
+  bool isRepeatable = false;  ///< The option has one value, and may be given several times.
   size_t valueCount = 1;
   /// Whether the next argument is the optional value. Null: an optional value must follow an equals sign.
   std::function<bool(const std::string& next)> takesNext = {};

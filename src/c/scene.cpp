@@ -103,19 +103,17 @@ void computeScene(const std::shared_ptr<asdf_vk_scene>& scene, asdf_vk_scene* fo
   object->session = scene->session->settings;
   const Options& computed = object->computation.options;
   const SessionUse use(*scene->session);
-  StageSeconds& seconds = object->result.report.stageSeconds;
   StageSeconds preparation;
   const auto prepare = [&](asdf_vk_scene& each) -> Scene& {
     bool isNew = false;
     Scene& prepared = preparedScene(each, computed.orientation, control, &isNew);
-    for (size_t i = 0; i < kStageCount && isNew; ++i)
-      preparation.seconds[i] += prepared.preparationSeconds().seconds[i];
+    if (isNew) preparation += prepared.preparationSeconds();
     return prepared;
   };
   Scene& prepared = prepare(*scene);
   object->result = former != nullptr ? prepared.compare(prepare(*former), computed, {}, control)
                                      : prepared.compute(computed, {}, control);
-  for (size_t i = 0; i < kStageCount; ++i) seconds.seconds[i] += preparation.seconds[i];
+  object->result.report.stageSeconds += preparation;
   *result = handles<asdf_vk_result>().add(std::move(object));
 }
 

@@ -44,8 +44,6 @@ bool readFormer(void* target, const OptionValue& value) {
   return true;
 }
 
-OptionValue noValueOf(const void*) { return {}; }
-
 const std::array kReadingRows{
     OptionRow{.name = "max-faces",
               .group = kInputGroup,
@@ -78,7 +76,7 @@ const std::array kOtherMeshRows{
               .wanted = "the name of a file",
               .isRepeatable = true,
               .read = readWith,
-              .write = noValueOf},
+              .write = noValue},
     OptionRow{.name = "compare",
               .group = kInputGroup,
               .text = "Compare the wall thickness with a former version of the mesh: FILE is the former version. With "
@@ -88,7 +86,7 @@ const std::array kOtherMeshRows{
               .placeholder = "FILE",
               .wanted = "the name of a file",
               .read = readFormer,
-              .write = noValueOf},
+              .write = noValue},
 };
 
 }  // namespace

@@ -166,16 +166,16 @@ class MeshFiles {
   }
 
   /// Writes nothing if the output is empty. Precondition: the output is not a page.
-  void writeResult(AtomicFiles& files, Mesh& mesh, const Options& options, const Result& result) const {
+  /// fields: those of the mesh.
+  void writeResult(AtomicFiles& files, Mesh& mesh, const Options& options, const Result& result,
+                   const std::vector<Field>& fields) const {
     if (output_.empty()) return;
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
     const auto end = std::lower_bound(result.reversedFaces.begin(), result.reversedFaces.end(), mesh.inputFaceCount());
     flipInputFaces(mesh,
                    {result.reversedFaces.begin(), end});  // The scene of the result has its own copy of the faces.
     const AwaitedReader reader(output_, stop_);
-    const std::vector<Field> own = ownFields(mesh, result);
-    asdfvk::writeResult(files, output_, mesh,
-                        writableFields(writing, options.per, output_, own.empty() ? result.fields : own), writing);
+    asdfvk::writeResult(files, output_, mesh, writableFields(writing, options.per, output_, fields), writing);
   }
 
   void writePage(AtomicFiles& files, const Page& page) const {
@@ -183,11 +183,10 @@ class MeshFiles {
     asdfvk::writePage(files, output_, page);
   }
 
-  void writePoints(AtomicFiles& files, const Mesh& mesh, const Result& result) const {
+  void writePoints(AtomicFiles& files, const std::vector<Field>& fields) const {
     if (settings_.outputs.points.empty()) return;
     const AwaitedReader reader(settings_.outputs.points, stop_);
-    const std::vector<Field> own = ownFields(mesh, result);
-    asdfvk::writePoints(files, settings_.outputs.points, own.empty() ? result.fields : own, {stop_, {}, {}});
+    asdfvk::writePoints(files, settings_.outputs.points, fields, {stop_, {}, {}});
   }
 
   /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.
@@ -201,11 +200,6 @@ class MeshFiles {
   }
 
  private:
-  /// The fields of the mesh if the result also has faces of other meshes, else empty.
-  [[nodiscard]] std::vector<Field> ownFields(const Mesh& mesh, const Result& result) const {
-    return settings_.others.with.empty() ? std::vector<Field>() : fieldsOfMesh(mesh, result.fields);
-  }
-
   const std::string& input_;
   const std::string& output_;
   const MeshSettings& settings_;
@@ -285,18 +279,23 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     const Stopwatch watch;
     removeOutputRecord(output);
     AtomicFiles written;
+    // Pages and pictures also show the other meshes; files and reports have the fields of the mesh only.
+    const bool isAmongOthers = !settings.others.with.empty();
+    std::vector<Field> ofMesh;
+    if (isAmongOthers) ofMesh = fieldsOfMesh(loaded.mesh, result.fields);
+    const std::vector<Field>& fields = isAmongOthers ? ofMesh : result.fields;
     if (page == nullptr) {
-      files.writeResult(written, loaded.mesh, options, result);
+      files.writeResult(written, loaded.mesh, options, result, fields);
     } else {
       files.withProgress([&](const RunControl& control) { addToPage(*page, outcome, shown, control); });
       if (ownPage) files.writePage(written, *ownPage);
     }
-    files.writePoints(written, loaded.mesh, result);
+    files.writePoints(written, fields);
     seconds[Stage::Write] = watch.seconds();
     if (hasPicture) files.writePicture(written, result, pictureField);
     written.commit();
     if (ownPage && settings.outputs.opensPage) openInBrowser(output);
-    if (!settings.others.with.empty()) result.fields = fieldsOfMesh(loaded.mesh, result.fields);
+    if (isAmongOthers) result.fields = std::move(ofMesh);
     addReport(outcome, settings.isOfBatch, run);
   };
 

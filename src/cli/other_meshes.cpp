@@ -29,10 +29,6 @@ Mesh joinedWith(const Mesh& mesh, const std::string& name, const std::vector<std
   return joinMeshes(meshes, names);
 }
 
-void add(const StageSeconds& from, StageSeconds& to) {
-  for (size_t i = 0; i < kStageCount; ++i) to.seconds[i] += from.seconds[i];
-}
-
 }  // namespace
 
 ComputedMesh computeAmong(Session& session, const Mesh& mesh, const std::string& name, const OtherMeshes& others,
@@ -56,8 +52,8 @@ ComputedMesh computeAmong(Session& session, const Mesh& mesh, const std::string&
       formerScene ? scene.compare(*formerScene, options, region, control) : scene.compute(options, region, control);
   StageSeconds& seconds = computed.result.report.stageSeconds;
   seconds[Stage::Read] += readSeconds;
-  add(scene.preparationSeconds(), seconds);
-  if (formerScene) add(formerScene->preparationSeconds(), seconds);
+  seconds += scene.preparationSeconds();
+  if (formerScene) seconds += formerScene->preparationSeconds();
   return computed;
 }
 

@@ -9,6 +9,7 @@
 #include "asdf_vk/error.h"
 #include "cli/options.h"
 #include "core/text.h"
+#include "describe/option_values.h"
 
 namespace asdfvk {
 namespace {
@@ -84,7 +85,6 @@ bool readMemory(void* target, const OptionValue& value) {
   return bytes.has_value();
 }
 
-OptionValue noValue(const void*) { return {}; }
 OptionValue nameOrNone(const std::string& name) { return name.empty() ? OptionValue() : OptionValue(name); }
 
 template <std::string Outputs::*kMember>

@@ -12,6 +12,9 @@ namespace asdfvk {
   return static_cast<const ComputationSettings*>(target)->options;
 }
 
+/// OptionRow::write of an option whose value is not reported.
+[[nodiscard]] inline OptionValue noValue(const void*) { return {}; }
+
 /// OptionRow::wanted of a length.
 inline constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
 [[nodiscard]] bool readLength(const OptionValue& value, std::optional<LengthLimit>& length);

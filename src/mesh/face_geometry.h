@@ -49,6 +49,8 @@ struct Normalization {
   double scale = 1;  ///< Normalised units per mesh unit.
 
   [[nodiscard]] Vec3d toNormalized(const Vec3d& p) const { return (p - centre) * scale; }
+  /// The inverse of toNormalized().
+  [[nodiscard]] Vec3d toMesh(const Vec3d& normalized) const { return normalized / scale + centre; }
   [[nodiscard]] std::array<Vec3d, 3> normalizedCorners(const TriangleMesh& mesh, uint32_t face) const {
     const auto [a, b, c] = mesh.faces[face];
     return {toNormalized(mesh.vertices[a]), toNormalized(mesh.vertices[b]), toNormalized(mesh.vertices[c])};

@@ -40,11 +40,6 @@ struct Counterpart {
   double distance = 0, thickness = kNoValue;
 };
 
-Vec3d inMesh(const JudgedSurface& surface, const Vec3d& normalized) {
-  const Normalization& unit = surface.scene().bvh.normalization;
-  return normalized / unit.scale + unit.centre;
-}
-
 void measure(const MeasuredVersion& version, PlacedPoints& placed, const RunControl& control) {
   placed.thickness = thicknessAtPoints(version.surface, placed.points, placed.normals, placed.faces,
                                        version.computation.options.thickness, control);
@@ -64,7 +59,7 @@ std::vector<Counterpart> counterpartsOf(const PlacedPoints& placed, const Measur
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i].face == kNoFace) continue;
     indices.push_back(i);
-    opposite.add(other, found[i].face, inMesh(other.surface, found[i].point));
+    opposite.add(other, found[i].face, unit.toMesh(found[i].point));
   }
   measure(other, opposite, control.part(0.5, 1));
   for (size_t k = 0; k < indices.size(); ++k) {
@@ -75,10 +70,6 @@ std::vector<Counterpart> counterpartsOf(const PlacedPoints& placed, const Measur
     if (!(each.distance <= reach + unit.contactLength())) each = {};
   }
   return found;
-}
-
-bool isCounted(const ThicknessOptions& options, ThinKind kind) {
-  return kind == ThinKind::Wall || options.countsEdges || (options.countsDetails && kind == ThinKind::Detail);
 }
 
 /// The parts of the counted regions of a version.
@@ -132,7 +123,7 @@ struct WallPoints {
 WallPoints wallPointsOf(const MeasuredVersion& version, const RunControl& control) {
   WallPoints points;
   const auto add = [&](uint32_t region, uint32_t face, const Vec3d& normalized) {
-    points.placed.add(version, face, inMesh(version.surface, normalized));
+    points.placed.add(version, face, version.surface.scene().bvh.normalization.toMesh(normalized));
     points.regionOf.push_back(region);
   };
   const std::vector<ConnectedThinParts>& regions = version.thickness.regions;
@@ -171,12 +162,12 @@ CommonWalls findCommonWalls(const MeasuredVersion& from, const MeasuredVersion& 
   const WallPoints points = wallPointsOf(from, control);
   const std::vector<Counterpart> counterparts = counterpartsOf(points.placed, to, control);
   const CountedParts parts(to);
-  std::vector<uint32_t> counts(regions.size()), thinnerCounts(regions.size());
+  std::vector<uint32_t> pointCounts(regions.size()), thinnerCounts(regions.size());
   std::vector<double> leastOfOthers(regions.size(), std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < counterparts.size(); ++i) {
     const Counterpart& at = counterparts[i];
     const uint32_t region = points.regionOf[i];
-    ++counts[region];
+    ++pointCounts[region];
     if (at.face == kNoFace) continue;
     parts.forEachAt(at, [&](uint32_t other) {
       common.ofFrom[region] = common.ofTo[other] = 1;
@@ -186,7 +177,7 @@ CommonWalls findCommonWalls(const MeasuredVersion& from, const MeasuredVersion& 
   }
   for (size_t i = 0; i < regions.size(); ++i)
     common.isThinner[i] =
-        leastOf(regions[i]) < kThinnerShare * leastOfOthers[i] || thinnerCounts[i] * kPointsPerThinnerPoint > counts[i]
+        leastOf(regions[i]) < kThinnerShare * leastOfOthers[i] || thinnerCounts[i] * kPointsPerThinnerPoint > pointCounts[i]
             ? 1
             : 0;
   return common;

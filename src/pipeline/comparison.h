@@ -27,11 +27,13 @@ struct MeasuredVersion {
 [[nodiscard]] std::vector<double> compareVersions(const MeasuredVersion& now, const MeasuredVersion& former,
                                                   const RunControl& control);
 
-/// Thickness minus former thickness of each input face; for a polygon the least number of its triangles.
+/// For each input face, its thickness minus its former thickness. A polygon has the least difference of its triangles.
 [[nodiscard]] std::vector<double> thicknessChange(const MeasuredVersion& now, std::span<const double> formerThickness);
 
-/// The report without its sentence. described, former: reports on both versions, after compareVersions().
+/// The report without its sentence. change: the result of thicknessChange(). described, former: reports on both
+/// versions, after compareVersions().
 [[nodiscard]] ComparisonReport describeComparison(const MeasuredVersion& now, std::span<const double> formerThickness,
-                                                  const ThicknessReport& described, const ThicknessReport& former);
+                                                  std::span<const double> change, const ThicknessReport& described,
+                                                  const ThicknessReport& former);
 
 }  // namespace asdfvk

@@ -95,7 +95,8 @@ std::vector<double> thicknessChange(const MeasuredVersion& now, std::span<const 
 }
 
 ComparisonReport describeComparison(const MeasuredVersion& now, std::span<const double> formerThickness,
-                                    const ThicknessReport& described, const ThicknessReport& former) {
+                                    std::span<const double> change, const ThicknessReport& described,
+                                    const ThicknessReport& former) {
   ComparisonReport report;
   for (const ThinRegion& region : described.regions) {
     if (region.change == WallChange::New) ++report.newCount;
@@ -107,7 +108,6 @@ ComparisonReport describeComparison(const MeasuredVersion& now, std::span<const 
   report.goneCount = report.gone.size();
   report.formerVerdict = former.verdict;
   const std::vector<double> values = thicknessOfInputFaces(now.computation.prepared.mesh, now.thickness.atBarycentre);
-  const std::vector<double> change = thicknessChange(now, formerThickness);
   for (size_t face = 0; face < values.size(); ++face)
     if (!std::isnan(values[face]) && std::isnan(change[face])) ++report.unmatchedFaceCount;
   addThinnerRegions(now, formerThickness, report);

@@ -95,7 +95,7 @@ class SurfaceBuilder {
       if (unit_.toNormalized(prepared_.mesh.vertices[vertex]) == point) return vertex;
     const auto [found, isNew] =
         vertices_.try_emplace({point.x, point.y, point.z}, static_cast<uint32_t>(storage_.vertices.size()));
-    if (isNew) storage_.vertices.push_back(point / unit_.scale + unit_.centre);
+    if (isNew) storage_.vertices.push_back(unit_.toMesh(point));
     return found->second;
   }
 

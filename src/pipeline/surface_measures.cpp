@@ -71,14 +71,15 @@ void compareSurfaces(Result& result, const Computation& ofMesh, const JudgedSurf
   const MeasuredVersion before{formerComputation.get(), former, formerThickness};
   const std::vector<double> values = compareVersions(now, before, control.part(kFormerMeasured, 1));
   addMeasured(result, computation.get(), surface, names, thickness);
-  result.fields.push_back(makeField("thickness_change", thicknessChange(now, values)));
+  std::vector<double> change = thicknessChange(now, values);
   ThinSurface unused;
   ThicknessReport ofFormer;
   if (!formerThickness.isJudged.empty())
     ofFormer = describeThickness(formerComputation.get(), former, formerThickness, BodyNames(former), 0, unused);
   ComparisonReport& comparison = result.report.comparison.emplace();
-  comparison = describeComparison(now, values, *result.report.thickness, ofFormer);
+  comparison = describeComparison(now, values, change, *result.report.thickness, ofFormer);
   comparison.sentence = comparisonSentence(result.report);
+  result.fields.push_back(makeField("thickness_change", std::move(change)));
 }
 
 void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& names) {

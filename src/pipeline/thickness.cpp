@@ -210,7 +210,7 @@ class Measurement {
     for (const GreatestSection& section : sections)
       if (section.diameter < kUnlimited && !(greatest && section.diameter <= greatest->diameter)) greatest = section;
     if (greatest)
-      greatest = {greatest->centre / unit_.scale + unit_.centre, unit_.toMeshLength(greatest->diameter),
+      greatest = {unit_.toMesh(greatest->centre), unit_.toMeshLength(greatest->diameter),
                   unit_.toMeshLength(greatest->bound)};
   }
 

@@ -50,10 +50,9 @@ class Description {
   }
 
  private:
-  [[nodiscard]] Vec3d toMesh(const Vec3d& p) const { return p / unit_.scale + unit_.centre; }
   /// A point of a ball, with 0 for coordinates that are nearly 0 compared with the ball.
   [[nodiscard]] Vec3d placeInMesh(const Vec3d& p, double diameter) const {
-    Vec3d place = toMesh(p);
+    Vec3d place = unit_.toMesh(p);
     const double small = std::clamp(kSmallShare * unit_.toMeshLength(diameter),
                                     kLeastCoordinate * unit_.contactLength(), unit_.contactLength());
     for (size_t axis = 0; axis < 3; ++axis)
@@ -101,7 +100,8 @@ class Description {
       report_.thinArea += region.area;
       report_.thinAreaShare += region.areaShare;
       for (const ThinPart* part : shownParts(found[i])) {
-        thin.triangles.push_back({toMesh(part->corners[0]), toMesh(part->corners[1]), toMesh(part->corners[2])});
+        thin.triangles.push_back(
+            {unit_.toMesh(part->corners[0]), unit_.toMesh(part->corners[1]), unit_.toMesh(part->corners[2])});
         thin.regions.push_back(firstRegion + static_cast<uint32_t>(report_.regions.size()));
       }
       report_.regions.push_back(std::move(region));

@@ -29,8 +29,9 @@ struct ConnectedThinParts {
 };
 
 /// The thin regions at a limit. pieces: divided pieces; receives diameters at corners. Two sides belong to one region
-/// if the place of each side is opposite to the other side. bodyOf: #F; parts whose walls are of different bodies
-/// belong to different regions. Empty: all faces are of one body. Throws Error{Cancelled}.
+/// if the place of each side is opposite to the other side. bodyOf: #F, the body of each face; empty if all faces are
+/// of one body. Thin parts belong to different regions if their walls are of different bodies. Throws
+/// Error{Cancelled}.
 [[nodiscard]] std::vector<ConnectedThinParts> findThinRegions(ThinPieces& pieces, double limit,
                                                               std::span<const uint32_t> bodyOf,
                                                               const RunControl& control);

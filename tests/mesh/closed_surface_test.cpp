@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/random.h"
+#include "generate/solids.h"
 #include "mesh/components.h"
 #include "mesh/winding.h"
-#include "support/separated_faces.h"
 #include "support/shapes.h"
 
 // The edges of surfaces with split vertices, nearly equal vertices and T-junctions.
@@ -30,7 +30,7 @@ Components componentsOf(const Mesh& mesh, const SurfaceEdges& edges) {
 
 /// Every face with vertices of its own, which are moved by up to `amount`.
 Mesh split(const Mesh& mesh, double amount = 0, uint64_t seed = 1) {
-  Mesh result = separated(mesh);
+  Mesh result = solids::separated(mesh);
   Random random(seed);
   for (Vec3d& p : result.vertices)
     for (size_t axis = 0; axis < 3; ++axis) p[axis] += amount * (2 * random.real() - 1);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "support/separated_faces.h"
+#include "generate/solids.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
@@ -42,7 +42,7 @@ void checkFans(const Mesh& mesh) {
 TEST_CASE("a point has the corners of all faces at its position, ascending") {
   for (const Mesh& mesh : {shapes::cube(), shapes::sphere(2), shapes::fan(300, true), shapes::fan(300, false),
                            shapes::boxesWithSharedEdge(), shapes::randomFaces(20, 100, 3)})
-    for (const Mesh& each : {mesh, separated(mesh), shapes::joined(mesh, mesh)}) checkFans(each);
+    for (const Mesh& each : {mesh, solids::separated(mesh), shapes::joined(mesh, mesh)}) checkFans(each);
 }
 
 TEST_CASE("zeros of both signs are one coordinate, and a vertex of no face has no corner") {

@@ -12,8 +12,8 @@
 #include "core/vec3.h"
 #include "generate/extrusion.h"
 
+#include "generate/solids.h"
 #include "support/require_failure.h"
-#include "support/separated_faces.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
 
@@ -43,7 +43,7 @@ using Counts = std::vector<uint64_t>;
 
 TEST_CASE("a version that is only triangulated differently has no change, on both sides of the limit") {
   const Mesh former = plate(1, 1);
-  for (const Mesh& mesh : {plate(1, 7), separated(plate(1, 1)), solids::refined(plate(1, 2), 0.7)})
+  for (const Mesh& mesh : {plate(1, 7), solids::separated(plate(1, 1)), solids::refined(plate(1, 2), 0.7)})
     for (const double limit : {0.9, 1.1}) {
       CAPTURE(limit);
       const Result result = compareVersionsOf(mesh, former, limit);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "support/separated_faces.h"
+#include "generate/solids.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
 
@@ -56,7 +56,7 @@ Mesh slotted(double width) {
 
 TEST_CASE("a clearance between two bodies is a gap, on both sides of the limit, in each triangulation") {
   for (const double gap : {0.1, 0.5, 1.5})
-    for (Mesh mesh : {boxesApart(gap), separated(boxesApart(gap)),
+    for (Mesh mesh : {boxesApart(gap), solids::separated(boxesApart(gap)),
                       shapes::scaledAndShifted(boxesApart(gap), 25.4, {1000, -500, 30})}) {
       CAPTURE(gap);
       const double scale = mesh.vertices[0].x < -100 || mesh.vertices[0].x > 100 ? 25.4 : 1;
@@ -104,7 +104,7 @@ TEST_CASE("bodies in contact have no gap of width 0, and are named") {
   for (const double overlap : {0.0, 0.25}) {
     const Mesh mesh = boxesApart(-overlap);
     CAPTURE(overlap);
-    for (const Mesh& each : {mesh, separated(mesh)}) {
+    for (const Mesh& each : {mesh, solids::separated(mesh)}) {
       const Report report = measure(each, 0.5);
       CHECK(report.gap->verdict == ThicknessVerdict::Passed);
       REQUIRE(report.contacts.size() == 1);

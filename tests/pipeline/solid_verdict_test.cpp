@@ -8,8 +8,8 @@
 
 #include "core/random.h"
 #include "generate/block_solid.h"
+#include "generate/solids.h"
 #include "mesh/face_geometry.h"
-#include "support/separated_faces.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
 #include "wall_check.h"
@@ -45,7 +45,7 @@ TEST_CASE("a closed surface is judged with vertices that are split or shared bet
   for (const Case& each : {Case{"one", box, 2}, Case{"side by side", shapes::joined(plate, plate, {2, 0, 0}), 0.25},
                            Case{"at an edge", shapes::joined(box, plate, {2, 0, 1.125}), 0.25}}) {
     CAPTURE(each.name);
-    for (const Mesh& mesh : {each.mesh, separated(each.mesh), welded(each.mesh)}) {
+    for (const Mesh& mesh : {each.mesh, solids::separated(each.mesh), welded(each.mesh)}) {
       const ThicknessReport passed = check(mesh, 0.9 * each.least), failed = check(mesh, 1.1 * each.least);
       CHECK(passed.verdict == ThicknessVerdict::Passed);
       CHECK(passed.unjudged.reasons.empty());
@@ -56,7 +56,7 @@ TEST_CASE("a closed surface is judged with vertices that are split or shared bet
 }
 
 TEST_CASE("the report counts welded vertices, and values do not depend on them") {
-  const Mesh ball = shapes::icosphere(2), soup = separated(ball);
+  const Mesh ball = shapes::icosphere(2), soup = solids::separated(ball);
   const Result whole = referenceSession().compute(ball, {}), apart = referenceSession().compute(soup, {});
   CHECK(whole.report.defects.weldedVertexCount == 0);
   CHECK(apart.report.defects.weldedVertexCount == soup.vertices.size() - ball.vertices.size());
@@ -112,7 +112,7 @@ TEST_CASE("a label on a plate, or sunk into it, has the thickness of both togeth
   for (const double depth : {0.0, 0.3, 0.6}) {
     CAPTURE(depth);
     const Mesh mesh = shapes::joined(plate, label, {2, 3, 1.5 + 0.3 - depth});
-    for (const Mesh& each : {mesh, separated(mesh), welded(mesh)}) {
+    for (const Mesh& each : {mesh, solids::separated(mesh), welded(mesh)}) {
       CHECK(check(each, 2.9).verdict == ThicknessVerdict::Passed);
       CHECK(check(each, 3.1).min == doctest::Approx(3));
     }

@@ -12,7 +12,6 @@
 
 #include "generate/solids.h"
 #include "generate/thickness_parts.h"
-#include "support/separated_faces.h"
 #include "support/shared_session.h"
 
 // The verdict does not depend on the triangulation: the same part, meshed in several ways.
@@ -85,7 +84,7 @@ Mesh ofQuads(Mesh mesh) {
 Mesh withSixDigits(Mesh mesh) {
   for (Vec3d& vertex : mesh.vertices)
     for (size_t axis = 0; axis < 3; ++axis) vertex[axis] = std::stod(fmt::format("{:.6g}", vertex[axis]));
-  return separated(mesh);
+  return solids::separated(mesh);
 }
 
 ThicknessReport judgedAs(const Mesh& mesh, double limit) {

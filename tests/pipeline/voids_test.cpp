@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "support/separated_faces.h"
+#include "generate/solids.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
 
@@ -45,7 +45,7 @@ Mesh sealedPlates(double overlap) {
 
 TEST_CASE("a cavity is a sealed void, with its volume and a place on it") {
   const Mesh mesh = shapes::joined(shapes::box({10, 10, 10}), shapes::inverted(shapes::box({4, 4, 4})), {1, 0, 0});
-  for (const Mesh& each : {mesh, separated(mesh)}) {
+  for (const Mesh& each : {mesh, solids::separated(mesh)}) {
     const Report report = measureSpace(each);
     REQUIRE(report.voids.size() == 1);
     const SealedVoid& found = report.voids[0];
@@ -74,7 +74,7 @@ TEST_CASE("bodies around a void seal it if they touch or overlap, and not with a
   for (const double overlap : {0.0, 1.0}) {
     CAPTURE(overlap);
     const Mesh plates = sealedPlates(overlap);
-    for (const Mesh& mesh : {plates, separated(plates)}) {
+    for (const Mesh& mesh : {plates, solids::separated(plates)}) {
       const Report report = measureSpace(mesh);
       CHECK(report.gap->unjudged.reasons.empty());
       REQUIRE(report.voids.size() == 1);
