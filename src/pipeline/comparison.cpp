@@ -176,10 +176,10 @@ CommonWalls findCommonWalls(const MeasuredVersion& from, const MeasuredVersion& 
     if (points.placed.thickness[i] < kThinnerShare * at.thickness) ++thinnerCounts[region];
   }
   for (size_t i = 0; i < regions.size(); ++i)
-    common.isThinner[i] =
-        leastOf(regions[i]) < kThinnerShare * leastOfOthers[i] || thinnerCounts[i] * kPointsPerThinnerPoint > pointCounts[i]
-            ? 1
-            : 0;
+    common.isThinner[i] = leastOf(regions[i]) < kThinnerShare * leastOfOthers[i] ||
+                                  thinnerCounts[i] * kPointsPerThinnerPoint > pointCounts[i]
+                              ? 1
+                              : 0;
   return common;
 }
 
