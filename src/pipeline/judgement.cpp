@@ -31,26 +31,34 @@ Judgement::Judgement(const Computation& computation, const JudgedSurface& surfac
   }
 }
 
-/// Counts the input faces of the domain that have a triangle for which holds(triangle) is true.
+/// Counts the input faces that have a triangle for which holds(triangle) is true.
 template <typename Holds>
 uint64_t Judgement::countInputFaces(const Holds& holds) const {
   const TriangleMesh& mesh = computation_.prepared.mesh;
   uint64_t count = 0, last = mesh.inputFaceCount();
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
     const uint64_t inputFace = mesh.inputFaceOf(face);
-    if (inputFace == last || !computation_.domain.contains(inputFace) || !holds(face)) continue;
+    if (inputFace == last || !holds(face)) continue;
     last = inputFace;
     ++count;
   }
   return count;
 }
 
+/// Counts such input faces of the domain.
+template <typename Holds>
+uint64_t Judgement::countDomainFaces(const Holds& holds) const {
+  const TriangleMesh& mesh = computation_.prepared.mesh;
+  return countInputFaces(
+      [&](uint32_t face) { return computation_.domain.contains(mesh.inputFaceOf(face)) && holds(face); });
+}
+
 UnjudgedFaces Judgement::unjudged() const {
   UnjudgedFaces unjudged;
   const FaceGeometry& geometry = computation_.prepared.geometry;
-  unjudged.degenerateCount = countInputFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
-  unjudged.invertedCount = countInputFaces([&](uint32_t face) { return isWoundAgainst(face) || isInverted(face); });
-  unjudged.openCount = countInputFaces([&](uint32_t face) { return isOpen(face); });
+  unjudged.degenerateCount = countDomainFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
+  unjudged.invertedCount = countDomainFaces([&](uint32_t face) { return isWoundAgainst(face) || isInverted(face); });
+  unjudged.openCount = countDomainFaces([&](uint32_t face) { return isOpen(face); });
   unjudged.crossedCount = surface_.crossedCount();
   unjudged.insideCount = surface_.insideCount();
   addReason(unjudged, UnjudgedCause::Border,
@@ -71,18 +79,19 @@ UnjudgedFaces Judgement::unjudged() const {
 
 /// Adds a cause that is not at certain faces.
 void Judgement::addReasonOfMesh(UnjudgedFaces& unjudged, UnjudgedCause cause, double amount) const {
-  const uint64_t faceCount = countInputFaces([](uint32_t) { return true; });
+  const uint64_t faceCount = countDomainFaces([](uint32_t) { return true; });
   unjudged.reasons.push_back({.cause = cause, .faceCount = faceCount, .amount = amount});
 }
 
-/// Adds the cause with the first face of the domain for which holds(face) is true, if there is one.
+/// Adds the cause with the first face for which holds(face) is true, if there is one. The face need not be one of the
+/// domain: an unjudged face elsewhere can be, or belong to, the other side of a wall of the domain.
 template <typename Holds>
 void Judgement::addReason(UnjudgedFaces& unjudged, UnjudgedCause cause, const Holds& holds) const {
   UnjudgedReason reason{.cause = cause, .faceCount = countInputFaces(holds)};
   if (reason.faceCount == 0) return;
   const PreparedMesh& prepared = computation_.prepared;
   uint32_t first = 0;
-  while (!computation_.domain.contains(prepared.mesh.inputFaceOf(first)) || !holds(first)) ++first;
+  while (!holds(first)) ++first;
   reason.face = prepared.mesh.inputFaceOf(first);
   reason.place = prepared.geometry.barycentres[first];
   const EdgeKind kind = cause == UnjudgedCause::Border         ? EdgeKind::Boundary

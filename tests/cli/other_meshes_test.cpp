@@ -66,6 +66,32 @@ TEST_CASE("--with and --orient auto measure the wall between an outer and an inn
   CHECK_EQ(runOnCpu({outer, "--with", inner, "--orient", "auto", "--fail-if-thinner", "0.4", "--quiet"}).exitCode, 0);
 }
 
+TEST_CASE("an open or a branching other mesh prevents a verdict, whichever side its faces have") {
+  const ScratchFolder folder;
+  const std::string outer = folder.write("outer.obj", boxObj({0, 0, 0}, {5, 5, 5})),
+                    innerBox = boxObj({0.5, 1, 1}, {4, 4, 4});
+  const auto without = [](std::string box) { return box.erase(box.rfind("f ")); };
+  const std::string open = folder.write("open.obj", without(innerBox)),
+                    cavity = folder.write("cavity.obj", without(boxObj({0.5, 1, 1}, {4, 4, 4}, true))),
+                    branching = folder.write("branching.obj", innerBox + "v 9 9 9\nf -2 -3 -1\n");
+  const auto check = [&](const std::string& other, const char* limit) {
+    return runOnCpu({outer, "--with", other, "--fail-if-thinner", limit, "--quiet"});
+  };
+  // The near side of the cavity is 0.5 from the box.
+  for (const char* const limit : {"0.3", "0.8"})
+    for (const std::string& other : {open, branching}) CHECK_EQ(check(other, limit).exitCode, 5);
+  CHECK_EQ(check(cavity, "0.3").exitCode, 5);
+  checkFailure(check(cavity, "0.8"), 6, "thinner than 0.8: 0.5 at (");
+  checkFailure(check(open, "0.8"), 5, "open edges");
+
+  const std::string side = folder.write("side.obj", without(boxObj({5.2, 0, 0}, {9, 5, 5})));
+  const auto checkGap = [&](const char* limit) {
+    return runOnCpu({outer, "--with", side, "--fail-if-closer", limit, "--quiet"}).exitCode;
+  };
+  CHECK_EQ(checkGap("0.1"), 5);
+  CHECK(checkGap("0.3") >= 5);
+}
+
 TEST_CASE("--compare fails only for walls that are new or became thinner") {
   const ScratchFolder folder;
   const auto part = [&](const std::string& name, double first, double second) {
