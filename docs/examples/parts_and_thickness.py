@@ -4,7 +4,7 @@ Writes FOLDER/parts.png, the mesh in the colours of its parts beside a histogram
 FOLDER/parts.ply, the mesh with both as fields.
 """
 
-# %% Read the mesh with trimesh, or with asdf_vk where trimesh is not installed.
+# %% Read the mesh with trimesh, or with asdf_vk if trimesh is not installed.
 import sys
 from pathlib import Path
 

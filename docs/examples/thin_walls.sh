@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Lists the thin regions of meshes through pipes, without a file in between: thin_walls.sh LIMIT MESH...
-# Needs asdf-vk and awk. Ends with 6 where a mesh is thinner than LIMIT, with 5 where one cannot be judged.
+# Needs asdf-vk and awk. Ends with 6 if a mesh is thinner than LIMIT, with 5 if one cannot be judged.
 set -euo pipefail
 
 limit=$1

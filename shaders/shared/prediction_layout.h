@@ -35,7 +35,7 @@ const float kMinSeedWeight = 1e-6f;
 const float kNormalDeviationRadians = 0.5f;
 
 // A seed with less than this share of the total weight is ignored. The threshold adds 1 % to the error and saves a
-// third of the time (docs/experiments.md).
+// third of the time (bench/experiments.md).
 const float kMinWeightShare = 0.08f;
 
 // Largest number of seeds that a device uses for one face: the seed of its cell and the seeds of neighbouring cells.

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kWorstFaceCount = 5;
 
 // The held-out faces are seeds of the result, so that its error is lower. The error is assumed to be proportional to
-// (number of seeds)^-kGainExponent. The true exponents differ between meshes (docs/experiments.md).
+// (number of seeds)^-kGainExponent. The true exponents differ between meshes (bench/experiments.md).
 constexpr double kGainExponent = 0.12, kGainExponentWithoutPrediction = 0.5;
 
 /// Range of the traced values. The range of the function is wider if its extremes were not traced.

@@ -26,7 +26,7 @@ struct HeldOutFaces {
 /// Samples `count` of the candidates, or all candidates if there are fewer. The inclusion probability of a face is at
 /// most 1. It is proportional to c i^(9/8): i is the error indicator of the face, and c is the number of faces that it
 /// represents. The exponent is above 1 because the held-out faces become seeds and so lower the error of the result
-/// (docs/experiments.md). The method is the ordered pivotal method (Deville and Tille 1998, "Unequal probability
+/// (bench/experiments.md). The method is the ordered pivotal method (Deville and Tille 1998, "Unequal probability
 /// sampling without replacement through a splitting method"; Chauvet 2012). Neighbours in the list exclude each other,
 /// so that the sample is spread over the list. indicator: #F, above 0. representedCounts: #F, the number of faces that
 /// each face represents (itself and faces that get its value); if empty, each face represents only itself. If the

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxAngleDegrees = 10;  // Between the normals of a face and of the centre of its aggregate.
 constexpr double kBentAngleDegrees = 5;  // At this angle between two faces the weight of an arc is 1/2.
-// Two sweeps with this relaxation are as accurate as four Jacobi iterations (docs/experiments.md).
+// Two sweeps with this relaxation are as accurate as four Jacobi iterations (bench/experiments.md).
 constexpr int kSweepCount = 2;
 constexpr double kRelaxation = 1.2;
 constexpr size_t kSweepBlockSize = 4096;  // A sweep reads the new values of faces of the same block only.

@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-// Measured on the horse, the armadillo and generated shapes of 80,000 to 1,500,000 faces (docs/experiments.md). With
+// Measured on the horse, the armadillo and generated shapes of 80,000 to 1,500,000 faces (bench/experiments.md). With
 // pooling, aggregates raise the errors of the horse and the armadillo. Therefore only finer meshes have aggregates with
 // pooling.
 constexpr uint64_t kMinFaceCount = 1u << 16, kMinFaceCountIfPooled = 1u << 18, kMinFacesPerSeed = 8;

@@ -16,7 +16,7 @@
 namespace asdfvk {
 namespace {
 
-// More held-out faces leave so few seeds for the prediction that the estimate becomes worse (docs/experiments.md).
+// More held-out faces leave so few seeds for the prediction that the estimate becomes worse (bench/experiments.md).
 constexpr uint64_t kSeedsPerHeldOut = 4, kMinHeldOut = 200, kSeedsPerFurtherHeldOut = 10, kMaxHeldOut = 2000;
 
 constexpr uint64_t kSeedsPerExtreme = 25, kMinExtreme = 16, kMaxExtreme = 400;

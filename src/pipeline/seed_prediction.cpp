@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// A CPU device needs more time than the CPU for the same predictions (docs/experiments.md). The number of storage
+/// A CPU device needs more time than the CPU for the same predictions (bench/experiments.md). The number of storage
 /// buffers is not tested, because the prediction needs fewer than any solver.
 bool SeedPrediction::predictsOnDevice() const {
   const std::string& solver = computation_.options.solver;

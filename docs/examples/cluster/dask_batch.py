@@ -42,7 +42,7 @@ def compute(mesh: str, folder: str, log_folder: str, options: list[str]) -> dict
 
 
 def recorded_failure(log: pathlib.Path, mesh: str, code: int, message: str) -> dict[str, Any]:
-    """Where the program has written no record."""
+    """Writes and returns the record of a failure for which the program has written none."""
     # A negative code is that of a signal. Of other codes the message says more than a name would.
     error = "internal" if code == INTERNAL_ERROR else "crashed" if code < 0 else None
     name = os.fsencode(mesh)
@@ -81,7 +81,7 @@ def main() -> int:
     os.makedirs(log_folder, exist_ok=True)
     failed = 0
     with Client(scheduler_file=scheduler_file) as client:
-        # pure=False: a task runs even where the scheduler holds the result of an earlier call.
+        # pure=False: a task runs even if the scheduler holds the result of an earlier call.
         futures = client.map(compute, meshes, folders, log_folder=log_folder, options=options, pure=False)
         mesh_of = dict(zip((future.key for future in futures), meshes))
         for future in as_completed(futures):

@@ -3,7 +3,7 @@
 #   parallel_hosts.sh HOSTS COUNT LIST RESULTS [OPTIONS...]
 # HOSTS has a line N/HOST per host, N processes at a time; the line N/: is this host without ssh. COUNT shards: several
 # times the number of processes, so that fast hosts get more of them. The same call again computes what is missing:
-# parallel's own --resume is not used, because it skips finished shards even where the list has grown.
+# parallel's own --resume is not used, because it skips finished shards even if the list has grown.
 set -euo pipefail
 
 hosts=$1 count=$2 list=$3 results=$4
