@@ -25,13 +25,21 @@ enum class ThinKind {
 
 /// How a wall relates to the other version of the mesh (ComparisonReport).
 enum class WallChange {
-  New,      ///< The former version has no wall there.
-  Thinner,  ///< The former version has a wall there, which was thicker.
+  New,      ///< The wall, or a part of it as large as a wall, was not thin in the former version.
+  Thinner,  ///< A part of the wall as large as a wall was thin in the former version, and thicker.
   Kept,     ///< The former version has a wall there, which was not thicker.
   Gone,     ///< A wall of the former version; the mesh has no wall there.
 };
 /// The name of an enumerator with a small first letter, for example "new".
 [[nodiscard]] ASDFVK_API const char* nameOf(WallChange change);
+
+/// A point where a wall is new or thinner than in a former version.
+struct ChangedPlace {
+  double thickness = 0;                   ///< Thickness at the point.
+  std::optional<double> formerThickness;  ///< Thickness of the former version there; unset if it has no such place.
+  uint64_t face = 0;                      ///< The input face of the point.
+  Vec3d place;                            ///< The point.
+};
 
 /// Whether a place of the kind fails the check. settings: ThicknessOptions or a ThicknessReport.
 template <typename Settings>
@@ -60,6 +68,8 @@ struct ThinRegion {
   double areaShare = 0;     ///< `area` divided by the area of the mesh, or of the computed region.
   /// Set by a comparison for walls, and for other places that count.
   std::optional<WallChange> change = {};
+  /// If only a part of the region is new or thinner: its thinnest point among those that were compared.
+  std::optional<ChangedPlace> changedPlace = {};
 };
 
 /// The largest ball inside of a closed component, or of the space in a sealed void.
@@ -202,7 +212,7 @@ struct ThinnerRegion {
 /// Comparison of the wall thickness with a former version of the mesh (docs/thickness.md#two-versions).
 struct ComparisonReport {
   /// Unset without a limit. Failed: a wall is new or thinner. NotJudged: none is, but a part of the surface could not
-  /// be judged; or a wall is, but the whole former version could not be judged.
+  /// be judged, or no place is in both versions; or a wall may be, but the former version could not be judged there.
   std::optional<ThicknessVerdict> verdict;
   std::string sentence;  ///< The verdict in one sentence; without a limit, where the mesh became thinner.
   /// Numbers of walls, and of other places that count, by WallChange.
@@ -211,6 +221,7 @@ struct ComparisonReport {
   std::vector<ThinRegion> gone;                   ///< Walls that are gone, with faces of the former version.
   /// Input faces with a thickness for which the former version has no thickness at the same place.
   uint64_t unmatchedFaceCount = 0;
+  uint64_t matchedFaceCount = 0;  ///< Input faces for which it has one. 0: the mesh may be moved or scaled.
   double thinnerArea = 0, thinnerAreaShare = 0;  ///< The area that is thinner than 0.95 of before, and its share.
   std::vector<ThinnerRegion> thinner;            ///< The 100 largest regions that became thinner, by descending area.
 };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/text.h"
 
@@ -21,18 +23,30 @@ std::string thinnerText(const ThinnerRegion& region, bool hasPlace) {
 
 /// The part of the surface that became thinner, with the greatest region.
 std::string thinnerAreaText(const ComparisonReport& comparison, bool hasPlace) {
-  if (comparison.thinner.empty()) return "nowhere thinner than before";
-  return fmt::format("thinner than before at {:.3g} % of the area: {}", 100 * comparison.thinnerAreaShare,
-                     thinnerText(comparison.thinner.front(), hasPlace));
+  if (comparison.matchedFaceCount == 0)
+    return "no face is at a place of the former version; give meshes in the same coordinates and unit";
+  const std::string unmatched =
+      comparison.unmatchedFaceCount == 0
+          ? ""
+          : fmt::format("; {} at no place of the former version", counted(comparison.unmatchedFaceCount, "face"));
+  if (comparison.thinner.empty()) return "nowhere thinner than before" + unmatched;
+  return fmt::format("thinner than before at {:.3g} % of the area: {}{}", 100 * comparison.thinnerAreaShare,
+                     thinnerText(comparison.thinner.front(), hasPlace), unmatched);
 }
 
-/// The least wall that is new or thinner; null if there is none.
-const ThinRegion* worstOf(const ThicknessReport& thickness) {
-  const ThinRegion* worst = nullptr;
-  for (const ThinRegion& region : thickness.regions)
-    if (region.change && *region.change != WallChange::Kept && (worst == nullptr || region.min < worst->min))
-      worst = &region;
-  return worst;
+/// The thinnest place that is new or thinner, with the names of the bodies there.
+std::pair<ChangedPlace, std::string> worstOf(const ThicknessReport& thickness) {
+  std::optional<ChangedPlace> worst;
+  std::string bodies;
+  for (const ThinRegion& region : thickness.regions) {
+    if (!region.change || *region.change == WallChange::Kept) continue;
+    const ChangedPlace place =
+        region.changedPlace.value_or(ChangedPlace{region.min, std::nullopt, region.minFace, region.place});
+    if (worst && worst->thickness <= place.thickness) continue;
+    worst = place;
+    bodies = bodiesText(region.bodies);
+  }
+  return {worst.value(), bodies};
 }
 
 /// What counts.
@@ -63,13 +77,14 @@ std::string comparisonSentence(const Report& report, bool hasPlaces) {
     return begin + fmt::format("no new {} thinner than {}{}{}", noun, limitText(*thickness.thinnerThan),
                                *comparison.verdict == ThicknessVerdict::NotJudged ? " was found" : "",
                                othersText(comparison, noun));
-  const ThinRegion& worst = *worstOf(thickness);
-  const std::string least = lengthText(worst.min, thickness.thinnerThan);
-  const bool isFormerUnclear = comparison.formerVerdict == ThicknessVerdict::NotJudged;
-  return begin + fmt::format("{} (limit {}): {}{}{}{}", enumeration(worse), limitText(*thickness.thinnerThan), least,
-                             hasPlaces ? " " + placeText(worst.place, worst.minFace) + bodiesText(worst.bodies) : "",
+  const auto [worst, bodies] = worstOf(thickness);
+  const std::string least = lengthText(worst.thickness, thickness.thinnerThan),
+                    before = worst.formerThickness ? " instead of " + lengthText(*worst.formerThickness) : "";
+  const bool isFormerUnclear = *comparison.verdict == ThicknessVerdict::NotJudged;
+  return begin + fmt::format("{} (limit {}): {}{}{}{}{}", enumeration(worse), limitText(*thickness.thinnerThan), least,
+                             before, hasPlaces ? " " + placeText(worst.place, worst.face) + bodies : "",
                              othersText(comparison, noun),
-                             isFormerUnclear ? "; the former version cannot be judged" : "");
+                             isFormerUnclear ? "; the former version cannot be judged there" : "");
 }
 
 ReportRows comparisonRows(const Report& report) {

@@ -50,8 +50,9 @@ ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShare
 ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable, amount)
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
+ASDFVK_KEYS(ChangedPlace, thickness, formerThickness, face, place)
 ASDFVK_KEYS(ThinRegion, kind, min, minFace, place, opposite, oppositeFace, bodies, least, angleDegrees, width,
-            faceCount, area, areaShare, change)
+            faceCount, area, areaShare, change, changedPlace)
 ASDFVK_KEYS(ThickBody, bodies, diameter, centre)
 ASDFVK_KEYS(ThickReport, thickerThan, verdict, sentence, ratio, bodies)
 ASDFVK_KEYS(ThicknessReport, isOfGaps, verdict, sentence, thinnerThan, countsDetails, countsEdges, min, minFace,
@@ -59,7 +60,7 @@ ASDFVK_KEYS(ThicknessReport, isOfGaps, verdict, sentence, thinnerThan, countsDet
             greatestSection, thinArea, thinAreaShare, regions, thick)
 ASDFVK_KEYS(ThinnerRegion, thickness, formerThickness, face, place, faceCount, area, areaShare)
 ASDFVK_KEYS(ComparisonReport, verdict, sentence, newCount, thinnerCount, keptCount, goneCount, formerVerdict, gone,
-            unmatchedFaceCount, thinnerArea, thinnerAreaShare, thinner)
+            unmatchedFaceCount, matchedFaceCount, thinnerArea, thinnerAreaShare, thinner)
 ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies, isCertain)
 ASDFVK_KEYS(BodyContact, bodies)
 ASDFVK_KEYS(WorstFace, face, error)

@@ -71,18 +71,16 @@ void addThinnerRegions(const MeasuredVersion& now, std::span<const double> forme
   if (report.thinner.size() > kMaxListedRegions) report.thinner.resize(kMaxListedRegions);
 }
 
-ThicknessVerdict verdictOf(const ComparisonReport& report, const ThicknessReport& described,
-                           const ThicknessReport& former) {
-  const auto isUncertain = [](const ThicknessReport& each) {
-    return std::any_of(each.unjudged.reasons.begin(), each.unjudged.reasons.end(),
-                       [](const UnjudgedReason& reason) { return concernsWholeMesh(reason.cause); });
-  };
-  if (isUncertain(described)) return ThicknessVerdict::NotJudged;
-  if (report.newCount + report.thinnerCount > 0)
-    return isUncertain(former) ? ThicknessVerdict::NotJudged : ThicknessVerdict::Failed;
-  return *described.verdict == ThicknessVerdict::NotJudged || described.unjudged.preventVerdict()
-             ? ThicknessVerdict::NotJudged
-             : ThicknessVerdict::Passed;
+ThicknessVerdict verdictOf(const MeasuredVersion& now, const ComparisonReport& report,
+                           const ThicknessReport& described) {
+  const std::vector<UnjudgedReason>& reasons = described.unjudged.reasons;
+  if (std::any_of(reasons.begin(), reasons.end(),
+                  [](const UnjudgedReason& reason) { return concernsWholeMesh(reason.cause); }))
+    return ThicknessVerdict::NotJudged;
+  if (now.thickness.isWorseForSure) return ThicknessVerdict::Failed;
+  const bool isUnclear = report.newCount + report.thinnerCount > 0 || report.matchedFaceCount == 0 ||
+                         *described.verdict == ThicknessVerdict::NotJudged || !reasons.empty();
+  return isUnclear ? ThicknessVerdict::NotJudged : ThicknessVerdict::Passed;
 }
 
 }  // namespace
@@ -109,9 +107,9 @@ ComparisonReport describeComparison(const MeasuredVersion& now, std::span<const 
   report.formerVerdict = former.verdict;
   const std::vector<double> values = thicknessOfInputFaces(now.computation.prepared.mesh, now.thickness.atBarycentre);
   for (size_t face = 0; face < values.size(); ++face)
-    if (!std::isnan(values[face]) && std::isnan(change[face])) ++report.unmatchedFaceCount;
+    if (!std::isnan(values[face])) ++(std::isnan(change[face]) ? report.unmatchedFaceCount : report.matchedFaceCount);
   addThinnerRegions(now, formerThickness, report);
-  if (described.verdict) report.verdict = verdictOf(report, described, former);
+  if (described.verdict) report.verdict = verdictOf(now, report, described);
   return report;
 }
 

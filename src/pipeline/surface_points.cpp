@@ -84,12 +84,16 @@ std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<co
   std::vector<uint32_t> nearest(points.size());
   findNearestPoints(surface.scene(), points, control.part(0, kNearestDone),
                     [&](size_t i, const SurfacePoint& found) { nearest[i] = found.face; });
-  return thicknessAtPoints(surface, points, normals, nearest, options, control.part(kNearestDone, 1));
+  const std::vector<ThicknessRange> ranges =
+      thicknessRangesAt(surface, points, normals, nearest, options, control.part(kNearestDone, 1));
+  std::vector<double> values(ranges.size());
+  std::ranges::transform(ranges, values.begin(), &ThicknessRange::low);
+  return values;
 }
 
-std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
-                                      std::span<const Vec3d> normals, std::span<const uint32_t> faces,
-                                      const ThicknessOptions& options, const RunControl& control) {
+std::vector<ThicknessRange> thicknessRangesAt(const JudgedSurface& surface, std::span<const Vec3d> points,
+                                              std::span<const Vec3d> normals, std::span<const uint32_t> faces,
+                                              const ThicknessOptions& options, const RunControl& control) {
   const TraceScene view = surface.scene().view();
   const Normalization& unit = view.bvh.normalization;
   const Solids& solids = surface.solids();
@@ -138,11 +142,15 @@ std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<co
     if (const uint32_t solid = solids.solidOf[faces[i]]; sections[solid].caps(values[i])) isWanted[solid] = 1;
   const std::vector<GreatestSection> caps =
       findGreatestSections(view, solids.solidOf, isWanted, kQuickSection, control.part(kBallsDone, 1));
+  const auto inMesh = [&](double diameter) { return std::isfinite(diameter) ? unit.toMeshLength(diameter) : kNoValue; };
+  std::vector<ThicknessRange> ranges(points.size(), {kNoValue, kNoValue});
   for (const uint32_t i : order) {
-    const double diameter = caps[solids.solidOf[faces[i]]].capped(values[i]);
-    values[i] = std::isfinite(diameter) ? unit.toMeshLength(diameter) : kNoValue;
+    const GreatestSection& cap = caps[solids.solidOf[faces[i]]];
+    const bool isCapped = cap.caps(values[i]);
+    ranges[i] = {inMesh(cap.capped(values[i])), inMesh(isCapped ? std::min(values[i], cap.bound) : values[i]),
+                 isCapped};
   }
-  return values;
+  return ranges;
 }
 
 }  // namespace asdfvk

@@ -34,10 +34,18 @@ void findNearestPoints(const PreparedScene& scene, std::span<const Vec3d> points
 [[nodiscard]] std::vector<RayHit> findFirstHits(const PreparedScene& scene, std::span<const Vec3d> origins,
                                                 std::span<const Vec3d> directions, const RunControl& control);
 
+/// A thickness is exact (low = high), unless it is capped: no wall limits it, but the greatest section of the solid.
+/// Then low is the diameter of the greatest ball that was found, and high the bound of all balls.
+struct ThicknessRange {
+  double low = 0, high = 0;
+  bool isCapped = false;
+};
+
 /// The thickness at points of faces of the surface. faces: the face of each point, or kNoFace for no value.
-[[nodiscard]] std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,
-                                                    std::span<const Vec3d> normals, std::span<const uint32_t> faces,
-                                                    const ThicknessOptions& options, const RunControl& control);
+[[nodiscard]] std::vector<ThicknessRange> thicknessRangesAt(const JudgedSurface& surface, std::span<const Vec3d> points,
+                                                            std::span<const Vec3d> normals,
+                                                            std::span<const uint32_t> faces,
+                                                            const ThicknessOptions& options, const RunControl& control);
 
 /// See Scene::thicknessAt(). normals: unit.
 [[nodiscard]] std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<const Vec3d> points,

@@ -52,15 +52,9 @@ class Measurement {
 
   FaceThickness run(const RunControl& control) {
     const size_t count = mesh_.faceCount();
-    thickness_ = {std::vector<double>(count, kNoValue),
-                  std::vector<double>(count, kNoValue),
-                  std::vector<uint8_t>(count),
-                  {},
-                  {},
-                  {},
-                  {},
-                  {},
-                  {}};
+    thickness_.atBarycentre.assign(count, kNoValue);
+    thickness_.least.assign(count, kNoValue);
+    thickness_.isJudged.assign(count, 0);
     walls_.resize(count);
     control.checkpoint(0);
     std::vector<GreatestSection> sections =
@@ -70,6 +64,7 @@ class Measurement {
     if (!isOfThinPlaces_) searchCaps(sections, control.part(kBallsProgress, kSectionsProgress));
     keepGreatest(sections);
     finishValues(sections);
+    thickness_.caps = sections;
     thickness_.unjudged = judgement_.unjudged();
     if (limit_) {
       ThinPieces pieces(tree, fans_, thin, kThinShare * *limit_);

@@ -28,7 +28,11 @@ struct FaceThickness {
   std::optional<WallPlace> nextWall;        ///< Normalised. Unset without a limit, if there is a wall, or if not found.
   /// With ThicknessOptions::thickerThan: the greatest section of each solid, normalised; infinite for those not closed.
   std::vector<GreatestSection> sections;
-  std::vector<std::optional<WallChange>> wallChanges;  ///< For each region; empty without a comparison.
+  /// #solids: the sections that limit the values, normalised; infinite for solids whose section limits no value.
+  std::vector<GreatestSection> caps;
+  std::vector<std::optional<WallChange>> wallChanges;      ///< For each region; empty without a comparison.
+  std::vector<std::optional<ChangedPlace>> changedPlaces;  ///< For each region.
+  bool isWorseForSure = false;  ///< Whether a wall is new or thinner, whatever could not be judged.
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest

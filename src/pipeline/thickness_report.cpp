@@ -84,7 +84,9 @@ class Description {
     std::vector<ThinRegion> regions;
     for (size_t i = 0; i < found.size(); ++i) {
       regions.push_back(describeRegion(found[i]));
-      if (!thickness_.wallChanges.empty()) regions.back().change = thickness_.wallChanges[i];
+      if (thickness_.wallChanges.empty()) continue;
+      regions.back().change = thickness_.wallChanges[i];
+      regions.back().changedPlace = thickness_.changedPlaces[i];
     }
     std::vector<uint32_t> order(regions.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -112,7 +112,8 @@ TEST_CASE("--compare fails only for walls that are new or became thinner") {
   CHECK_EQ(isNew.exitCode, 6);
   CHECK_MESSAGE(isNew.error.find("FAIL: 1 new wall (limit 0.8): 0.6 at (") != std::string::npos, isNew.error);
   CHECK_EQ(isThinner.exitCode, 6);
-  CHECK_MESSAGE(isThinner.error.find("FAIL: 1 wall that became thinner (limit 0.8): 0.3 at (") != std::string::npos,
+  CHECK_MESSAGE(isThinner.error.find("FAIL: 1 wall that became thinner (limit 0.8): 0.3 instead of 0.5 at (") !=
+                    std::string::npos,
                 isThinner.error);
   CHECK_MESSAGE(isThinner.error.find("change    thinner than before at ") != std::string::npos, isThinner.error);
   const std::string page = folder / "page.html";
