@@ -36,6 +36,13 @@ std::vector<std::string> BodyNames::of(uint32_t triangle, uint32_t other) const 
   return names;
 }
 
+std::vector<std::string> BodyNames::ofInputFace(uint64_t face) const {
+  const TriangleMesh& mesh = surface_.original().prepared.mesh;
+  uint32_t triangle = 0;
+  while (triangle < mesh.faceCount() && mesh.inputFaceOf(triangle) < face) ++triangle;
+  return triangle < mesh.faceCount() ? of(triangle, triangle) : std::vector<std::string>();
+}
+
 std::vector<std::vector<std::string>> BodyNames::ofGroups(const JudgedSurface& faces, std::span<const uint32_t> groupOf,
                                                           size_t groupCount) const {
   std::vector<std::vector<std::string>> names(groupCount);

@@ -19,6 +19,8 @@ class BodyNames {
   /// The names of the bodies of two triangles of the mesh, one name if they are equal. Empty if the mesh has one body
   /// without a name.
   [[nodiscard]] std::vector<std::string> of(uint32_t triangle, uint32_t other) const;
+  /// The same for an input face of the mesh: one name, or none.
+  [[nodiscard]] std::vector<std::string> ofInputFace(uint64_t face) const;
   /// For each group of faces, the names of their bodies, each body once. faces: the surface, or that of the space.
   /// groupOf: for each of its faces the group, or kNoFace.
   [[nodiscard]] std::vector<std::vector<std::string>> ofGroups(const JudgedSurface& faces,
