@@ -100,6 +100,10 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
     const auto [verdict, sentence] = voidsVerdict(report);
     add(verdict, sentence, report.gap->unjudged, "sealedVoids");
   }
+  if (computation.failsIfContact) {
+    const auto [verdict, sentence] = contactVerdict(report);
+    add(verdict, sentence, report.gap->unjudged, "bodiesInContact");
+  }
   failures.insert(failures.end(), notJudged.begin(), notJudged.end());
   return failures;
 }
