@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/report.h"
+#include "pipeline/face_domain.h"
 #include "pipeline/judged_surface.h"
 
 namespace asdfvk {
@@ -26,7 +27,8 @@ class BodyNames {
   [[nodiscard]] std::vector<std::vector<std::string>> ofGroups(const JudgedSurface& faces,
                                                                std::span<const uint32_t> groupOf,
                                                                size_t groupCount) const;
-  [[nodiscard]] std::vector<BodyContact> contacts() const;
+  /// Contacts of bodies of which at least one has a face in the domain.
+  [[nodiscard]] std::vector<BodyContact> contacts(const FaceDomain& domain) const;
 
  private:
   [[nodiscard]] std::string nameOf(uint32_t triangle) const;

@@ -174,6 +174,15 @@ TEST_CASE("bodies of other meshes are not judged") {
                     large = folder.write("large.obj", boxObj({2, 0, 0}, {7, 5, 5}));
   CHECK_EQ(runOnCpu({small, "--with", large, "--fail-if-thicker", "2", "--quiet"}).exitCode, 0);
   checkFailure(runOnCpu({large, "--with", small, "--fail-if-thicker", "2", "--quiet"}), 6, "1 body thicker than 2: ");
+  const std::string hollow =
+      folder.write("hollow.obj", boxObj({10, 0, 0}, {15, 5, 5}) + boxObj({11, 1, 1}, {14, 4, 4}, true));
+  const std::string beside = folder.write("beside.obj", boxObj({15, 0, 0}, {16, 5, 5}));
+  CHECK_EQ(runOnCpu({small, "--with", hollow, "--fail-if-voids", "--quiet"}).exitCode, 0);
+  checkFailure(runOnCpu({hollow, "--with", small, "--fail-if-voids", "--quiet"}), 6,
+               "FAIL: 1 sealed void, volume 27 at (");
+  CHECK_EQ(runOnCpu({small, "--with", hollow, "--with", beside, "--fail-if-contact", "--quiet"}).exitCode, 0);
+  checkFailure(runOnCpu({beside, "--with", hollow, "--with", small, "--fail-if-contact", "--quiet"}), 6,
+               "FAIL: 1 pair of bodies in contact: beside and hollow");
 }
 
 TEST_CASE("a mesh without a unit takes that of the other mesh, and units that differ are named with their files") {
