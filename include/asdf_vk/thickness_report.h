@@ -146,6 +146,7 @@ struct UnjudgedReason {
   uint64_t edgeCount = 0;                       ///< Edges with this cause; 0 for causes that are not at edges.
   uint64_t face = 0;                            ///< The first input face with this cause.
   Vec3d place;                                  ///< A point of this face, on the edge if the cause is at an edge.
+  std::vector<std::string> bodies = {};         ///< Name of the body of this face, see ThinRegion::bodies.
   bool isRepairable = false;                    ///< Whether the orientation "auto" removes the cause.
   /// Number of negative volumes, or the step of the coordinates in the unit of the mesh. 0 for the other causes.
   double amount = 0;

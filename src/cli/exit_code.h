@@ -19,7 +19,7 @@ enum class ExitCode : int {
   Output = 4,  ///< A result or report cannot be written.
   CheckFailed =
       5,          ///< --check failed or had no traced face to compare; or a limit of --fail-if-... could not be judged.
-  OverLimit = 6,  ///< Thinner, thicker or closer than --fail-if-..., or a sealed void.
+  OverLimit = 6,  ///< Thinner, thicker or closer than --fail-if-..., a sealed void or bodies in contact.
   SomeFailed = 7,  ///< Some of several meshes failed; the others are done.
   Limit = 8,       ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
   Internal = 70,   ///< A defect of the program.
@@ -33,7 +33,8 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
      {ExitCode::Device, "no device or device lost"},
      {ExitCode::Output, "output not writable"},
      {ExitCode::CheckFailed, "a requested check failed or was not possible"},
-     {ExitCode::OverLimit, "thinner, thicker or closer than a limit of --fail-if-..., or a sealed void"},
+     {ExitCode::OverLimit,
+      "thinner, thicker or closer than a limit of --fail-if-..., a sealed void or bodies in contact"},
      {ExitCode::SomeFailed, "some of several meshes failed, the others are done"},
      {ExitCode::Limit,
       "a mesh exceeded --timeout or --memory-limit, or the system allows no further open file or thread"},

@@ -8,12 +8,10 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
-#include <future>
 #include <thread>
 #include <utility>
 
 #include "asdf_vk/asdf_vk.h"
-#include "batch/content_hash.h"
 #include "batch/output_record.h"
 #include "cli/outputs.h"
 #include "cli/report.h"
@@ -23,7 +21,6 @@
 #include "core/text.h"
 #include "describe/unjudged_text.h"
 #include "io/grouped_files.h"
-#include "io/inspected_mesh.h"
 #include "mesh/orientation.h"
 #include "process/browser.h"
 #include "process/interrupt.h"
@@ -103,6 +100,10 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
     const auto [verdict, sentence] = voidsVerdict(report);
     add(verdict, sentence, report.gap->unjudged, "sealedVoids");
   }
+  if (computation.failsIfContact) {
+    const auto [verdict, sentence] = contactVerdict(report);
+    add(verdict, sentence, report.gap->unjudged, "bodiesInContact");
+  }
   failures.insert(failures.end(), notJudged.begin(), notJudged.end());
   return failures;
 }
@@ -113,31 +114,6 @@ std::string valueOptionsOf(const Options& options) {
   if (options.postprocess == Postprocess::None || options.segmentation == Segmentation::Cgal)
     return isSegmented ? "--segment" : "";
   return isSegmented ? "--postprocess and --segment" : "--postprocess";
-}
-
-LoadedMesh loadNow(const std::string& path, const ReadOptions& options, bool computesHash) {
-  LoadedMesh loaded;
-  const Stopwatch watch;
-  std::optional<ContentHash> hash;
-  try {
-    loaded.mesh = readMesh(path, options, [&](std::span<const char> bytes) {
-      if (!computesHash) return;
-      if (!hash) hash.emplace();
-      hash->add(bytes);
-    });
-  } catch (...) {
-    loaded.failure = std::current_exception();
-  }
-  if (hash) loaded.hash = hash->text();
-  loaded.seconds = watch.seconds();
-  return loaded;
-}
-
-/// Whether opening or reading the file may wait for another process.
-bool mayWait(const std::string& path) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  return path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
 }
 
 class MeshFiles {
@@ -207,17 +183,18 @@ class MeshFiles {
   const std::stop_token stop_;
 };
 
-/// Adds warnings, reports and failed checks. Precondition: the result was written, unless there is no output.
+/// Adds warnings, the text report and failed checks. Precondition: the result was written, unless there is no output.
 void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   const Report& report = outcome.result.report;
   const bool showsReport = !outcome.outputs.quiet && !isOfBatch;
   run.hasResult = true;
   if (showsReport) {
+    const std::vector<std::string>& with = outcome.others.with;
+    const std::string all = outcome.mesh + (with.empty() ? "" : " with " + joined(with, ", "));
     for (const Warning& warning : report.warnings)
-      run.text += warningLine(outcome.mesh, textWarning(warning, OptionSpelling::Flag));
+      run.text += warningLine(all, textWarning(warning, OptionSpelling::Flag));
     run.text += textReport(outcome);
   }
-  if (outcome.outputs.json) run.json += jsonReport(outcome);
   run.report = report;
   for (Failure& failure : failedChecks(outcome.computation, report)) {
     // The first line of a shown report already has the verdict on the thickness.
@@ -227,22 +204,6 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
 }
 
 }  // namespace
-
-LoadedMesh loadMesh(const std::string& path, const ReadOptions& options, bool computesHash,
-                    const std::stop_token& stop) {
-  if (!mayWait(path)) return loadNow(path, options, computesHash);
-  try {
-    std::packaged_task<LoadedMesh()> task(
-        [path, options, computesHash] { return loadNow(path, options, computesHash); });
-    std::future<LoadedMesh> loaded = task.get_future();
-    std::thread(std::move(task)).detach();  // The thread may be blocked in a system call until the process ends.
-    while (loaded.wait_for(kStopPollTime) != std::future_status::ready)
-      if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
-    return loaded.get();
-  } catch (...) {
-    return {.failure = std::current_exception()};
-  }
-}
 
 void MeshRun::add(Failure failed, const std::string& input, bool hasJson) {
   const std::string prefix = oneLine(input + ": ");  // The messages of readers also begin with the name of the file.
@@ -274,8 +235,14 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] += loaded.seconds;
     const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
-    const MeshOutcome outcome{input, output, settings.computation, settings.session, settings.others, settings.outputs,
-                              result};
+    const MeshOutcome outcome{input,
+                              output,
+                              settings.computation,
+                              settings.session,
+                              settings.others,
+                              settings.outputs,
+                              result,
+                              computed.faceCounts};
     const Stopwatch watch;
     removeOutputRecord(output);
     AtomicFiles written;
@@ -296,6 +263,8 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     written.commit();
     if (ownPage && settings.outputs.opensPage) openInBrowser(output);
     if (isAmongOthers) result.fields = std::move(ofMesh);
+    if (settings.outputs.json) run.json += jsonReport(outcome);
+    numberFacesByFile(result.report, loaded.mesh.inputFaceCount(), computed.faceCounts);
     addReport(outcome, settings.isOfBatch, run);
   };
 
@@ -329,7 +298,7 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
   LoadedMesh loaded;
   // Reads the mesh while the device is opened. If opening fails, the program ends when the mesh has been read.
   std::optional<BackgroundTask> reading;
-  if (!mayWait(input)) reading.emplace([&] { loaded = loadNow(input, settings.reading, false); });
+  if (!mayWait(input)) reading.emplace([&] { loaded = loadMesh(input, settings.reading, false, {}); });
   std::optional<Session> session;
   try {
     session.emplace(settings.session);

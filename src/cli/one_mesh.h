@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <limits>
 #include <optional>
 #include <stop_token>
@@ -9,6 +8,7 @@
 #include "asdf_vk/mesh.h"
 #include "asdf_vk/session.h"
 #include "cli/exit_code.h"
+#include "cli/loaded_mesh.h"
 #include "cli/options.h"
 #include "page/page.h"
 #include "process/interrupt.h"
@@ -37,19 +37,6 @@ struct MeshSettings {
                                       const std::stop_token& stop);
 
 // Steps of computeOneMesh(), for calls with several meshes.
-
-/// A mesh that was read, or the exception that the reader threw.
-struct LoadedMesh {
-  Mesh mesh;
-  /// contentHash() of the file and of the files beside that were read, in the order of reading; empty if not requested.
-  std::string hash;
-  double seconds = 0;  ///< Time of reading.
-  std::exception_ptr failure;
-};
-
-/// Reads a mesh. A stop request ends the wait for a FIFO or for standard input with the failure Error{Cancelled}.
-[[nodiscard]] LoadedMesh loadMesh(const std::string& path, const ReadOptions& options, bool computesHash,
-                                  const std::stop_token& stop);
 
 /// Outcome of a mesh. `json` and `text` are empty or consist of complete lines.
 struct MeshRun {

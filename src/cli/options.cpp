@@ -225,6 +225,9 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
 void validateOthers(const CommandLine& line) {
   const OtherMeshes& others = line.others;
   if (others.isEmpty()) return;
+  if (!others.with.empty() && !others.former.empty())
+    refuseOptions(
+        "--with and --compare exclude each other, because the former version has no bodies beside it; drop one");
   const char* const name = others.with.empty() ? "--compare" : "--with";
   if (line.batch.isBatch() || line.meshes.size() != 1)
     refuseOptions(fmt::format("{} takes one mesh; run asdf-vk once per mesh, without a batch", name));

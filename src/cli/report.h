@@ -24,6 +24,7 @@ struct MeshOutcome {
   const OtherMeshes& others;
   const Outputs& outputs;
   const Result& result;
+  std::vector<uint64_t> withFaceCounts = {};  ///< ComputedMesh::faceCounts
 };
 
 /// The report as aligned lines. The first line has the name of the mesh, and the verdict on the thickness or the size

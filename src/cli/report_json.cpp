@@ -57,6 +57,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
             {"picture", orNull(outcome.outputs.picture)},
             {"points", orNull(outcome.outputs.points)},
             {"with", outcome.others.with},
+            {"withFaceCounts", outcome.withFaceCounts},
             {"former", orNull(outcome.others.former)}};
   Report report = outcome.result.report;
   for (Warning& warning : report.warnings) warning.message = textWarning(warning, OptionSpelling::Flag);

@@ -1,16 +1,35 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "cli/report.h"
 #include "core/text.h"
 
 namespace asdfvk {
+namespace {
+
+/// Replaces the rows of the checks of the space that were requested by their verdicts.
+void addSpaceVerdicts(const ComputationSettings& computation, const Report& report, ReportRows& rows) {
+  const auto voids = std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row.first == "voids"; });
+  if (voids == rows.end()) return;
+  if (computation.failsIfVoids) voids->second = voidsVerdict(report).second;
+  if (!computation.failsIfContact) return;
+  const auto contact = std::next(voids);
+  const std::string sentence = contactVerdict(report).second;
+  if (contact != rows.end() && contact->first == "contact")
+    contact->second = sentence;
+  else
+    rows.insert(contact, {"contact", sentence});
+}
+
+}  // namespace
 
 std::string textReport(const MeshOutcome& outcome) {
   const Report& report = outcome.result.report;
   ReportRows rows = outcome.outputs.verbose ? reportRows(report, OptionSpelling::Flag)
                                             : shortReportRows(report, OptionSpelling::Flag);
+  addSpaceVerdicts(outcome.computation, report, rows);
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
   std::vector<std::string> files;
   if (!outcome.output.empty()) files.push_back(placeText(outcome.output));

@@ -34,7 +34,8 @@ inline constexpr std::array<LengthUnitRow, 6> kLengthUnits{{{LengthUnit::Microme
 }
 
 /// The unit of two meshes that state these units (Mesh::unit). A mesh without a unit may be in millimetres. Throws
-/// Error{UnitsDiffer}.
-[[nodiscard]] std::string commonUnit(const std::string& unit, const std::string& other);
+/// Error{UnitsDiffer} with the names of the meshes.
+[[nodiscard]] std::string commonUnit(const std::string& unit, const std::string& other,
+                                     const std::string& name = "one mesh", const std::string& otherName = "another");
 
 }  // namespace asdfvk

@@ -237,6 +237,12 @@ const std::array kComputationRows{
               .access = COMPUTATION_MEMBER(failsIfVoids),
               .text = "Exit code 6 if the mesh has a sealed void, 5 if that cannot be judged; implies --measure gap",
               .keyword = ""},
+    OptionRow{.name = "fail-if-contact",
+              .access = COMPUTATION_MEMBER(failsIfContact),
+              .text =
+                  "Exit code 6 if two bodies touch, cross or overlap, 5 if that cannot be judged; implies --measure "
+                  "gap. --fail-if-closer does not count contact, which is no gap",
+              .keyword = ""},
     OptionRow{.name = "count-details",
               .access = COMPUTATION_MEMBER(options.thickness.countsDetails),
               .text = "Details fail the check, too: thin places that are too small for a wall, such as low ribs. The "

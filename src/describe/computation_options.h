@@ -10,11 +10,14 @@ struct ComputationSettings {
   Options options;
   /// Limits that also determine the exit code. complete() copies them to options.thickness.
   std::optional<LengthLimit> failIfThinner, failIfThicker, failIfCloser;
-  bool compares = false;      ///< Set by callers of Scene::compare(). Implies Measure::Thickness.
-  bool failsIfVoids = false;  ///< Sealed voids determine the exit code. Implies Measure::Gap.
+  bool compares = false;        ///< Set by callers of Scene::compare(). Implies Measure::Thickness.
+  bool failsIfVoids = false;    ///< Sealed voids determine the exit code. Implies Measure::Gap.
+  bool failsIfContact = false;  ///< Bodies in contact determine the exit code. Implies Measure::Gap.
 
   /// Whether the exit code depends on a measure.
-  [[nodiscard]] bool isCheck() const { return failIfThinner || failIfThicker || failIfCloser || failsIfVoids; }
+  [[nodiscard]] bool isCheck() const {
+    return failIfThinner || failIfThicker || failIfCloser || failsIfVoids || failsIfContact;
+  }
 };
 
 struct SessionSettings : SessionOptions {

@@ -38,17 +38,19 @@ void applyLimits(ComputationSettings& computation, const GivenOptions& given) {
   applyLimit(limits.closerThan, computation.failIfCloser, "closer-than", "fail-if-closer", Measure::Gap, implied,
              given);
   if (computation.compares) implied = implied ? united(*implied, Measure::Thickness) : Measure::Thickness;
-  if (computation.failsIfVoids) implied = implied ? united(*implied, Measure::Gap) : Measure::Gap;
+  if (computation.failsIfVoids || computation.failsIfContact)
+    implied = implied ? united(*implied, Measure::Gap) : Measure::Gap;
   if (!implied) return;
   if (given.has("measure") && options.measure == Measure::ShapeDiameter && computation.compares)
     refuseOption("a comparison needs {measure=thickness}, or both", given.spelling);
   if (given.has("measure") && options.measure == Measure::ShapeDiameter)
     refuseOption(fmt::format("{{{}}} contradicts {{measure=sdf}}; drop one of the two",
-                             limits.thinnerThan     ? "thinner-than"
-                             : limits.thickerThan   ? "thicker-than"
-                             : limits.closerThan    ? "closer-than"
-                             : computation.compares ? "compare"
-                                                    : "fail-if-voids"),
+                             limits.thinnerThan         ? "thinner-than"
+                             : limits.thickerThan       ? "thicker-than"
+                             : limits.closerThan        ? "closer-than"
+                             : computation.compares     ? "compare"
+                             : computation.failsIfVoids ? "fail-if-voids"
+                                                        : "fail-if-contact"),
                  given.spelling);
   options.measure =
       given.has("measure") || options.measure != Measure::ShapeDiameter ? united(options.measure, *implied) : *implied;

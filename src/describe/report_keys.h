@@ -47,7 +47,7 @@ ASDFVK_KEYS(SolverReport, name, iterations, relativeResidual, converged, finishe
 ASDFVK_KEYS(ValueRange, min, percentile1, median, percentile99, max)
 ASDFVK_KEYS(PostprocessReport, min, max)
 ASDFVK_KEYS(PartsReport, fewestCount, mostCount, agreement, thinShell, areaShares)
-ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, isRepairable, amount)
+ASDFVK_KEYS(UnjudgedReason, cause, faceCount, edgeCount, face, place, bodies, isRepairable, amount)
 ASDFVK_KEYS(UnjudgedFaces, openCount, invertedCount, degenerateCount, crossedCount, insideCount, reasons)
 ASDFVK_KEYS(SectionBall, diameter, centre)
 ASDFVK_KEYS(ChangedPlace, thickness, formerThickness, face, place)

@@ -59,6 +59,9 @@ struct ReportTexts {
 /// The verdict on sealed voids, and its sentence. Precondition: report.gap is set.
 [[nodiscard]] std::pair<ThicknessVerdict, std::string> voidsVerdict(const Report& report);
 
+/// The same for bodies in contact: "FAIL: 1 pair of bodies in contact: lid and base". Precondition: as above.
+[[nodiscard]] std::pair<ThicknessVerdict, std::string> contactVerdict(const Report& report);
+
 /// Verdicts on thick bodies and, beside a thickness, on gaps; sealed voids, and bodies in contact.
 [[nodiscard]] ReportRows spaceRows(const Report& report);
 

@@ -142,6 +142,27 @@ std::string voidsText(const std::vector<SealedVoid>& voids) {
   return text;
 }
 
+/// "1 pair of bodies in contact: lid and base".
+std::string contactText(const std::vector<BodyContact>& contacts) {
+  if (contacts.empty()) return "no bodies in contact";
+  std::vector<std::string> pairs;
+  for (const BodyContact& contact : contacts)
+    pairs.push_back(fmt::format("{} and {}", contact.bodies[0], contact.bodies[1]));
+  return fmt::format("{} of bodies in contact: {}", counted(pairs.size(), "pair"), listed(pairs));
+}
+
+/// isFound: something that fails the check was found, certain or not.
+std::pair<ThicknessVerdict, std::string> withVerdict(const ThicknessReport& gap, bool isFailed, bool isFound,
+                                                     const std::string& text) {
+  const std::vector<UnjudgedReason>& reasons = gap.unjudged.reasons;
+  const bool isUncertain = std::any_of(reasons.begin(), reasons.end(),
+                                       [](const UnjudgedReason& reason) { return concernsWholeMesh(reason.cause); });
+  const ThicknessVerdict verdict = isFailed && !isUncertain      ? ThicknessVerdict::Failed
+                                   : isFound || !reasons.empty() ? ThicknessVerdict::NotJudged
+                                                                 : ThicknessVerdict::Passed;
+  return {verdict, fmt::format("{}: {}", verdictWord(verdict), text)};
+}
+
 }  // namespace
 
 std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x, point.y, point.z); }
@@ -231,13 +252,14 @@ std::string unitQuestion(const Report& report) {
 }
 
 std::pair<ThicknessVerdict, std::string> voidsVerdict(const Report& report) {
-  ThicknessVerdict verdict = ThicknessVerdict::Passed;
-  if (report.gap->unjudged.preventVerdict() || !report.voids.empty()) verdict = ThicknessVerdict::NotJudged;
-  if (std::any_of(report.voids.begin(), report.voids.end(), [](const SealedVoid& each) { return each.isCertain; }))
-    verdict = ThicknessVerdict::Failed;
-  for (const UnjudgedReason& reason : report.gap->unjudged.reasons)
-    if (concernsWholeMesh(reason.cause)) verdict = ThicknessVerdict::NotJudged;
-  return {verdict, fmt::format("{}: {}", verdictWord(verdict), voidsText(report.voids))};
+  const bool isFailed =
+      std::any_of(report.voids.begin(), report.voids.end(), [](const SealedVoid& each) { return each.isCertain; });
+  return withVerdict(*report.gap, isFailed, !report.voids.empty(), voidsText(report.voids));
+}
+
+std::pair<ThicknessVerdict, std::string> contactVerdict(const Report& report) {
+  const bool isFailed = !report.contacts.empty();
+  return withVerdict(*report.gap, isFailed, isFailed, contactText(report.contacts));
 }
 
 ReportRows spaceRows(const Report& report) {
@@ -245,12 +267,7 @@ ReportRows spaceRows(const Report& report) {
   if (report.thickness && report.thickness->thick) rows.emplace_back("thick", report.thickness->thick->sentence);
   if (report.thickness && report.gap) rows.emplace_back("clearance", verdictSentence(*report.gap));
   if (report.gap) rows.emplace_back("voids", voidsText(report.voids));
-  if (!report.contacts.empty()) {
-    std::vector<std::string> pairs;
-    for (const BodyContact& contact : report.contacts)
-      pairs.push_back(fmt::format("{} and {}", contact.bodies[0], contact.bodies[1]));
-    rows.emplace_back("contact", fmt::format("{} of bodies: {}", counted(pairs.size(), "pair"), listed(pairs)));
-  }
+  if (!report.contacts.empty()) rows.emplace_back("contact", contactText(report.contacts));
   return rows;
 }
 

@@ -17,7 +17,7 @@ uint64_t negativeCountOf(const UnjudgedReason& reason) { return static_cast<uint
 /// "24 faces of open components: 8 edges have one face, the first at (1, 2, 3), face 4; close the mesh".
 std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
   const std::string faces = counted(reason.faceCount, "face"), edges = counted(reason.edgeCount, "edge");
-  const std::string place = placeText(reason.place, reason.face);
+  const std::string place = placeText(reason.place, reason.face) + bodiesText(reason.bodies);
   const bool isOneEdge = reason.edgeCount == 1;
   std::string text;
   switch (reason.cause) {
@@ -108,7 +108,8 @@ ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spell
       remedy = "; move the mesh to the origin";
       break;
   }
-  if (!concernsWholeMesh(reason.cause)) text += ", first " + placeText(reason.place, reason.face);
+  if (!concernsWholeMesh(reason.cause))
+    text += ", first " + placeText(reason.place, reason.face) + bodiesText(reason.bodies);
   remedy = withSpelledOptions(computationRows(), remedy, spelling);
   if (text.size() + remedy.size() <= kShortTextSize) text += remedy;
   if (const std::string more = fmt::format("; {} more", unjudged.reasons.size() - 1);

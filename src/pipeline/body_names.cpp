@@ -36,6 +36,13 @@ std::vector<std::string> BodyNames::of(uint32_t triangle, uint32_t other) const 
   return names;
 }
 
+std::vector<std::string> BodyNames::ofInputFace(uint64_t face) const {
+  const TriangleMesh& mesh = surface_.original().prepared.mesh;
+  uint32_t triangle = 0;
+  while (triangle < mesh.faceCount() && mesh.inputFaceOf(triangle) < face) ++triangle;
+  return triangle < mesh.faceCount() ? of(triangle, triangle) : std::vector<std::string>();
+}
+
 std::vector<std::vector<std::string>> BodyNames::ofGroups(const JudgedSurface& faces, std::span<const uint32_t> groupOf,
                                                           size_t groupCount) const {
   std::vector<std::vector<std::string>> names(groupCount);
@@ -51,11 +58,16 @@ std::vector<std::vector<std::string>> BodyNames::ofGroups(const JudgedSurface& f
   return names;
 }
 
-std::vector<BodyContact> BodyNames::contacts() const {
-  const std::vector<Component>& components = surface_.original().prepared.components.components;
+std::vector<BodyContact> BodyNames::contacts(const FaceDomain& domain) const {
+  const PreparedMesh& prepared = surface_.original().prepared;
+  const std::vector<Component>& components = prepared.components.components;
+  std::vector<uint8_t> isOfDomain(components.size());
+  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
+    if (domain.contains(prepared.mesh.inputFaceOf(face))) isOfDomain[surface_.bodyOf(face)] = 1;
   std::vector<BodyContact> contacts;
   for (const auto& [first, second] : surface_.meetingBodies())
-    contacts.push_back({of(components[first].firstFace, components[second].firstFace)});
+    if (isOfDomain[first] != 0 || isOfDomain[second] != 0)
+      contacts.push_back({of(components[first].firstFace, components[second].firstFace)});
   return contacts;
 }
 

@@ -154,10 +154,25 @@ JudgedSurface::JudgedSurface(const JudgedSurface& material, Space)
   voids_ = std::move(space.voids);
 }
 
-/// Bodies of components, before solids that meet are joined.
+/// Bodies of components, before solids that meet are joined. A component that is wound outwards bounds a body, although
+/// it has the place of a cavity if it lies in the material of another body.
 void JudgedSurface::keepBodies(const Material& material) {
-  for (const Component& component : original_.prepared.components.components)
-    bodyOfComponent_.push_back(solids_.solidOf[component.firstFace]);
+  const std::vector<Component>& components = original_.prepared.components.components;
+  const auto windingOf = [&](uint32_t c) {
+    const Component& each = components[c];
+    return !each.isClosed || !each.isConsistentlyWound ? 0 : (each.signedVolume > 0) - (each.signedVolume < 0);
+  };
+  for (uint32_t c = 0; c < components.size(); ++c)
+    bodyOfComponent_.push_back(windingOf(c) > 0 ? c : solids_.solidOf[components[c].firstFace]);
+  for (uint32_t c = 0; c < components.size(); ++c) {
+    if (windingOf(c) <= 0) continue;
+    int winding = 0;  // Number of bodies around, out to the component `around`.
+    for (uint32_t around = c; winding <= 0 && solids_.parentOf[around] != around;) {
+      around = solids_.parentOf[around];
+      winding += windingOf(around);
+      if (winding > 0) meetingBodies_.push_back(std::minmax(c, around));
+    }
+  }
   for (const auto& [first, second] : material.meetingComponents()) {
     const std::pair<uint32_t, uint32_t> bodies = std::minmax(bodyOfComponent_[first], bodyOfComponent_[second]);
     if (bodies.first != bodies.second) meetingBodies_.push_back(bodies);

@@ -45,7 +45,7 @@ class JudgedSurface {
   [[nodiscard]] uint32_t bodyOf(uint32_t triangle) const {
     return bodyOfComponent_[original_.prepared.components.componentOf[triangle]];
   }
-  /// Pairs of bodies that touch, cross or overlap, ascending.
+  /// Pairs of bodies that touch, cross or overlap, or of which one lies in the material of the other, ascending.
   [[nodiscard]] const std::vector<std::pair<uint32_t, uint32_t>>& meetingBodies() const { return meetingBodies_; }
   /// The kind of a face of the surface: never Inside.
   [[nodiscard]] FaceKind kindOf(uint32_t face) const { return kinds_.empty() ? commonKind_ : kinds_[face]; }

@@ -108,10 +108,8 @@ SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)
     const PartSize& size = sizes[part];
     // The mean width of a space of less than the resolution is a contact.
     if (!(size.volume > contact * size.area) || !isOfClosedBody(face)) continue;
-    result.voids.push_back({.part = part,
-                            .volume = size.volume,
-                            .firstFace = face,
-                            .isCertain = parts.components[part].isClosed && hasRepeated[part] == 0});
+    result.voids.push_back(
+        {.part = part, .volume = size.volume, .isCertain = parts.components[part].isClosed && hasRepeated[part] == 0});
   }
   if (result.voids.empty()) return result;
   const std::vector<uint32_t> parentOf = findCavities(mesh, parts).parentOf;

@@ -13,7 +13,6 @@ namespace asdfvk {
 struct EnclosedSpace {
   uint32_t part = 0;  ///< Its outer boundary: the value of SpaceParts::solids.solidOf.
   double volume = 0;  ///< In mesh units cubed, without the bodies inside.
-  uint32_t firstFace = 0;
   /// False if its boundary could not be divided into faces that lie on no other face. Then it may have a way out, and
   /// the volume is uncertain.
   bool isCertain = true;

@@ -82,12 +82,16 @@ void compareSurfaces(Result& result, const Computation& ofMesh, const JudgedSurf
   result.fields.push_back(makeField("thickness_change", std::move(change)));
 }
 
-void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& names) {
+/// Voids and contacts of which the domain has a face.
+void describeSpace(Report& report, const FaceDomain& domain, const JudgedSurface& space, const BodyNames& names) {
   const PreparedMesh& prepared = space.scene().prepared;
   std::vector<Box3d> boxes(space.solids().isClosed.size());
-  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
-    for (const uint32_t vertex : prepared.mesh.faces[face])
-      boxes[space.solids().solidOf[face]].add(prepared.mesh.vertices[vertex]);
+  std::vector<uint32_t> firstFaces(boxes.size(), kNoFace);  // In the domain.
+  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face) {
+    const uint32_t part = space.solids().solidOf[face];
+    for (const uint32_t vertex : prepared.mesh.faces[face]) boxes[part].add(prepared.mesh.vertices[vertex]);
+    if (firstFaces[part] == kNoFace && domain.contains(prepared.mesh.inputFaceOf(face))) firstFaces[part] = face;
+  }
   std::vector<uint32_t> voidOf(boxes.size(), kNoFace), groupOf;
   for (uint32_t i = 0; i < space.voids().size(); ++i)
     for (const uint32_t part : space.voids()[i].looseParts) voidOf[part] = i;
@@ -95,14 +99,18 @@ void describeSpace(Report& report, const JudgedSurface& space, const BodyNames& 
   std::vector<std::vector<std::string>> looseBodies = names.ofGroups(space, groupOf, space.voids().size());
   for (size_t i = 0; i < space.voids().size(); ++i) {
     const EnclosedSpace& each = space.voids()[i];
+    uint32_t face = firstFaces[each.part];
+    for (const uint32_t part : each.looseParts)
+      if (face == kNoFace) face = firstFaces[part];
+    if (face == kNoFace) continue;
     report.voids.push_back({.volume = each.volume,
-                            .face = prepared.mesh.inputFaceOf(each.firstFace),
-                            .place = prepared.geometry.barycentres[each.firstFace],
+                            .face = prepared.mesh.inputFaceOf(face),
+                            .place = prepared.geometry.barycentres[face],
                             .size = boxes[each.part].size(),
                             .looseBodies = std::move(looseBodies[i]),
                             .isCertain = each.isCertain});
   }
-  report.contacts = names.contacts();
+  report.contacts = names.contacts(domain);
 }
 
 }  // namespace
@@ -122,7 +130,7 @@ void measureSurfaces(Result& result, const Computation& computation, const Prepa
   if (!options.measuresGap()) return;
   const JudgedSurface space(material, JudgedSurface::Space{});
   measureSurface(result, computation, space, names, control.part(gapsBegin, 1));
-  describeSpace(result.report, space, names);
+  describeSpace(result.report, computation.domain, space, names);
 }
 
 }  // namespace asdfvk

@@ -98,6 +98,15 @@ class Measurement {
 
   [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
 
+  /// For each solid: whether the domain has a face of it for which holds(face) is true.
+  template <typename Holds>
+  [[nodiscard]] std::vector<uint8_t> solidsOfDomain(const Holds& holds) const {
+    std::vector<uint8_t> isOfDomain(solids_.isClosed.size());
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
+      if (isInDomain(face) && holds(face)) isOfDomain[solids_.solidOf[face]] = 1;
+    return isOfDomain;
+  }
+
   /// Removes gaps that float32 does not tell from contact.
   void removeContacts() {
     std::erase_if(thickness_.regions, [](const ConnectedThinParts& region) {
@@ -184,10 +193,9 @@ class Measurement {
 
   /// Searches the greatest section of each body, and farther where the limit needs it.
   void findThickBodies(double limit, std::vector<GreatestSection>& sections, const RunControl& control) {
-    std::vector<uint8_t> isWanted(sections.size()), isUndecided(sections.size());
-    for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
-      if (const uint32_t solid = solids_.solidOf[face]; solids_.isClosed[solid] != 0 && judgement_.isJudged(face))
-        isWanted[solid] = 1;
+    const std::vector<uint8_t> isWanted = solidsOfDomain(
+        [&](uint32_t face) { return solids_.isClosed[solids_.solidOf[face]] != 0 && judgement_.isJudged(face); });
+    std::vector<uint8_t> isUndecided(sections.size());
     for (size_t solid = 0; solid < sections.size(); ++solid)
       if (isWanted[solid] == 0) sections[solid] = {};
     searchAgain(sections, isWanted, kQuickSection, control);
@@ -202,8 +210,11 @@ class Measurement {
   void keepGreatest(std::span<const GreatestSection> sections) {
     std::optional<GreatestSection>& greatest = thickness_.greatestSection;
     greatest.reset();
-    for (const GreatestSection& section : sections)
-      if (section.diameter < kUnlimited && !(greatest && section.diameter <= greatest->diameter)) greatest = section;
+    const std::vector<uint8_t> isOfDomain = solidsOfDomain([](uint32_t) { return true; });
+    for (size_t solid = 0; solid < sections.size(); ++solid)
+      if (const GreatestSection& section = sections[solid]; isOfDomain[solid] != 0 && section.diameter < kUnlimited &&
+                                                            !(greatest && section.diameter <= greatest->diameter))
+        greatest = section;
     if (greatest)
       greatest = {unit_.toMesh(greatest->centre), unit_.toMeshLength(greatest->diameter),
                   unit_.toMeshLength(greatest->bound)};
@@ -275,11 +286,10 @@ class Measurement {
 
   /// Searches the greatest sections that are less than the balls of a face, because they cap the thickness there.
   void searchCaps(std::vector<GreatestSection>& sections, const RunControl& control) const {
-    std::vector<uint8_t> isWanted(sections.size());
-    for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
-      if (const uint32_t solid = solids_.solidOf[face];
-          solids_.isClosed[solid] != 0 && isInDomain(face) && sections[solid].caps(thickness_.atBarycentre[face]))
-        isWanted[solid] = 1;
+    const std::vector<uint8_t> isWanted = solidsOfDomain([&](uint32_t face) {
+      const uint32_t solid = solids_.solidOf[face];
+      return solids_.isClosed[solid] != 0 && sections[solid].caps(thickness_.atBarycentre[face]);
+    });
     searchAgain(sections, isWanted, kQuickSection, control);
   }
 

@@ -37,6 +37,8 @@ class Description {
     if (thickness_.greatestSection)
       report_.greatestSection = {thickness_.greatestSection->diameter, thickness_.greatestSection->centre};
     report_.unjudged = thickness_.unjudged;
+    for (UnjudgedReason& reason : report_.unjudged.reasons)
+      if (!concernsWholeMesh(reason.cause)) reason.bodies = names_.ofInputFace(reason.face);
     report_.thinnerThan = surface_.limitIn(options);
     report_.countsDetails = options.countsDetails;
     report_.countsEdges = options.countsEdges;

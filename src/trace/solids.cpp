@@ -1,5 +1,7 @@
 #include "trace/solids.h"
 
+#include <utility>
+
 #include "core/disjoint_sets.h"
 #include "mesh/cavities.h"
 
@@ -8,7 +10,7 @@ namespace asdfvk {
 Solids findSolids(const TriangleMesh& mesh, const Components& components) {
   const size_t count = components.components.size();
   Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count)};
-  const Nesting nesting = findCavities(mesh, components);
+  Nesting nesting = findCavities(mesh, components);
   for (uint32_t c = 0; c < count; ++c) {
     const Component& component = components.components[c];
     const bool isCavity = nesting.isCavity[c] != 0;
@@ -19,6 +21,7 @@ Solids findSolids(const TriangleMesh& mesh, const Components& components) {
     const uint32_t component = components.componentOf[face], body = nesting.bodyOf[component];
     solids.solidOf[face] = solids.isClosed[body] != 0 ? body : component;
   }
+  solids.parentOf = std::move(nesting.parentOf);
   return solids;
 }
 

@@ -18,6 +18,8 @@ struct Solids {
   std::vector<uint32_t> solidOf;  ///< #F
   /// For each component: whether it is an outer surface, closed and wound consistently outwards.
   std::vector<uint8_t> isClosed;
+  /// For each component: the innermost component around it (Nesting::parentOf). Empty if not needed.
+  std::vector<uint32_t> parentOf = {};
 
   /// The solid of the face if this solid is closed, else kNoBody.
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return isClosed[solidOf[face]] != 0 ? solidOf[face] : kNoBody; }

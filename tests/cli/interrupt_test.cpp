@@ -65,7 +65,9 @@ TEST_CASE("one signal while a FIFO or standard input is awaited ends with 130") 
        {Names{fifo, "-o", folder / "out.ply", "--log", folder / "log"},
         Names{fifo, "-o", folder / "out.ply", "--log", folder / "log", "--isolate"},
         Names{"-", "-o", folder / "out.ply", "--log", folder / "log"}, Names{mesh, "-o", fifo},
-        Names{mesh, "-o", fifo, "--log", folder / "log"}, Names{mesh, "-o", folder / "out.ply", "--points", fifo}}) {
+        Names{mesh, "-o", fifo, "--log", folder / "log"}, Names{mesh, "-o", folder / "out.ply", "--points", fifo},
+        Names{mesh, "-o", folder / "out.ply", "--with", fifo},
+        Names{mesh, "-o", folder / "out.ply", "--compare", fifo}}) {
     Names all = arguments;
     all.insert(all.end(), {"--backend", "reference", "--verbose"});
     ChildProcess child(ASDFVK_PROGRAM, all, options);

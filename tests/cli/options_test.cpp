@@ -84,6 +84,7 @@ const std::vector<OptionCase>& optionCases() {
        }},
       {{"--compare", "b.stl"}, [](const Line& l) { return l.others.former == "b.stl" && l.computation.compares; }},
       {{"--fail-if-voids"}, [](const Line& l) { return l.computation.failsIfVoids; }},
+      {{"--fail-if-contact"}, [](const Line& l) { return l.computation.failsIfContact; }},
       {{"--count-details", "--thinner-than", "0.5"},
        [](const Line& l) { return l.computation.options.thickness.countsDetails; }},
       {{"--count-edges", "--thinner-than", "0.5"},

@@ -1,5 +1,6 @@
 // The options --with and --compare.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -84,6 +85,14 @@ TEST_CASE("an open or a branching other mesh prevents a verdict, whichever side 
   checkFailure(check(cavity, "0.8"), 6, "thinner than 0.8: 0.5 at (");
   checkFailure(check(open, "0.8"), 5, "open edges");
 
+  // The face is named by its body, and by its index in its file.
+  const ChildOutcome named = runOnCpu({outer, "--with", open, "--fail-if-thinner", "0.8", "--json"});
+  CHECK_MESSAGE(named.error.find("warning: " + outer + " with " + open + ": ") != std::string::npos, named.error);
+  CHECK_MESSAGE(named.error.find("face 0, in open; close the mesh\n") != std::string::npos, named.error);
+  const OtherJson json = OtherJson::parse(named.output);
+  CHECK_EQ(json.at("withFaceCounts"), OtherJson({5}));
+  CHECK_EQ(json.at("thickness").at("unjudged").at("reasons").at(0).at("face"), 6);
+
   const std::string side = folder.write("side.obj", without(boxObj({5.2, 0, 0}, {9, 5, 5})));
   const auto checkGap = [&](const char* limit) {
     return runOnCpu({outer, "--with", side, "--fail-if-closer", limit, "--quiet"}).exitCode;
@@ -136,6 +145,7 @@ TEST_CASE("other meshes are refused where they have no effect, and their errors 
   };
   isRefused({"a.ply", "b.ply", "--with", "c.ply"}, "--with takes one mesh");
   isRefused({"a.ply", "--compare", "c.ply", "--log", "x.jsonl"}, "--compare takes one mesh");
+  isRefused({"a.ply", "--with", "b.ply", "--compare", "c.ply"}, "--with and --compare exclude each other");
   isRefused({"a.ply", "--with", "-"}, "--with: '-' is not the name of a file");
   isRefused({"a.ply", "--compare", ""}, "--compare: '' is not the name of a file");
   isRefused({"a.ply", "--with", "b.ply", "--segment"}, "drop --with, or --segment and --postprocess");
@@ -149,6 +159,47 @@ TEST_CASE("other meshes are refused where they have no effect, and their errors 
     checkFailure(runOnCpu({cube, option, broken, "--quiet"}), 2, "broken.off");
     CHECK_FALSE(std::filesystem::exists(folder / "cube.asdf.ply"));
   }
+}
+
+TEST_CASE("--timeout ends the wait for a FIFO that is another mesh") {
+  const ScratchFolder folder;
+  const std::string cube = folder.write("cube.off", cubeOff()), fifo = folder / "fifo.off";
+  REQUIRE_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  for (const char* const option : {"--with", "--compare"})
+    checkFailure(runOnCpu({cube, option, fifo, "--timeout", "0.2", "--quiet"}), 8, "took longer than --timeout 0.2");
+}
+
+TEST_CASE("bodies of other meshes are not judged") {
+  const ScratchFolder folder;
+  const std::string small = folder.write("small.obj", boxObj({0, 0, 0}, {1, 1, 1})),
+                    large = folder.write("large.obj", boxObj({2, 0, 0}, {7, 5, 5}));
+  CHECK_EQ(runOnCpu({small, "--with", large, "--fail-if-thicker", "2", "--quiet"}).exitCode, 0);
+  checkFailure(runOnCpu({large, "--with", small, "--fail-if-thicker", "2", "--quiet"}), 6, "1 body thicker than 2: ");
+  const std::string hollow =
+      folder.write("hollow.obj", boxObj({10, 0, 0}, {15, 5, 5}) + boxObj({11, 1, 1}, {14, 4, 4}, true));
+  const std::string beside = folder.write("beside.obj", boxObj({15, 0, 0}, {16, 5, 5}));
+  CHECK_EQ(runOnCpu({small, "--with", hollow, "--fail-if-voids", "--quiet"}).exitCode, 0);
+  checkFailure(runOnCpu({hollow, "--with", small, "--fail-if-voids", "--quiet"}), 6,
+               "FAIL: 1 sealed void, volume 27 at (");
+  CHECK_EQ(runOnCpu({small, "--with", hollow, "--with", beside, "--fail-if-contact", "--quiet"}).exitCode, 0);
+  checkFailure(runOnCpu({beside, "--with", hollow, "--with", small, "--fail-if-contact", "--quiet"}), 6,
+               "FAIL: 1 pair of bodies in contact: beside and hollow");
+}
+
+TEST_CASE("a mesh without a unit takes that of the other mesh, and units that differ are named with their files") {
+  const ScratchFolder folder;
+  const std::string part = folder.write("part.obj", boxObj({0, 0, 0}, {5, 5, 0.5})),
+                    corpus = ASDFVK_TEST_DIR "/io/assembly_corpus/", inMillimetres = corpus + "3mf_default_unit.3mf",
+                    inInches = corpus + "3mf_inch.3mf";
+  for (const char* const option : {"--with", "--compare"}) {
+    const ChildOutcome outcome = runOnCpu({part, option, inMillimetres, "--thinner-than", "0.8mm", "--json"});
+    REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.error);
+    CHECK_EQ(OtherJson::parse(outcome.output).at("unit"), "mm");
+    checkFailure(runOnCpu({part, option, inInches, "--thinner-than", "0.8", "--quiet"}), 2,
+                 "part.obj states no unit, and " + inInches + " has the unit in; save both");
+  }
+  checkFailure(runOnCpu({part, "--with", inMillimetres, "--with", inInches, "--quiet"}), 2,
+               inMillimetres + " has the unit mm, and " + inInches + " has the unit in;");
 }
 
 }  // namespace

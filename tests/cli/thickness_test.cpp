@@ -86,6 +86,7 @@ TEST_CASE("limits of gaps and of thick bodies imply what they limit, together wi
   CHECK(measureOf({"--closer-than", "1"}) == Measure::Gap);
   CHECK(measureOf({"--fail-if-closer", "1mm"}) == Measure::Gap);
   CHECK(measureOf({"--fail-if-voids"}) == Measure::Gap);
+  CHECK(measureOf({"--fail-if-contact"}) == Measure::Gap);
   CHECK(measureOf({"--thicker-than", "1"}) == Measure::Thickness);
   CHECK(measureOf({"--fail-if-thicker", "1", "--fail-if-closer", "2"}) == Measure::ThicknessAndGap);
   CHECK(measureOf({"--thinner-than", "1", "--fail-if-voids"}) == Measure::ThicknessAndGap);
@@ -101,11 +102,13 @@ TEST_CASE("limits of gaps and of thick bodies imply what they limit, together wi
   isRefused({"--thicker-than", "1", "--fail-if-thicker", "1mm"}, "have different limits");
   for (const std::string option : {"--closer-than", "--thicker-than"})
     isRefused({"--measure", "sdf", option, "1"}, option + " contradicts --measure sdf");
-  isRefused({"--measure", "sdf", "--fail-if-voids"}, "--fail-if-voids contradicts --measure sdf");
+  for (const std::string option : {"--fail-if-voids", "--fail-if-contact"})
+    isRefused({"--measure", "sdf", option}, option + " contradicts --measure sdf");
   isRefused({"--fields", "least_gap"}, "--fields least_gap needs --measure gap");
   for (const char* const option : {"--fail-if-closer", "--fail-if-thicker", "--closer-than", "--thicker-than"})
     isRefused({option, "0"}, option);
-  CHECK_FALSE(parseCommandLine({"a.ply", "--fail-if-voids"}).outputs.writesResult);
+  for (const char* const option : {"--fail-if-voids", "--fail-if-contact"})
+    CHECK_FALSE(parseCommandLine({"a.ply", option}).outputs.writesResult);
   CHECK(parseCommandLine({"a.ply", "--closer-than", "1", "--count-edges"}).computation.options.thickness.countsEdges);
 }
 
@@ -126,14 +129,49 @@ TEST_CASE("gaps, voids and thick bodies end with 6, and with 5 if they cannot be
       folder.write("hollow.obj", boxObj({0, 0, 0}, {5, 5, 5}) + boxObj({1, 1, 1}, {4, 4, 4}, true));
   checkFailure(runThickness({hollow, "--fail-if-voids"}), 6, "FAIL: 1 sealed void, volume 27 at (");
   const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  for (const std::vector<std::string>& check :
-       {std::vector<std::string>{"--fail-if-closer", "1"}, {"--fail-if-thicker", "1"}, {"--fail-if-voids"}}) {
+  for (const std::vector<std::string>& check : {std::vector<std::string>{"--fail-if-closer", "1"},
+                                                {"--fail-if-thicker", "1"},
+                                                {"--fail-if-voids"},
+                                                {"--fail-if-contact"}}) {
     std::vector<std::string> arguments{open};
     arguments.insert(arguments.end(), check.begin(), check.end());
     const ChildOutcome outcome = runThickness(arguments);
     checkFailure(outcome, 5, "NOT JUDGED: no ");
     checkFailure(outcome, 5, "3 open edges");
   }
+}
+
+TEST_CASE("bodies in contact end with 6 if that is asked, and the text has the verdicts on the space") {
+  const ScratchFolder folder;
+  const auto pair = [&](const std::string& name, double x) {
+    return folder.write(name, "o lid\n" + boxObj({0, 0, 0}, {1, 1, 1}) + "o base\n" + boxObj({x, 0, 0}, {x + 1, 1, 1}));
+  };
+  const std::string apart = pair("apart.obj", 1.5), touching = pair("touching.obj", 1),
+                    crossing = pair("crossing.obj", 0.5),
+                    inside = folder.write("inside.obj", "o lid\n" + boxObj({0, 0, 0}, {5, 5, 5}) + "o base\n" +
+                                                            boxObj({1, 1, 1}, {2, 2, 2})),
+                    hollow =
+                        folder.write("hollow.obj", boxObj({0, 0, 0}, {5, 5, 5}) + boxObj({1, 1, 1}, {4, 4, 4}, true)),
+                    open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  for (const std::string& mesh : {touching, crossing, inside}) {
+    checkFailure(runThickness({mesh, "--fail-if-contact"}), 6, "FAIL: 1 pair of bodies in contact: lid and base");
+    CHECK_EQ(runThickness({mesh, "--fail-if-closer", "0.3"}).exitCode, 0);
+  }
+  CHECK_EQ(runThickness({apart, "--fail-if-contact", "--fail-if-closer", "0.3"}).exitCode, 0);
+  const auto hasLine = [](const std::vector<std::string>& arguments, int exitCode, const std::string& line) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--backend", "reference"});
+    const ChildOutcome outcome = runAsdf(all);
+    CHECK_EQ(outcome.exitCode, exitCode);
+    CHECK_MESSAGE(outcome.error.find("\n  " + line) != std::string::npos, outcome.error);
+  };
+  hasLine({touching, "--fail-if-contact"}, 6, "contact   FAIL: 1 pair of bodies in contact: lid and base\n");
+  hasLine({apart, "--fail-if-contact"}, 0, "contact   PASS: no bodies in contact\n");
+  hasLine({touching, "--fail-if-closer", "0.3"}, 0, "contact   1 pair of bodies in contact: lid and base\n");
+  hasLine({hollow, "--fail-if-voids"}, 6, "voids     FAIL: 1 sealed void, volume 27 at (");
+  hasLine({hollow, "--fail-if-voids", "--verbose"}, 6, "voids     FAIL: 1 sealed void, volume 27 at (");
+  hasLine({touching, "--fail-if-voids"}, 0, "voids     PASS: no sealed void\n");
+  hasLine({open, "--fail-if-voids"}, 5, "voids     NOT JUDGED: no sealed void\n");
 }
 
 TEST_CASE("the document has the verdict, the percentiles and the regions") {

@@ -250,7 +250,7 @@ TEST_CASE("the document has every value of the thickness") {
       "areaShare": 0.02, "change": null}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
       "crossedCount": 4, "insideCount": 5, "reasons": [{"cause": "woundAgainst", "faceCount": 5, "edgeCount": 6,
-      "face": 7, "place": [1, 2, 3], "isRepairable": true, "amount": 0}]})"));
+      "face": 7, "place": [1, 2, 3], "bodies": [], "isRepairable": true, "amount": 0}]})"));
   thickness = {};
   for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "thinArea"})
     CHECK_MESSAGE(jsonOf(result).at(key).is_null(), key);

@@ -78,7 +78,7 @@ TEST_CASE("facts about the files are joined, and units must agree") {
   CHECK(mesh.negativeVolumeCount == 1);
   CHECK(mesh.float32Step == 0.5);
   second.unit = "m";
-  test::requireFailure([&] { (void)joinMeshes(meshes, names); }, ErrorCode::UnitsDiffer, "is in m;");
+  test::requireFailure([&] { (void)joinMeshes(meshes, names); }, ErrorCode::UnitsDiffer, "another has the unit m;");
   first.unit = "";
   test::requireFailure([&] { (void)joinMeshes(meshes, names); }, ErrorCode::UnitsDiffer, "states no unit");
   test::requireFailure([&] { (void)joinMeshes(meshes, std::vector<std::string>(1)); }, ErrorCode::ArraySize, "name");

@@ -239,7 +239,8 @@ TEST_CASE("meshes with different units are not compared") {
   Mesh mesh = plate(1), former = plate(1);
   mesh.unit = "in";
   former.unit = "mm";
-  test::requireFailure([&] { (void)compareVersionsOf(mesh, former, 1); }, ErrorCode::UnitsDiffer, "one mesh is in in");
+  test::requireFailure([&] { (void)compareVersionsOf(mesh, former, 1); }, ErrorCode::UnitsDiffer,
+                       "one mesh has the unit in");
   former.unit = "";
   test::requireFailure([&] { (void)compareVersionsOf(mesh, former, 1); }, ErrorCode::UnitsDiffer, "states no unit");
   mesh.unit = "mm";

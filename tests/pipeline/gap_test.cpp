@@ -113,6 +113,26 @@ TEST_CASE("bodies in contact have no gap of width 0, and are named") {
   }
 }
 
+TEST_CASE("a body in the material of another one is in contact with it, and a body in a void is not") {
+  const Mesh outer = shapes::box({10, 10, 10}), cavity = shapes::inverted(shapes::box({6, 6, 6})),
+             inner = shapes::box({4, 4, 4}), core = shapes::box({2, 2, 2});
+  const auto contactsOf = [](const Mesh& mesh) {
+    std::vector<std::vector<std::string>> names;
+    for (const BodyContact& contact : measure(mesh, 0.5).contacts) names.push_back(contact.bodies);
+    return names;
+  };
+  using Names = std::vector<std::vector<std::string>>;
+  Mesh solid = shapes::joined(outer, inner);
+  CHECK(contactsOf(solid) == Names{{"component 0", "component 1"}});
+  solid.objects = {{0, "plate"}, {12, "pin"}};
+  CHECK(contactsOf(solid) == Names{{"plate", "pin"}});
+  CHECK(contactsOf(shapes::joined(solid, core)).size() == 2);
+  CHECK(contactsOf(shapes::joined(outer, cavity)).empty());
+  const Mesh hollow = shapes::joined(outer, cavity);
+  CHECK(contactsOf(shapes::joined(hollow, inner)).empty());
+  CHECK(contactsOf(shapes::joined(shapes::joined(hollow, inner), core)) == Names{{"component 2", "component 3"}});
+}
+
 TEST_CASE("where two bodies approach a contact, there is no gap that counts") {
   // A ball on a plate: an edge, and near the contact a detail, because the ball is flat there.
   const Mesh mesh = shapes::joined(shapes::box({6, 6, 1}, 4), shapes::icosphere(4), {0, 0, 1.5 + 1e-9});

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "asdf_vk/scene.h"
 #include "core/vec3.h"
 #include "generate/solids.h"
 #include "support/shapes.h"
@@ -110,6 +112,47 @@ TEST_CASE("several voids, also in nested bodies") {
   CHECK(nested.voids[1].volume == doctest::Approx(216));
   CHECK(nested.voids[0].looseBodies == std::vector<std::string>{"component 2"});
   CHECK(nested.voids[1].looseBodies.empty());
+}
+
+TEST_CASE("voids, contacts and thick bodies of a region are those with a face in it") {
+  // A box; one with a cavity, in which a body lies, and that touches the first box; a thick box.
+  const Mesh mesh = allOf({placedBox({0, 0, 0}, {2, 2, 2}), placedBox({2, 0, 0}, {8, 6, 6}),
+                           shapes::inverted(placedBox({3, 1, 1}, {7, 5, 5})), placedBox({4, 2, 2}, {5, 3, 3}),
+                           placedBox({20, 0, 0}, {28, 9, 9}), placedBox({28, 0, 0}, {29, 9, 9})});
+  Scene scene(test::referenceSession(), mesh);
+  Options options;
+  options.measure = Measure::ThicknessAndGap;
+  options.thickness.thickerThan = 7;
+  const auto measure = [&](std::initializer_list<size_t> bodies) {
+    std::vector<uint8_t> region(mesh.faces.size());
+    for (const size_t body : bodies) std::fill_n(region.begin() + static_cast<ptrdiff_t>(12 * body), 12, uint8_t{1});
+    return scene.compute(options, region).report;
+  };
+  const Report first = measure({0}), hollow = measure({1}), cavity = measure({2}), loose = measure({3}),
+               thick = measure({4});
+  CHECK(first.voids.empty());
+  CHECK(hollow.voids.empty());
+  CHECK(thick.voids.empty());
+  for (const Report& report : {cavity, loose}) {
+    REQUIRE(report.voids.size() == 1);
+    CHECK(report.voids[0].volume == doctest::Approx(64 - 1));
+  }
+  CHECK(cavity.voids[0].face / 12 == 2);
+  CHECK(loose.voids[0].face / 12 == 3);
+  using Names = std::vector<std::string>;
+  REQUIRE(first.contacts.size() == 1);
+  CHECK(first.contacts[0].bodies == Names{"component 0", "component 1"});
+  CHECK(hollow.contacts.size() == 1);
+  CHECK(loose.contacts.empty());
+  CHECK(thick.contacts.size() == 1);
+  CHECK(first.thickness->thick->verdict == ThicknessVerdict::Passed);
+  CHECK(first.thickness->greatestSection->diameter < 3);
+  REQUIRE(thick.thickness->thick->bodies.size() == 1);
+  CHECK(thick.thickness->thick->bodies[0].diameter == doctest::Approx(9).epsilon(0.01));
+  const Report whole = scene.compute(options).report;
+  CHECK(whole.voids.size() == 1);
+  CHECK(whole.contacts.size() == 2);
+  CHECK(whole.thickness->thick->bodies.size() == 1);
 }
 
 TEST_CASE("the greatest ball of each body is compared with a limit") {

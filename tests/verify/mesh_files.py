@@ -1,16 +1,21 @@
 """Minimal readers of PLY, STL, OFF and OBJ. They share no code with the library, and refuse what they do not need.
 
-A mesh is (corners, face_of): corners (n, 3, 3) of triangles, and for each triangle the index of its input face. Polygons
-are cut as fans, so a verifier must treat the triangles of one face as one plane.
+Polygons are cut as fans, so a verifier must treat the triangles of one face as one plane.
 """
 
 from __future__ import annotations
 
 import pathlib
+import typing
 
 import numpy as np
 
-Mesh = tuple[np.ndarray, np.ndarray]
+
+class Mesh(typing.NamedTuple):
+    corners: np.ndarray  # (n, 3, 3) of triangles.
+    face_of: np.ndarray  # For each triangle the index of its input face.
+    face_count: int  # Input faces; those with fewer than three corners have no triangle.
+
 
 _PLY_TYPES = {"char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
               "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
@@ -21,7 +26,7 @@ def _mesh_of(vertices: np.ndarray, faces: list[list[int]]) -> Mesh:
     triangles = [(face[0], face[i], face[i + 1]) for face in faces for i in range(1, len(face) - 1)]
     face_of = [index for index, face in enumerate(faces) for _ in range(1, len(face) - 1)]
     indices = np.array(triangles, int).reshape(-1, 3)
-    return np.asarray(vertices, float)[indices], np.array(face_of, int)
+    return Mesh(np.asarray(vertices, float)[indices], np.array(face_of, int), len(faces))
 
 
 def _ply_elements(header: list[list[str]]) -> list[tuple[str, int, list[list[str]]]]:
@@ -85,7 +90,7 @@ def _read_stl(data: bytes) -> Mesh:
         words = data.decode().split()
         numbers = [[float(x) for x in words[i + 1:i + 4]] for i, word in enumerate(words) if word == "vertex"]
         corners = np.array(numbers, np.float32).astype(float).reshape(-1, 3, 3)
-    return corners, np.arange(len(corners))
+    return Mesh(corners, np.arange(len(corners)), len(corners))
 
 
 def _read_off(data: bytes) -> Mesh:
@@ -113,6 +118,13 @@ def _read_obj(data: bytes) -> Mesh:
             corners = [int(word.split("/")[0]) for word in words[1:]]
             faces.append([corner - 1 if corner > 0 else len(vertices) + corner for corner in corners])
     return _mesh_of(np.array(vertices), faces)
+
+
+def joined(meshes: list[Mesh]) -> Mesh:
+    """The faces of all meshes, one after another."""
+    first_faces = np.cumsum([0, *(mesh.face_count for mesh in meshes)])
+    face_of = [mesh.face_of + first for mesh, first in zip(meshes, first_faces[:-1], strict=True)]
+    return Mesh(np.concatenate([mesh.corners for mesh in meshes]), np.concatenate(face_of), int(first_faces[-1]))
 
 
 def read_mesh(path: pathlib.Path | str) -> Mesh:

@@ -186,7 +186,7 @@ class ReportCheck:
         wrong = []
         if self.solid.is_sheet[self.solid.kinds == 0].any():
             wrong.append("a surface has no material on both sides")
-        for body in np.unique(self.solid.bodies[self.solid.kinds > 0]):
+        for body in np.unique(self.solid.bodies[(self.solid.kinds > 0) & self.solid.is_judged]):
             found, bound = self.solid.greatest_ball(body, THIN * self.limit * 0.998)
             if found < THIN * self.limit * 0.998 and bound <= THIN * self.limit * 0.998:
                 wrong.append(f"a body is thin as a whole: its greatest ball has at most the diameter {bound:.6g}")

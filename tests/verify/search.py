@@ -22,7 +22,7 @@ class ThinPoints:
         self.count = self.face_count = 0
         self.points: list[tuple[float, np.ndarray, int]] = []  # Thickness, place, triangle.
         self.cells: dict[tuple[int, ...], tuple[int, ...]] = {}  # The parent of each cell; roots are clusters.
-        for triangle in np.flatnonzero(solid.kinds != 0).tolist():
+        for triangle in np.flatnonzero((solid.kinds != 0) & solid.is_judged).tolist():
             self._add_triangle(triangle)
         for cell in list(self.cells):
             self._join_neighbours(cell)

@@ -8,14 +8,15 @@ import geometry
 
 
 class Solid:
-    """corners, face_of: as mesh_files.read_mesh() returns them."""
+    """corners, face_of: of a mesh_files.Mesh. judged_count: walls and gaps are those of the first input faces."""
 
-    def __init__(self, corners: np.ndarray, face_of: np.ndarray) -> None:
+    def __init__(self, corners: np.ndarray, face_of: np.ndarray, judged_count: float = np.inf) -> None:
         is_finite = np.isfinite(corners).all((1, 2))
         normals = geometry.unit_normals(corners)
         keep = is_finite & (normals != 0).any(1)
         self.has_undefined = not is_finite.all()
         self.triangles, self.normals, self.face_of = corners[keep], normals[keep], face_of[keep]
+        self.is_judged = self.face_of < judged_count
         points = self.triangles.reshape(-1, 3)
         self.low, self.high = points.min(0), points.max(0)
         self.half_extent = float((self.high - self.low).max()) / 2

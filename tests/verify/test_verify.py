@@ -109,7 +109,7 @@ class VerifyTest(unittest.TestCase):
             edge = [0.0, 0.0, place[2]]
             region["opposite"] = [2 * b - a for a, b in zip(edge, opposite)]
             v = [b - a for a, b in zip(place, region["opposite"])]
-            corners, face_of = mesh_files.read_mesh(mesh)
+            corners, face_of, _ = mesh_files.read_mesh(mesh)
             normal = verify_report.Solid(corners, face_of).normals[region["minFace"]]
             region["min"] = part["min"] = sum(x * x for x in v) / -sum(x * n for x, n in zip(v, normal))
             part["thinnerThan"] = 10 * region["min"]
@@ -150,7 +150,7 @@ class VerifyTest(unittest.TestCase):
 
     def test_a_missing_second_wall_is_refused(self) -> None:
         mesh = self.folder / "two.off"
-        first, second = (mesh_files.read_mesh(self.folder / f"wall-floor-{floor}.ply")[0] for floor in ("0.4", "0.2"))
+        first, second = (mesh_files.read_mesh(self.folder / f"wall-floor-{floor}.ply").corners for floor in ("0.4", "0.2"))
         second = second + [50.0, 0, 0]
         points = [tuple(point) for corners in (first, second) for point in corners.reshape(-1, 3)]
         faces = [f"3 {i} {i + 1} {i + 2}" for i in range(0, len(points), 3)]
@@ -174,6 +174,28 @@ class VerifyTest(unittest.TestCase):
         self.assertEqual(bad.returncode, 1)
         self.assertIn("WRONG: wall 0.4", bad.stdout)
         self.assertEqual(run("{").returncode, 2)
+        for wrong, reason in (({"mesh": "a.ply", "error": "unreadable"}, "no report on a mesh: unreadable"),
+                              (report | {"faceCount": 7}, "of 7"), (report | {"reversedFaceCount": 3}, "reversed by --orient"),
+                              (report | {"with": ["b.ply"]}, "1 meshes of --with"), (report | {"thickness": None}, "no limit"),
+                              ([], "no report on a mesh")):
+            refused = run(json.dumps(wrong))
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            self.assertRegex(refused.stderr, f"^verify-report: .*{reason}.*\n$")
+
+    def test_a_report_with_other_meshes_is_verified_on_the_faces_of_the_first(self) -> None:
+        box = "OFF\n8 13 0\n" + "\n".join(f"{{}} {y} {z}" for z in (0, 1) for y in (0, 1) for _ in (0, 1)) + "\n" + "\n".join(
+            ["3 0 2 1", "3 1 2 3", "3 4 5 6", "3 5 7 6", "3 0 1 4", "3 1 5 4", "3 2 6 3", "3 3 6 7", "3 0 4 2", "3 2 4 6",
+             "3 1 3 5", "3 3 7 5", "2 0 1"]) + "\n"  # The last face has no area.
+        paths = [self.folder / f"apart-{x}.off" for x in (0, 1.2, 2.3)]
+        for path, x in zip(paths, (0, 1.2, 2.3), strict=True):
+            path.write_text(box.format(*[x, x + 1] * 4))
+        options = [word for path in paths[1:] for word in ("--with", str(path))]
+        report = report_of(paths[0], *options, "--closer-than", "0.3")
+        self.assertEqual((report["gap"]["verdict"], report["withFaceCounts"]), ("failed", [13, 13]))
+        mesh, *others = map(mesh_files.read_mesh, paths)
+        self.assertEqual(verify_report.verify(mesh, report, others=others).wrong, [])
+        report["gap"].update({"verdict": "passed", "regions": []})
+        self.assertEqual(len(verify_report.verify(mesh, report, others=others).wrong), 1)  # The gap of 0.1 is of others.
 
 
 if __name__ == "__main__":
