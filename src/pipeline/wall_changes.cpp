@@ -176,8 +176,7 @@ class WallComparison {
     if (face == kNoFace)
       findNearestPoints(now_.surface.scene(), std::span(&formerPoints.placed.points[i], 1), RunControl(),
                         [&](size_t, const SurfacePoint& nearest) { face = nearest.face; });
-    return face != kNoFace &&
-           !now_.computation.domain.contains(now_.computation.prepared.mesh.inputFaceOf(face));
+    return face != kNoFace && !now_.computation.domain.contains(now_.computation.prepared.mesh.inputFaceOf(face));
   }
 
   [[nodiscard]] PointChange changeOf(const ThicknessRange& thickness, const Counterpart& at) const {
@@ -275,8 +274,8 @@ class WallComparison {
       const size_t disc = i / kPointsPerDisc;
       const double radius = kDiscRadius * placed.thickness[middles[disc]].low;
       // Farther away, the disc reaches beyond the surface.
-      const bool isOn = nearest[i].face != kNoFace &&
-                        unit.toMeshLength(nearest[i].distance) <= radius / 4 + unit.contactLength();
+      const bool isOn =
+          nearest[i].face != kNoFace && unit.toMeshLength(nearest[i].distance) <= radius / 4 + unit.contactLength();
       if (!isOn) isWorse[disc] = 0;
       if (!isOn) continue;
       around.add(now_, nearest[i].face, unit.toMesh(nearest[i].point));
