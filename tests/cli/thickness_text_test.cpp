@@ -247,7 +247,7 @@ TEST_CASE("the document has every value of the thickness") {
   CHECK_EQ(json.at("countsEdges"), false);
   CHECK_EQ(json.at("regions"), Json::parse(R"([{"kind": "wall", "min": 1, "minFace": 3, "place": [1, 2, 3],
       "opposite": [1, 2, 4], "oppositeFace": null, "bodies": [], "least": 0.5, "angleDegrees": 5, "width": 2, "faceCount": 2, "area": 12.5,
-      "areaShare": 0.02, "change": null}])"));
+      "areaShare": 0.02, "change": null, "changedPlace": null}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
       "crossedCount": 4, "insideCount": 5, "reasons": [{"cause": "woundAgainst", "faceCount": 5, "edgeCount": 6,
       "face": 7, "place": [1, 2, 3], "bodies": [], "isRepairable": true, "amount": 0}]})"));
