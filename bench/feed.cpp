@@ -277,8 +277,7 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
       StageWaits stageWaits;
       StageClock clock(result.report.stageSeconds, [&](Stage stage) { stageWaits.begin(stage); });
       const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options.orientation, clock, control));
-      KeptTracers tracers(*session.named.backend, scene->view(), 0);
-      computeOn({session, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
+      computeOn({session, scene, nullptr, nullptr}, options, clock, control, result);
       stageWaits.begin(Stage::Geometry);
       if (round == 0) continue;
       totals.push_back(watch.seconds());

@@ -182,15 +182,13 @@ struct ThicknessOptions {
   bool findsNextWall = false;
 };
 
-/// Targets that end the rounds. Each round adds seeds and keeps the traced values of earlier rounds. Any target
-/// excludes SeedCount::all(). maxError and maxRelativeError also require Options::estimatesError.
+/// Targets that end the rounds. Each round adds seeds and keeps the traced values of earlier rounds. A target excludes
+/// SeedCount::all() and requires Options::estimatesError.
 struct RoundOptions {
   std::optional<double> maxError;  ///< Rounds end when the estimated average error is at most this share of the range.
-  std::optional<double> maxRelativeError;   ///< Rounds end when the estimated median of error / value is at most this.
-  std::optional<double> timeBudgetSeconds;  ///< Rounds end this many seconds after the start of compute().
+  std::optional<double> maxRelativeError;  ///< Rounds end when the estimated median of error / value is at most this.
 
-  [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
-  [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
+  [[nodiscard]] bool areSet() const { return maxError || maxRelativeError; }
 };
 /// Share of the faces that are seeds in the first round if SeedCount::isChosen is false.
 inline constexpr double kFirstRoundShare = 0.02;

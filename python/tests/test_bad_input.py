@@ -93,14 +93,13 @@ def wrong_meshes() -> Iterator[tuple[Any, Any]]:
     yield np.broadcast_to(np.int8(0), (2**32 - 1, 3)), FACES
 
 
-NUMERIC = ["max_error", "max_relative_error", "time_budget", "rays", "cone_angle", "random_seed", "max_iterations"]
+NUMERIC = ["max_error", "max_relative_error", "rays", "cone_angle", "random_seed", "max_iterations"]
 NUMERIC += ["false_hit_angle", "outlier_deviations", "pooling", "tolerance", "check"]
 TEXTUAL = ["recipe", "definition", "sampler", "cone_rotation", "orient", "smooth", "weights", "guidance", "solver"]
 VALID = {
     ("random_seed", 0),
     ("pooling", 0),
     ("false_hit_angle", 0),
-    ("time_budget", 2**64),
     ("outlier_deviations", 2**64),
 }
 
@@ -120,7 +119,7 @@ def wrong_options() -> Iterator[dict[str, Any]]:
         yield {"smooth": smooth}
     yield {"estimate": 1}
     yield {"estimate": False, "max_error": 0.1}
-    yield {"seeds": "all", "time_budget": 1}
+    yield {"seeds": "all", "max_error": 0.1}
     yield {"progress": 1}
     yield {"unknown": 1}
     yield {"measure": "length"}

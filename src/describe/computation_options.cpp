@@ -13,7 +13,6 @@ namespace {
 constexpr const char* kSeedGroup = "Seeds and rays";
 constexpr const char* kSegmentGroup = "Segments";
 constexpr const char* kThicknessGroup = "Thickness";
-constexpr double kMaxSeconds = 1e9;  // A longer time would overflow the clocks.
 
 constexpr const char* kNeedsThickness = "measure=thickness|both|gap|sdf,gap|thickness,gap|sdf,thickness,gap";
 
@@ -94,13 +93,6 @@ const std::array kComputationRows{
               .text = "Start value of all random numbers; the same value gives the same bits",
               .placeholder = "N",
               .keyword = "random-seed"},
-    OptionRow{.name = "time-budget",
-              .access = COMPUTATION_MEMBER(options.rounds.timeBudgetSeconds),
-              .range = aboveUpTo(0, kMaxSeconds),
-              .text = "Add seeds until this time has passed, reading and writing excluded. The result is not "
-                      "reproducible",
-              .more = "Excludes `--seeds all`.",
-              .placeholder = "SECONDS"},
     OptionRow{.name = "estimate",
               .access = COMPUTATION_MEMBER(options.estimatesError),
               .text = "Do not estimate the error. This saves 3 to 15 % of the time, with 1 % seeds up to 25 %",

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAutomatic = "auto";
 
-/// Returns "time_budget" or "timeBudget" for "time-budget".
+/// Returns "max_error" or "maxError" for "max-error".
 std::string inCase(std::string_view name, OptionSpelling spelling) {
   std::string text;
   for (size_t i = 0; i < name.size(); ++i) {

@@ -22,7 +22,7 @@ namespace asdfvk {
 /// std::monostate means no value.
 using OptionValue = std::variant<std::monostate, bool, uint64_t, double, std::string>;
 
-/// Spelling of option names in messages and reports: --time-budget, timeBudgetSeconds, time_budget, time-budget.
+/// Spelling of option names in messages and reports: --cone-angle, coneAngleDegrees, cone_angle, cone-angle.
 enum class OptionSpelling { Flag, CamelCase, SnakeCase, Name };
 
 struct ChoiceMember {
@@ -92,7 +92,7 @@ enum class AtPoints { None, Diameter, Thickness, Both };
 
 /// An option. target: the struct that the options of the table set, for example ComputationSettings.
 struct OptionRow {
-  const char* name;             ///< "time-budget"
+  const char* name;             ///< "max-error"
   const char* group = nullptr;  ///< Heading in the help; null: the group of the row before, see withGroups().
   OptionAccess access = {};
   OptionRange range = {};

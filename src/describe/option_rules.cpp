@@ -67,12 +67,11 @@ void refuseContradictions(const Options& options, const GivenOptions& given) {
   const RoundOptions& rounds = options.rounds;
   const bool isRelative = !rounds.maxError && given.spelling != OptionSpelling::Flag;  // --max-error 5%rel
   const std::string maxError = isRelative ? "{max-relative-error}" : "{max-error}";
-  if (rounds.limitError() && !options.estimatesError)
+  if (rounds.areSet() && !options.estimatesError)
     refuseOption(maxError + " needs the error estimate, which {estimate=off} excludes; drop one of the two",
                  given.spelling);
   if (rounds.areSet() && options.seeds.kind == SeedCount::Kind::All)
-    refuseOption((rounds.limitError() ? maxError : "{time-budget}") +
-                     " adds seeds, but with {seeds=all} every face is a seed; drop one of the two",
+    refuseOption(maxError + " adds seeds, but with {seeds=all} every face is a seed; drop one of the two",
                  given.spelling);
   if (options.interpolation.pooling > 0 && options.interpolation.guidance != Guidance::Prediction)
     refuseOption(

@@ -20,10 +20,10 @@ constexpr size_t kWorstFaceCount = 5;
 constexpr double kGainExponent = 0.12, kGainExponentWithoutPrediction = 0.5;
 
 /// Range of the traced values. The range of the function is wider if its extremes were not traced.
-double tracedRange(const EstimateInput& input) {
+double tracedRange(const Seeds& seeds) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const uint32_t face : input.traced.faces)
-    if (const double value = input.traced.values[face]; !std::isnan(value)) {
+  for (const double value : seeds.values)
+    if (!std::isnan(value)) {
       low = std::min(low, value);
       high = std::max(high, value);
     }
@@ -41,55 +41,85 @@ double robustRange(std::span<const double> values) {
 /// neither overflow nor underflow, and the division is exact.
 double unitOf(double range) { return std::scalbn(1.0, std::ilogb(range)); }
 
-double indicatorOf(const EstimateInput& input, size_t face) {
-  return input.indicator.empty() ? 1 : input.indicator[face];
-}
+double indicatorOf(std::span<const double> indicator, size_t node) { return indicator.empty() ? 1 : indicator[node]; }
 
-/// Factor by which the error of a face falls when the held-out faces become seeds.
+/// Factor by which the error of a face falls when the held-out seeds become seeds of the result.
 double gainBySeeds(const EstimateInput& input) {
-  const auto heldOutCount = static_cast<double>(input.heldOut.faces.size()),
-             seedCount = static_cast<double>(input.traced.faces.size());
+  const auto heldOutCount = static_cast<double>(input.seeds.heldOutWeights.size()),
+             seedCount = static_cast<double>(input.seeds.size());
   return std::pow(1 - heldOutCount / seedCount, input.predicts ? kGainExponent : kGainExponentWithoutPrediction);
 }
 
 struct Measurement {
-  uint32_t face = 0;
+  uint32_t node = 0;
   double error = 0, indicator = 0, weight = 0, value = 0;
 };
 
-/// Errors at the held-out faces with a value.
+/// Errors at the held-out seeds with a value.
 std::vector<Measurement> measureErrors(const EstimateInput& input) {
+  const Seeds& seeds = input.seeds;
   std::vector<Measurement> measured;
-  for (size_t i = 0; i < input.heldOut.faces.size(); ++i) {
-    const uint32_t face = input.heldOut.faces[i];
-    const Measurement measurement{face, std::abs(input.withoutHeldOut[i] - input.traced.values[face]),
-                                  indicatorOf(input, face), input.heldOut.weights[i], input.traced.values[face]};
-    if (!std::isnan(measurement.error) && !std::isnan(input.result[face])) measured.push_back(measurement);
+  for (size_t seed = 0, i = 0; seed < seeds.size(); ++seed) {
+    if (!seeds.isHeldOut(seed)) continue;
+    const uint32_t node = seeds.nodes[seed];
+    const Measurement measurement{node, std::abs(input.withoutHeldOut[i] - seeds.values[seed]),
+                                  indicatorOf(input.indicator, node), seeds.heldOutWeights[i], seeds.values[seed]};
+    ++i;
+    if (!std::isnan(measurement.error) && !std::isnan(input.result[node])) measured.push_back(measurement);
   }
   return measured;
 }
 
-std::vector<WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement> measured, double range) {
+std::vector<WorstFace> worstOf(const TriangleMesh& mesh, const FaceDomain& domain, std::vector<Measurement> measured,
+                               double range) {
   const size_t count = std::min(kWorstFaceCount, measured.size());
   std::partial_sort(measured.begin(), measured.begin() + static_cast<std::ptrdiff_t>(count), measured.end(),
                     [](const Measurement& a, const Measurement& b) {
-                      return a.error != b.error ? a.error > b.error : a.face < b.face;
+                      return a.error != b.error ? a.error > b.error : a.node < b.node;
                     });
   std::vector<WorstFace> worst;
-  for (size_t i = 0; i < count; ++i) worst.push_back({mesh.inputFaceOf(measured[i].face), measured[i].error / range});
+  for (size_t i = 0; i < count; ++i)
+    worst.push_back({mesh.inputFaceOf(domain.faceOf(measured[i].node)), measured[i].error / range});
   return worst;
 }
 
 /// Sums over faces with a value.
 struct ExpectedSums {
-  double error = 0, interpolatedIndicator = 0;  // Unit of the error: unitOf().
-  size_t count = 0, interpolatedCount = 0;
+  double indicator = 0;  // Sum over interpolated faces.
+  uint64_t count = 0, interpolatedCount = 0;
 
   ExpectedSums operator+(const ExpectedSums& other) const {
-    return {error + other.error, interpolatedIndicator + other.interpolatedIndicator, count + other.count,
-            interpolatedCount + other.interpolatedCount};
+    return {indicator + other.indicator, count + other.count, interpolatedCount + other.interpolatedCount};
   }
 };
+
+ExpectedSums expectedSums(const FaceDomain& domain, const EstimateInput& input) {
+  std::vector<uint8_t> isKnown(input.result.size(), 0);
+  forEachInParallel(input.seeds.size(), [&](size_t seed) {
+    if (!std::isnan(input.seeds.values[seed])) isKnown[input.seeds.nodes[seed]] = 1;
+  });
+  const auto sumIn = [&](size_t begin, size_t end) {
+    ExpectedSums sums;
+    for (auto node = static_cast<uint32_t>(begin); node < end; ++node) {
+      if (std::isnan(input.result[node])) continue;
+      const uint32_t count = domain.representedCountOf(node), interpolatedCount = count - isKnown[node];
+      sums.indicator += interpolatedCount * indicatorOf(input.indicator, node);
+      sums.count += count;
+      sums.interpolatedCount += interpolatedCount;
+    }
+    return sums;
+  };
+  return foldInParallel<ExpectedSums>(input.result.size(), sumIn, std::plus<>());
+}
+
+/// Sum of the differences between the result and the traced values.
+double sumOfKnownErrors(const EstimateInput& input, double unit) {
+  double sum = 0;
+  for (size_t seed = 0; seed < input.seeds.size(); ++seed)
+    if (const double error = std::abs(input.result[input.seeds.nodes[seed]] - input.seeds.values[seed]); error > 0)
+      sum += error / unit;
+  return sum;
+}
 
 /// An error of 0 gives 0, also for the value 0.
 double relativeError(double error, double value) { return error == 0 ? 0 : error / std::abs(value); }
@@ -98,11 +128,11 @@ double relativeError(double error, double value) { return error == 0 ? 0 : error
 /// faces; their number is proportional to its sampling weight. interpolatedCount: number of interpolated faces with a
 /// value.
 void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measurement>& measured, double gain,
-                            size_t interpolatedCount, ErrorEstimate& estimate) {
+                            uint64_t interpolatedCount, ErrorEstimate& estimate) {
   WeightedSample errors;
-  size_t count = interpolatedCount, exactCount = 0;
-  for (const uint32_t face : input.traced.faces) {
-    const double traced = input.traced.values[face], error = std::abs(input.result[face] - traced);
+  uint64_t count = interpolatedCount, exactCount = 0;
+  for (size_t seed = 0; seed < input.seeds.size(); ++seed) {
+    const double traced = input.seeds.values[seed], error = std::abs(input.result[input.seeds.nodes[seed]] - traced);
     if (std::isnan(error)) continue;
     if (error > 0)
       errors.add(relativeError(error, traced), 1);
@@ -133,17 +163,14 @@ void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measur
 
 }  // namespace
 
-EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& input) {
-  EstimatedErrors result;
-  const double range = tracedRange(input);
+EstimatedErrors estimateErrors(const TriangleMesh& mesh, const FaceDomain& domain, const EstimateInput& input) {
+  EstimatedErrors errors;
+  const double range = tracedRange(input.seeds);
   const std::vector<Measurement> measured = measureErrors(input);
   // Faces with inclusion probability 1 represent only themselves.
   const auto representativeCount =
       std::count_if(measured.begin(), measured.end(), [](const Measurement& m) { return m.weight > 0; });
-  if (representativeCount < 2 || !(range > 0)) {
-    result.expected = filledInParallel(input.result.size(), 0.0);
-    return result;
-  }
+  if (representativeCount < 2 || !(range > 0)) return errors;
 
   const double unit = unitOf(range);
   double errorSum = 0, indicatorSum = 0;
@@ -158,35 +185,31 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& in
   const double ratioDeviation = std::sqrt(squareSum * sampleSize / (sampleSize - 1)) / indicatorSum;
   const double gain = gainBySeeds(input), gainDeviation = 1 - gain;
 
-  result.expected.resize(input.result.size());
-  const auto expectIn = [&](size_t begin, size_t end) {
-    ExpectedSums sums;
-    for (size_t face = begin; face < end; ++face) {
-      result.expected[face] = 0;
-      if (std::isnan(input.result[face])) continue;
-      const double traced = input.traced.values[face], indicator = indicatorOf(input, face);
-      const bool isInterpolated = std::isnan(traced);
-      result.expected[face] = isInterpolated ? gain * ratio * indicator * unit : std::abs(input.result[face] - traced);
-      if (isInterpolated) {
-        sums.interpolatedIndicator += indicator;
-        ++sums.interpolatedCount;
-      }
-      sums.error += result.expected[face] / unit;
-      ++sums.count;
-    }
-    return sums;
-  };
-  const ExpectedSums sums = foldInParallel<ExpectedSums>(input.result.size(), expectIn, std::plus<>());
-  const auto count = static_cast<double>(sums.count);
-  const double scale = 1 / (count * (range / unit));
-  estimateRelativeErrors(input, measured, gain, sums.interpolatedCount, result.estimate);
-  result.estimate.robustAverage = sums.error / count / (robustRange(input.result) / unit);
-  result.estimate.average = sums.error * scale;
-  result.estimate.standardError =
-      gain * std::hypot(ratioDeviation, gainDeviation * ratio) * sums.interpolatedIndicator * scale;
-  result.estimate.heldOutCount = measured.size();
-  result.estimate.worstFaces = worstOf(mesh, measured, range);
-  return result;
+  const ExpectedSums sums = expectedSums(domain, input);
+  const double scale = 1 / (static_cast<double>(sums.count) * (range / unit));
+  const double sum = gain * ratio * sums.indicator + sumOfKnownErrors(input, unit);
+  errors.perIndicator = gain * ratio * unit;
+  errors.average = sum / static_cast<double>(sums.count) * unit;
+  estimateRelativeErrors(input, measured, gain, sums.interpolatedCount, errors.estimate);
+  errors.estimate.average = sum * scale;
+  errors.estimate.standardError = gain * std::hypot(ratioDeviation, gainDeviation * ratio) * sums.indicator * scale;
+  errors.estimate.heldOutCount = measured.size();
+  errors.estimate.worstFaces = worstOf(mesh, domain, measured, range);
+  return errors;
+}
+
+UnsetVector<double> expectedErrors(EstimatedErrors& errors, const Seeds& seeds, std::span<const double> values,
+                                   std::span<const double> indicator) {
+  UnsetVector<double> expected(values.size());
+  forEachInParallel(values.size(), [&](size_t face) {
+    expected[face] = std::isnan(values[face]) ? 0 : errors.perIndicator * indicatorOf(indicator, face);
+  });
+  forEachInParallel(seeds.size(), [&](size_t seed) {
+    const uint32_t face = seeds.nodes[seed];
+    if (const double error = std::abs(values[face] - seeds.values[seed]); !std::isnan(error)) expected[face] = error;
+  });
+  errors.estimate.robustAverage = errors.average / robustRange(values);
+  return expected;
 }
 
 }  // namespace asdfvk

@@ -21,11 +21,11 @@ std::vector<double> neighbourDeviation(const NearestCells& nearest, std::span<co
   std::vector<double> deviation(seeds.size(), kNoValue);
   forEachInParallel(seeds.size(), [&](uint32_t cell) {
     if (seeds[cell] == kNoFace) return;
-    const double own = values[seeds[cell]];
+    const double own = values[cell];
     double sum = 0;
     size_t count = 0;
     for (const uint32_t other : nearest.of(cell))
-      if (const double difference = std::abs(values[seeds[other]] - own); other != cell && !std::isnan(difference)) {
+      if (const double difference = std::abs(values[other] - own); other != cell && !std::isnan(difference)) {
         sum += difference;
         ++count;
       }
@@ -53,10 +53,9 @@ UnsetVector<double> errorIndicator(const Prediction& prediction, std::span<const
   ASDFVK_CHECK_OP(prediction.nearest.cellCount(), ==, seeds.size());
   const std::vector<double> deviation = neighbourDeviation(prediction.nearest, seeds, values);
   UnsetVector<double> indicator(prediction.values.size());
-  forEachInParallel(indicator.size(), [&](uint32_t face) {
-    const uint32_t cell = prediction.cellOf[face];
-    indicator[face] =
-        cell != kNoCell ? std::abs(prediction.values[face] - values[seeds[cell]]) + deviation[cell] : kNoValue;
+  forEachInParallel(indicator.size(), [&](uint32_t node) {
+    const uint32_t cell = prediction.cellOf[node];
+    indicator[node] = cell != kNoCell ? std::abs(prediction.values[node] - values[cell]) + deviation[cell] : kNoValue;
   });
   addFloor(indicator);
   return indicator;

@@ -9,8 +9,8 @@ namespace asdfvk {
 
 /// A-priori indicator of the interpolation error of each face, up to a factor. The indicator is |p - v| + mean |v' -
 /// v|. p: prediction of the face. v: value of the seed of its cell. v': values of the neighbouring seeds. prediction:
-/// made from `seeds`. seeds: #S, in the order of the prediction. values: #F; only the values of the seeds are read.
-/// Returns #F, above 0; a face without an indicator gets the mean.
+/// made from `seeds`. seeds, values: #S, in the order of the prediction. Returns #N, above 0; a node without an
+/// indicator gets the mean.
 [[nodiscard]] UnsetVector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
                                                  std::span<const double> values);
 

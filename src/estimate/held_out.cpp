@@ -72,11 +72,6 @@ std::vector<uint32_t> samplePivotally(const InclusionProbabilities& probabilitie
 
 }  // namespace
 
-void HeldOutFaces::append(const HeldOutFaces& further) {
-  faces.insert(faces.end(), further.faces.begin(), further.faces.end());
-  weights.insert(weights.end(), further.weights.begin(), further.weights.end());
-}
-
 HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
                            uint64_t randomSeed, std::span<const uint32_t> representedCounts) {
   if (count >= candidates.size())

@@ -14,8 +14,6 @@ struct HeldOutFaces {
   /// the face. c: its entry in representedCounts. c / p - 1 is the number of interpolated faces for which the face
   /// stands.
   std::vector<double> weights;
-
-  void append(const HeldOutFaces& further);
 };
 
 /// Random seed of held-out faces, independent of the seeds of samplers and of earlier rounds.

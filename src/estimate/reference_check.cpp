@@ -34,22 +34,18 @@ class References {
   std::vector<double> values_;
 };
 
-std::vector<uint32_t> seedsOf(const TracedSeeds& traced, std::span<const uint32_t> traceableFaces) {
-  return selectInParallel(traceableFaces, [&](uint32_t face) { return traced.isSeed[face] != 0; });
-}
-
 std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
   std::vector<uint32_t> all;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
   return all;
 }
 
-/// Computes the part of the report about traced faces.
-void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, const TracedSeeds& traced,
+/// Computes the part of the report about traced faces. traced: #F.
+void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, std::span<const double> traced,
                    const References& references, double diagonal, const TriangleMesh& mesh) {
   std::vector<double> differences;
   for (const uint32_t face : faces) {
-    const double value = traced.values[face], reference = references[face];
+    const double value = traced[face], reference = references[face];
     if (std::isnan(value) && std::isnan(reference)) {
       ++report.noValueAgreeCount;
       continue;
@@ -83,7 +79,7 @@ void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, cons
     sum += error;
     report.maximumError = std::max(report.maximumError, error);
     ++report.comparedCount;
-    if (computed.traced.isSeed[face]) continue;
+    if (computed.isSeed[face] != 0) continue;
     interpolatedSum += error;
     report.interpolatedMaximumError = std::max(report.interpolatedMaximumError, error);
     ++report.interpolatedCount;
@@ -109,11 +105,15 @@ CheckReport checkAgainstReference(const TraceScene& scene, const Cone& cone, std
   report.independent = !computed.tracedByReference;
   std::vector<uint32_t> tracedFaces;
   if (report.independent)
-    tracedFaces = randomPermutationSeeds(seedsOf(computed.traced, traceableFaces), count, randomSeed ^ kTracedStream);
+    tracedFaces = randomPermutationSeeds(
+        selectInParallel(traceableFaces, [&](uint32_t face) { return computed.isSeed[face] != 0; }), count,
+        randomSeed ^ kTracedStream);
   const std::vector<uint32_t> faces = randomPermutationSeeds(traceableFaces, count, randomSeed ^ kErrorStream);
   const References references(unionOf(tracedFaces, faces), scene, cone, control);
   if (report.independent)
-    compareTraced(report, tracedFaces, computed.traced, references, scene.geometry.bounds.diagonal(), scene.mesh);
+    compareTraced(report, tracedFaces,
+                  constraintsOf(computed.seeds, computed.values.size(), [](size_t) { return true; }), references,
+                  scene.geometry.bounds.diagonal(), scene.mesh);
   measureErrors(report, faces, computed, references);
   return report;
 }

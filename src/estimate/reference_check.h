@@ -6,14 +6,15 @@
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
 #include "trace/cone_tracer.h"
-#include "trace/traced_seeds.h"
+#include "trace/seeds.h"
 
 namespace asdfvk {
 
 /// Views of a computed result.
 struct ComputedValues {
-  const TracedSeeds& traced;
-  std::span<const double> values;  ///< #F, final.
+  const Seeds& seeds;               ///< Its nodes are faces.
+  std::span<const uint8_t> isSeed;  ///< #F
+  std::span<const double> values;   ///< #F, final.
   bool tracedByReference = false;
 };
 

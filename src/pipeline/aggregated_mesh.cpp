@@ -45,55 +45,34 @@ std::vector<double> lengthLimits(const PreparedMesh& prepared) {
   return limits;
 }
 
-/// The graph of the aggregates with faces as nodes. Only centres have arcs, in the order of aggregates.graph, so that
-/// both graphs have the same weights.
-DualGraph onCentres(const FaceAggregates& aggregates) {
-  DualGraph graph;
-  const std::vector<uint32_t>& centres = aggregates.centres;
-  graph.offsets.resize(aggregates.aggregateOf.size() + 1);
-  graph.offsets[0] = 0;
-  forEachInParallel(centres.size(), [&](uint32_t aggregate) {
-    const size_t end = aggregate + 1 < centres.size() ? centres[aggregate + 1] : aggregates.aggregateOf.size();
-    for (size_t face = centres[aggregate]; face < end; ++face)
-      graph.offsets[face + 1] = aggregates.graph.offsets[aggregate + 1];
-  });
-  graph.neighbours = entriesAt<UnsetVector<uint32_t>>(aggregates.graph.neighbours, centres);
-  return graph;
-}
-
 }  // namespace
 
 AggregatedMesh::AggregatedMesh(const PreparedMesh& prepared)
     : prepared_(prepared),
       aggregates_(buildFaceAggregates(prepared.graph, prepared.geometry,
                                       {kMaxArcCount, lengthLimits(prepared), prepared.components.componentOf})),
-      graph_(onCentres(aggregates_)) {
-  traceableFaces_ =
-      selectInParallel(aggregates_.centres, [&](uint32_t centre) { return !prepared.geometry.isDegenerate(centre); });
-}
+      geometry_(geometryOf(prepared.geometry, aggregates_.centres)),
+      componentOf_(entriesAt<std::vector<uint32_t>>(aggregates_.centres, prepared.components.componentOf)),
+      traceable_(indicesInParallel(geometry_.areas.size(), [&](uint32_t i) { return !geometry_.isDegenerate(i); })) {}
 
 std::unique_ptr<const AggregatedMesh> aggregatesFor(const PreparedMesh& prepared, uint64_t seedCount, bool isPooled) {
   const uint64_t faceCount = prepared.traceableFaces.size();
   if (faceCount < (isPooled ? kMinFaceCountIfPooled : kMinFaceCount) || faceCount < kMinFacesPerSeed * seedCount)
     return nullptr;
   auto aggregated = std::make_unique<const AggregatedMesh>(prepared);
-  const uint64_t centreCount = aggregated->domain().traceableFaces.size();
+  const uint64_t centreCount = aggregated->domain().traceable.size();
   const bool savesTime = static_cast<double>(faceCount) >= kMinFacesPerAggregate * static_cast<double>(centreCount);
   return savesTime && centreCount >= kMinAggregatesPerSeed * seedCount ? std::move(aggregated) : nullptr;
 }
 
-UnsetVector<uint32_t> AggregatedMesh::representedCounts() const {
-  UnsetVector<uint32_t> counts(aggregates_.aggregateOf.size());
-  forEachInParallel(aggregates_.centres.size(),
-                    [&](uint32_t i) { counts[aggregates_.centres[i]] = aggregates_.sizes[i]; });
-  return counts;
+std::vector<double> AggregatedMesh::spreadValues(std::vector<double> values) const {
+  std::vector<double> ofFaces = atFaces(domain(), std::move(values), aggregates_.aggregateOf.size(), kNoValue);
+  spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, ofFaces);
+  return ofFaces;
 }
 
-void AggregatedMesh::spread(std::vector<double>& values, std::span<double> indicator) const {
-  spreadFromCentres(prepared_.graph, prepared_.geometry, aggregates_, values);
-  forEachInParallel(indicator.size(), [&](uint32_t face) {
-    if (!aggregates_.isCentre(face)) indicator[face] = indicator[aggregates_.centreOf(face)];
-  });
+UnsetVector<double> AggregatedMesh::spreadEntries(std::span<const double> entries) const {
+  return entriesAt<UnsetVector<double>>(aggregates_.aggregateOf, entries);
 }
 
 }  // namespace asdfvk

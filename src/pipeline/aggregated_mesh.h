@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "mesh/face_aggregates.h"
-#include "pipeline/face_domain.h"
+#include "mesh/face_domain.h"
+#include "pipeline/prepared_mesh.h"
 
 namespace asdfvk {
 
@@ -16,21 +17,19 @@ class AggregatedMesh {
   explicit AggregatedMesh(const PreparedMesh& prepared);
 
   [[nodiscard]] FaceDomain domain() const {
-    const auto& [componentOf, components] = prepared_.components;
-    return {graph_, componentOf, components.size(), traceableFaces_, {}, this};
+    return {aggregates_.graph, geometry_,           componentOf_,     prepared_.components.components.size(),
+            traceable_,        aggregates_.centres, aggregates_.sizes};
   }
-  [[nodiscard]] const FaceAggregates& aggregates() const { return aggregates_; }
-  /// #F: for a centre, the number of faces of its aggregate; unset for other faces.
-  [[nodiscard]] UnsetVector<uint32_t> representedCounts() const;
-  /// Sets the values of the faces that are not centres, see spreadFromCentres(). Their indicator, #F or empty, becomes
-  /// that of their centre.
-  void spread(std::vector<double>& values, std::span<double> indicator) const;
+  /// #F, see spreadFromCentres(). values: of the domain.
+  [[nodiscard]] std::vector<double> spreadValues(std::vector<double> values) const;
+  /// #F: the entry of the centre of each face. entries: of the domain.
+  [[nodiscard]] UnsetVector<double> spreadEntries(std::span<const double> entries) const;
 
  private:
   const PreparedMesh& prepared_;
   FaceAggregates aggregates_;
-  DualGraph graph_;  // The graph of the aggregates, with their centres as nodes.
-  std::vector<uint32_t> traceableFaces_;
+  FaceGeometry geometry_;
+  std::vector<uint32_t> componentOf_, traceable_;
 };
 
 /// The aggregates for an interpolation from this number of seeds. None if they would not save time, or if the mesh is

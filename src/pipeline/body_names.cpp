@@ -58,15 +58,15 @@ std::vector<std::vector<std::string>> BodyNames::ofGroups(const JudgedSurface& f
   return names;
 }
 
-std::vector<BodyContact> BodyNames::contacts(const FaceDomain& domain) const {
+std::vector<BodyContact> BodyNames::contacts(const InputFaceSet& region) const {
   const PreparedMesh& prepared = surface_.original().prepared;
   const std::vector<Component>& components = prepared.components.components;
-  std::vector<uint8_t> isOfDomain(components.size());
+  std::vector<uint8_t> isOfRegion(components.size());
   for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
-    if (domain.contains(prepared.mesh.inputFaceOf(face))) isOfDomain[surface_.bodyOf(face)] = 1;
+    if (region.contains(prepared.mesh.inputFaceOf(face))) isOfRegion[surface_.bodyOf(face)] = 1;
   std::vector<BodyContact> contacts;
   for (const auto& [first, second] : surface_.meetingBodies())
-    if (isOfDomain[first] != 0 || isOfDomain[second] != 0)
+    if (isOfRegion[first] != 0 || isOfRegion[second] != 0)
       contacts.push_back({of(components[first].firstFace, components[second].firstFace)});
   return contacts;
 }

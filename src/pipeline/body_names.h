@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "asdf_vk/report.h"
-#include "pipeline/face_domain.h"
 #include "pipeline/judged_surface.h"
+#include "pipeline/region.h"
 
 namespace asdfvk {
 
@@ -27,8 +27,8 @@ class BodyNames {
   [[nodiscard]] std::vector<std::vector<std::string>> ofGroups(const JudgedSurface& faces,
                                                                std::span<const uint32_t> groupOf,
                                                                size_t groupCount) const;
-  /// Contacts of bodies of which at least one has a face in the domain.
-  [[nodiscard]] std::vector<BodyContact> contacts(const FaceDomain& domain) const;
+  /// Contacts of bodies of which at least one has a face in the region.
+  [[nodiscard]] std::vector<BodyContact> contacts(const InputFaceSet& region) const;
 
  private:
   [[nodiscard]] std::string nameOf(uint32_t triangle) const;

@@ -25,7 +25,7 @@ std::vector<double> compareVersions(const MeasuredVersion& now, const MeasuredVe
   PlacedPoints placed;
   for (const uint32_t face : prepared.traceableFaces) {
     if (std::isnan(now.thickness.atBarycentre[face])) continue;
-    if (!now.computation.domain.contains(prepared.mesh.inputFaceOf(face))) continue;
+    if (!now.computation.region.contains(prepared.mesh.inputFaceOf(face))) continue;
     placed.add(now, face, prepared.geometry.barycentres[face]);
     placed.thickness.push_back(rangeAtBarycentre(now, face));
   }

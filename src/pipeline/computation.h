@@ -7,8 +7,8 @@
 #include "cone/cone.h"
 #include "pipeline/backend.h"
 #include "pipeline/equation_solver.h"
-#include "pipeline/face_domain.h"
 #include "pipeline/prepared_mesh.h"
+#include "pipeline/region.h"
 #include "pipeline/stage_clock.h"
 #include "trace/cone_tracer.h"
 
@@ -19,6 +19,7 @@ struct Computation {
   const Options& options;
   const PreparedMesh& prepared;
   const FaceDomain& domain;
+  const InputFaceSet& region;
   const TraceScene& scene;
   const Cone& cone;
   Backend& backend;

@@ -18,7 +18,6 @@
 #include "pipeline/input_face_values.h"
 #include "pipeline/rounds.h"
 #include "pipeline/seed_choice.h"
-#include "pipeline/seed_tracing.h"
 #include "pipeline/segments.h"
 #include "pipeline/skeleton_points.h"
 #include "pipeline/surface_measures.h"
@@ -40,11 +39,11 @@ void describeBackend(Report& report, const NamedBackend& named) {
   report.runsOnCpu = named.backend->runsOnCpu();
 }
 
-void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain& domain) {
+void describeMesh(Report& report, const PreparedMesh& prepared, const InputFaceSet& region) {
   report.faceCount = prepared.mesh.inputFaceCount();
-  report.regionFaceCount = domain.inputFaces.empty() ? report.faceCount
-                                                     : countInParallel(domain.inputFaces.size(),
-                                                                       [&](uint32_t i) { return domain.contains(i); });
+  report.regionFaceCount =
+      region.hasAll() ? report.faceCount
+                      : countInParallel(region.flags.size(), [&](uint32_t face) { return region.contains(face); });
   report.triangleCount = prepared.mesh.faceCount();
   report.vertexCount = prepared.mesh.vertices.size();
   report.componentCount = prepared.components.components.size();
@@ -57,44 +56,49 @@ void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain
 }
 
 void describeRounds(Report& report, const RoundsResult& rounds) {
-  report.seedCount = rounds.traced.faces.size();
-  report.rayCount = rounds.traced.statistics.rayCount;
-  report.redoneConeCount = rounds.traced.statistics.redoneConeCount;
+  report.seedCount = rounds.seeds.size();
+  report.rayCount = rounds.seeds.statistics.rayCount;
+  report.redoneConeCount = rounds.seeds.statistics.redoneConeCount;
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
   report.traceChoice = rounds.traceVariant;
   report.solver = rounds.interpolated.solver;
   report.clampedCount = rounds.interpolated.clampedCount;
   report.roundCount = rounds.roundCount;
-  if (rounds.errors) report.estimatedError = rounds.errors->estimate;
 }
+
+/// Values of all faces of the mesh, #F.
+struct FaceValues {
+  std::vector<double> values;
+  UnsetVector<double> expectedErrors;  ///< Empty without an estimate.
+  std::vector<uint8_t> isSeed;
+};
 
 /// Removes the values, and the expected errors, of traced and of degenerate faces that have no value of their own.
-void removeMissing(const PreparedMesh& prepared, RoundsResult& rounds) {
-  for (uint32_t face = 0; face < rounds.interpolated.values.size(); ++face) {
-    const bool isTraced = rounds.traced.isSeed[face];
-    if (!prepared.geometry.isDegenerate(face) && !(isTraced && std::isnan(rounds.traced.values[face]))) continue;
-    rounds.interpolated.values[face] = kNoValue;
-    if (rounds.errors) rounds.errors->expected[face] = 0;
-  }
+void removeMissing(const PreparedMesh& prepared, const Seeds& seeds, FaceValues& faces) {
+  const auto remove = [&](uint32_t face) {
+    faces.values[face] = kNoValue;
+    if (!faces.expectedErrors.empty()) faces.expectedErrors[face] = 0;
+  };
+  for (size_t seed = 0; seed < seeds.size(); ++seed)
+    if (std::isnan(seeds.values[seed])) remove(seeds.nodes[seed]);
+  for (uint32_t face = 0; face < faces.values.size(); ++face)
+    if (prepared.geometry.isDegenerate(face)) remove(face);
 }
 
-void removeErrorsOutside(const PreparedMesh& prepared, const FaceDomain& domain, EstimatedErrors& errors) {
-  if (domain.inputFaces.empty()) return;
-  for (uint32_t face = 0; face < errors.expected.size(); ++face)
-    if (!domain.contains(prepared.mesh.inputFaceOf(face))) errors.expected[face] = kNoValue;
+/// The error at faces outside of the domain is unknown.
+void removeErrorsOutside(const FaceDomain& domain, UnsetVector<double>& expected) {
+  if (domain.faces.empty()) return;
+  expected = atFaces(domain, entriesAt<UnsetVector<double>>(domain.faces, expected), expected.size(), kNoValue);
 }
 
-std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, std::vector<double> values,
-                            SegmentedValues&& segmented) {
+std::vector<Field> fieldsOf(const PreparedMesh& prepared, FaceValues&& faces, SegmentedValues&& segmented) {
   const std::span<const double> areas = prepared.geometry.areas;
   std::vector<Field> fields;
-  fields.push_back(makeField("sdf", valuesOfInputFaces(prepared.mesh, std::move(values), areas)));
-  fields.push_back(makeField("seed", seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)));
-  if (rounds.errors) {
-    const UnsetVector<double>& expected = rounds.errors->expected;
+  fields.push_back(makeField("sdf", valuesOfInputFaces(prepared.mesh, std::move(faces.values), areas)));
+  fields.push_back(makeField("seed", seedsOfInputFaces(prepared.mesh, faces.isSeed)));
+  if (const UnsetVector<double>& expected = faces.expectedErrors; !expected.empty())
     fields.push_back(makeField("error", valuesOfInputFaces(prepared.mesh, {expected.begin(), expected.end()}, areas)));
-  }
   if (!segmented.normalized.empty())
     fields.push_back(
         makeField("normalized", valuesOfInputFaces(prepared.mesh, std::move(segmented.normalized), areas)));
@@ -119,62 +123,89 @@ std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> va
                                 StageClock& clock, const RunControl& stopOnly) {
   if (!smoothing.isOn) return values;
   const auto scope = clock.time(Stage::Smooth);
-  return smoothBilaterally(domain.graph, values,
-                           smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())), stopOnly);
+  const size_t faceCount = values.size();
+  const SmoothingOptions::Window window =
+      smoothing.window.value_or(smoothingWindowFor(static_cast<uint32_t>(faceCount)));
+  return atFaces(domain, smoothBilaterally(domain.graph, atNodes(domain, std::move(values)), window, stopOnly),
+                 faceCount, kNoValue);
+}
+
+/// The results of the rounds with faces as nodes. aggregated: the mesh of the domain, or null.
+RoundsResult onFaces(RoundsResult rounds, const FaceDomain& domain, const AggregatedMesh* aggregated,
+                     size_t faceCount) {
+  for (uint32_t& node : rounds.seeds.nodes) node = domain.faceOf(node);
+  std::vector<double>& values = rounds.interpolated.values;
+  if (aggregated != nullptr) {
+    values = aggregated->spreadValues(std::move(values));
+    if (!rounds.indicator.empty()) rounds.indicator = aggregated->spreadEntries(rounds.indicator);
+    return rounds;
+  }
+  values = atFaces(domain, std::move(values), faceCount, kNoValue);
+  if (!rounds.indicator.empty()) rounds.indicator = atFaces(domain, std::move(rounds.indicator), faceCount, kNoValue);
+  return rounds;
 }
 
 /// Calls runRounds(), on fine meshes for the centres of aggregates only. If these leave a component without a value,
-/// calls it for all faces. keepsNodes: whether the nodes of the hierarchy are needed after the rounds.
-RoundsResult runRoundsOnAggregates(const Computation& computation, PreparedScene& preparedScene, KeptTracers& tracers,
-                                   bool keepsNodes, const RunControl& control) {
-  const auto run = [&](const Computation& on) {
-    const auto makeTracing = [&] {
-      preparedScene.requireHierarchy(bvhOptionsFor(on.backend), on.clock, control.withoutProgress());
-      return std::make_unique<SeedTracing>(on, tracers, keepsNodes ? nullptr : &preparedScene.bvh);
-    };
-    return runRounds(on, makeTracing, control);
+/// calls it for all faces.
+RoundsResult runRoundsOnFaces(const Computation& computation, const RaySource& source, const RunControl& control) {
+  const auto& [options, prepared, domain, region, scene, cone, backend, solvers, clock, warnings] = computation;
+  const auto runOnDomain = [&](const Computation& on, const AggregatedMesh* aggregated) {
+    RoundsResult rounds = runRounds(on, source, control);
+    const auto scope = on.clock.time(Stage::Solve);
+    return onFaces(std::move(rounds), on.domain, aggregated, on.prepared.mesh.faceCount());
   };
-  const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
   const bool mayAggregate = computation.predicts() && options.seeds.kind != SeedCount::Kind::All &&
-                            !options.rounds.areSet() && domain.inputFaces.empty() && !domain.traceableFaces.empty();
-  if (!mayAggregate) return run(computation);
-  const uint64_t seedCount = resolveSeedCount(options, domain.traceableFaces.size());
+                            !options.rounds.areSet() && region.hasAll() && !domain.traceable.empty();
+  if (!mayAggregate) return runOnDomain(computation, nullptr);
+  const uint64_t seedCount = resolveSeedCount(options, domain.traceable.size());
   std::unique_ptr<const AggregatedMesh> aggregated;
   {
     const auto scope = clock.time(Stage::Sample);
     aggregated = aggregatesFor(prepared, seedCount, options.interpolation.pooling > 0);
   }
-  if (!aggregated) return run(computation);
+  if (!aggregated) return runOnDomain(computation, nullptr);
   const FaceDomain centres = aggregated->domain();
   Options counted = options;  // A share would be a share of the centres.
   counted.seeds = SeedCount::ofCount(seedCount);
   control.checkpoint(0);
-  RoundsResult rounds = run({counted, prepared, centres, scene, cone, backend, solvers, clock, warnings});
-  return untriedWithoutValue(domain, rounds.traced).empty() ? std::move(rounds) : run(computation);
+  RoundsResult rounds = runOnDomain(
+      {counted, prepared, centres, region, scene, cone, backend, solvers, clock, warnings}, aggregated.get());
+  const bool hasUntried = !untriedWithoutValue(domain, rounds.seeds, [](size_t) { return true; }).empty();
+  return hasUntried ? runOnDomain(computation, nullptr) : std::move(rounds);
 }
 
-/// keepsNodes: see runRoundsOnAggregates().
-void measureDiameter(Result& result, const Computation& computation, PreparedScene& preparedScene, KeptTracers& tracers,
-                     bool keepsNodes, const RunControl& control) {
-  const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
+FaceValues faceValuesOf(const Computation& computation, RoundsResult& rounds, Report& report) {
+  FaceValues faces{std::move(rounds.interpolated.values), {}, {}};
+  faces.isSeed = seedFlags(rounds.seeds, faces.values.size());
+  if (rounds.errors) {
+    const auto scope = computation.clock.time(Stage::Estimate);
+    faces.expectedErrors = expectedErrors(*rounds.errors, rounds.seeds, faces.values, rounds.indicator);
+    report.estimatedError = rounds.errors->estimate;
+  }
+  if (computation.keepsMissing()) removeMissing(computation.prepared, rounds.seeds, faces);
+  if (rounds.errors) removeErrorsOutside(computation.domain, faces.expectedErrors);
+  return faces;
+}
+
+void measureDiameter(Result& result, const Computation& computation, const RaySource& source,
+                     const RunControl& control) {
+  const auto& [options, prepared, domain, region, scene, cone, backend, solvers, clock, warnings] = computation;
   Report& report = result.report;
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  RoundsResult rounds =
-      runRoundsOnAggregates(computation, preparedScene, tracers, keepsNodes, control.part(0, roundsEnd));
+  RoundsResult rounds = runRoundsOnFaces(computation, source, control.part(0, roundsEnd));
   describeRounds(report, rounds);
-  if (computation.keepsMissing()) removeMissing(prepared, rounds);
-  if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
+  FaceValues faces = faceValuesOf(computation, rounds, report);
   const RunControl stopOnly = control.withoutProgress();
-  std::vector<double> values =
-      finalValues(domain, std::move(rounds.interpolated.values), options.smoothing, clock, stopOnly);
-  SegmentedValues segmented = segmentValues(
-      prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
+  faces.values = finalValues(domain, std::move(faces.values), options.smoothing, clock, stopOnly);
+  SegmentedValues segmented =
+      segmentValues(prepared, faces.values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock,
+                    report, stopOnly);
   if (options.checkCount)
-    report.check =
-        checkAgainstReference(scene, cone, domain.traceableFaces, {rounds.traced, values, backend.isReference()},
-                              *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
-  result.fields = fieldsOf(prepared, rounds, std::move(values), std::move(segmented));
-  describeValues(report, prepared, domain, result.sdf(), computation.keepsMissing());
+    report.check = checkAgainstReference(scene, cone, facesAt(domain, domain.traceable),
+                                         {rounds.seeds, faces.isSeed, faces.values, backend.isReference()},
+                                         *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
+  result.fields = fieldsOf(prepared, std::move(faces), std::move(segmented));
+  describeValues(report, prepared, region, result.sdf(), computation.keepsMissing());
 }
 
 /// The scene for pictures. A scene that is not used again keeps nothing else.
@@ -203,7 +234,7 @@ void convertToUnit(std::optional<LengthLimit>& limit, const std::string& unit) {
 
 /// Sets SeedCount::all() if every face becomes a seed: then nothing is interpolated, and no hit has to be kept.
 Options withAllSeeds(Options options, const FaceDomain& domain) {
-  const uint64_t faceCount = domain.traceableFaces.size();
+  const uint64_t faceCount = domain.traceable.size();
   if (faceCount > 0 && resolveSeedCount(options, faceCount) == faceCount) options.seeds = SeedCount::all();
   return options;
 }
@@ -220,9 +251,12 @@ Options completedFor(const SessionState& session, const Options& options) {
 void computeOn(const ComputationInput& input, const Options& requested, StageClock& clock, const RunControl& control,
                Result& result) {
   Report& report = result.report;
-  const auto& [session, sharedScene, domain, tracers, isLast, former] = input;
+  const auto& [session, sharedScene, part, tracers, former] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
+  const FaceDomain domain = part != nullptr ? part->domain() : wholeMesh(prepared);
+  const InputFaceSet region = part != nullptr ? part->inputFaces() : InputFaceSet();
+  const bool isLast = tracers == nullptr;
   // The backend may have changed.
   if (session.named.backend->device() == nullptr) (void)completedFor(session, requested);
   Options options = withAllSeeds(requested, domain);
@@ -232,17 +266,16 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const Cone cone = makeCone(options.cone);
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
-  describeMesh(report, prepared, domain);
+  describeMesh(report, prepared, region);
   result.reversedFaces = prepared.reversedFaces;
   report.warnings.insert(report.warnings.end(), session.warnings().begin(), session.warnings().end());
 
   const TraceScene scene = sharedScene->view();
-  const Computation computation{options, prepared,        domain, scene,          cone,
-                                backend, session.solvers, clock,  report.warnings};
+  const Computation computation{options, prepared, domain,          region, scene,
+                                cone,    backend,  session.solvers, clock,  report.warnings};
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
                           options.measuresGap() || options.segmentation == Segmentation::Parts;
-  if (options.measuresDiameter())
-    measureDiameter(result, computation, *sharedScene, input.tracers, keepsNodes, control);
+  if (options.measuresDiameter()) measureDiameter(result, computation, {*sharedScene, tracers, keepsNodes}, control);
   if (options.measuresThickness() || options.measuresGap()) {
     sharedScene->requireHierarchy(bvhOptionsFor(backend), clock, control.withoutProgress());
     measureSurfaces(result, computation, *sharedScene, former,

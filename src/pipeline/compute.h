@@ -4,10 +4,10 @@
 
 #include "asdf_vk/session.h"
 #include "cone/cone.h"
-#include "pipeline/face_domain.h"
 #include "pipeline/judged_surface.h"
 #include "pipeline/kept_tracers.h"
 #include "pipeline/prepared_scene.h"
+#include "pipeline/region.h"
 #include "pipeline/session_state.h"
 
 namespace asdfvk {
@@ -16,9 +16,9 @@ namespace asdfvk {
 struct ComputationInput {
   SessionState& session;
   const std::shared_ptr<PreparedScene>& scene;
-  const FaceDomain& domain;  ///< A domain of the scene.
-  KeptTracers& tracers;      ///< Tracers of the scene.
-  bool isLast;  ///< Whether the scene is not used again, so that the computation may release its data early.
+  const Region* region;  ///< Null: the whole mesh.
+  /// Tracers of the scene. Null: the scene is not used again, so that the computation may release its data early.
+  KeptTracers* tracers;
   const JudgedSurface* former = nullptr;  ///< The surface of a former version for a comparison; null: none.
 };
 

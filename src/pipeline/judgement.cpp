@@ -50,7 +50,7 @@ template <typename Holds>
 uint64_t Judgement::countDomainFaces(const Holds& holds) const {
   const TriangleMesh& mesh = computation_.prepared.mesh;
   return countInputFaces(
-      [&](uint32_t face) { return computation_.domain.contains(mesh.inputFaceOf(face)) && holds(face); });
+      [&](uint32_t face) { return computation_.region.contains(mesh.inputFaceOf(face)) && holds(face); });
 }
 
 UnjudgedFaces Judgement::unjudged() const {

@@ -5,6 +5,18 @@
 
 namespace asdfvk {
 
+KeptTracer::KeptTracer(Backend& backend, const TraceScene& scene, const ConeOptions& coneOptions,
+                       const TracerNeeds& tracerNeeds, StageClock& clock)
+    : options(coneOptions), cone(makeCone(coneOptions)), needs(tracerNeeds) {
+  const Stage stage = setUpStage(backend);
+  {
+    const auto scope = clock.time(stage);
+    tracer = backend.makeTracer(scene, cone, needs);
+    variant = backend.traceVariant();
+  }
+  clock.transfer(stage, Stage::Encode, tracer->encodeSeconds());
+}
+
 std::shared_ptr<KeptTracer> KeptTracers::get(const ConeOptions& options, const TracerNeeds& needs, StageClock& clock) {
   const auto found =
       std::find_if(kept_.begin(), kept_.end(), [&](const auto& entry) { return entry->options == options; });
@@ -15,23 +27,9 @@ std::shared_ptr<KeptTracer> KeptTracers::get(const ConeOptions& options, const T
     }
     kept_.erase(found);  // Erased before the new tracer is made, which lowers the peak of memory.
   }
-  if (capacity_ == 0) return make(options, needs, clock);
   if (kept_.size() == capacity_) kept_.pop_back();
-  kept_.insert(kept_.begin(), make(options, needs, clock));
+  kept_.insert(kept_.begin(), std::make_shared<KeptTracer>(backend_, scene_, options, needs, clock));
   return kept_.front();
-}
-
-std::shared_ptr<KeptTracer> KeptTracers::make(const ConeOptions& options, const TracerNeeds& needs,
-                                              StageClock& clock) const {
-  auto made = std::make_shared<KeptTracer>(KeptTracer{options, makeCone(options), needs, nullptr});
-  const Stage stage = setUpStage(backend_);
-  {
-    const auto scope = clock.time(stage);
-    made->tracer = backend_.makeTracer(scene_, made->cone, needs);
-    made->variant = backend_.traceVariant();
-  }
-  clock.transfer(stage, Stage::Encode, made->tracer->encodeSeconds());
-  return made;
 }
 
 Stage setUpStage(const Backend& backend) { return backend.traceVariant() ? Stage::Upload : Stage::Encode; }

@@ -14,6 +14,10 @@ namespace asdfvk {
 
 /// A tracer with the cone that it refers to.
 struct KeptTracer {
+  /// The time of creation is charged to the clock. Throws the errors of makeCone(), and Error{Device}.
+  KeptTracer(Backend& backend, const TraceScene& scene, const ConeOptions& coneOptions, const TracerNeeds& tracerNeeds,
+             StageClock& clock);
+
   ConeOptions options;
   Cone cone;
   TracerNeeds needs;
@@ -24,20 +28,16 @@ struct KeptTracer {
 /// The tracers of one scene. The tracers used last are kept, because making a tracer encodes and uploads the hierarchy.
 class KeptTracers {
  public:
-  /// Backend and scene must outlive this object and all tracers. capacity: number of tracers to keep.
+  /// Backend and scene must outlive this object and all tracers. capacity: number of tracers to keep, at least 1.
   KeptTracers(Backend& backend, const TraceScene& scene, size_t capacity)
       : backend_(backend), scene_(scene), capacity_(capacity) {}
 
   [[nodiscard]] const Backend& backend() const { return backend_; }
-  /// A tracer for these cones: a kept tracer that serves the needs, or a new one. The time of creation is charged to
-  /// the clock. Throws the errors of makeCone(), and Error{Device}.
+  /// A tracer for these cones: a kept tracer that serves the needs, or a new one. Throws the errors of KeptTracer().
   [[nodiscard]] std::shared_ptr<KeptTracer> get(const ConeOptions& options, const TracerNeeds& needs,
                                                 StageClock& clock);
 
  private:
-  [[nodiscard]] std::shared_ptr<KeptTracer> make(const ConeOptions& options, const TracerNeeds& needs,
-                                                 StageClock& clock) const;
-
   Backend& backend_;
   TraceScene scene_;
   size_t capacity_;

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include "core/background_task.h"
@@ -11,369 +10,229 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
-#include "pipeline/aggregated_mesh.h"
+#include "estimate/held_out.h"
+#include "pipeline/next_round.h"
 #include "pipeline/seed_choice.h"
+#include "pipeline/seed_prediction.h"
 
 namespace asdfvk {
 namespace {
-
-// The error of a face falls with about this power of the number of seeds (docs/accuracy.md).
-constexpr double kConvergence = 0.4;
-constexpr double kMinGrowth = 1.25, kMaxGrowth = 4, kGrowthStep = 1.05;
-// The error is bounded by the estimate plus this many standard errors.
-constexpr double kStandardErrors = 1.5;
-// A round that adds less than this share of the seeds is not run.
-constexpr double kMinRoundShare = 0.05;
-// Share of the remaining time that a round may plan to use.
-constexpr double kPlannedShare = 0.8;
-// Above the number of faces of any mesh.
-constexpr double kMaxSeedCount = 1e18;
 
 // Parts of the progress of a round.
 constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.75, kHeldOutTracedProgress = 0.85,
                  kPredictedProgress = 0.87;
 
-/// Sorts faces whose first part is usually sorted.
-std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
-  const auto end = std::is_sorted_until(faces.begin(), faces.end());
-  sortInParallel(end, faces.end());
-  std::inplace_merge(faces.begin(), end, faces.end());
-  return faces;
-}
+/// What all rounds of a computation use.
+struct RoundTools {
+  explicit RoundTools(const Computation& of)
+      : computation(of),
+        prediction(of),
+        solver(of.options, of.backend, of.solvers, of.warnings),
+        arcAngles(of.domain.graph, of.domain.geometry),
+        interpolation(of.domain, of.prepared.mesh, arcAngles, of.options, solver) {}
 
-/// Hides the values of some faces while the object exists.
-class HiddenValues {
- public:
-  HiddenValues(std::vector<double>& values, std::vector<uint32_t> faces) : values_(values), faces_(std::move(faces)) {
-    for (const uint32_t face : faces_) hidden_.push_back(std::exchange(values_[face], kNoValue));
-  }
-  ~HiddenValues() {
-    for (size_t i = 0; i < faces_.size(); ++i) values_[faces_[i]] = hidden_[i];
-  }
-  HiddenValues(const HiddenValues&) = delete;
-  HiddenValues& operator=(const HiddenValues&) = delete;
-
- private:
-  std::vector<double>& values_;
-  std::vector<uint32_t> faces_;
-  std::vector<double> hidden_;
+  const Computation& computation;
+  std::unique_ptr<SeedTracing> tracing;  ///< Null before the first seeds are chosen and after the last ray.
+  SeedPrediction prediction;
+  EquationSolver solver;
+  ArcAngles arcAngles;
+  Interpolation interpolation;
 };
 
-class Rounds {
- public:
-  Rounds(const Computation& computation, const MakeSeedTracing& makeTracing)
-      : computation_(computation),
-        options_(computation.options),
-        clock_(computation.clock),
-        makeTracing_(makeTracing),
-        prediction_(computation),
-        solver_(computation.options, computation.backend, computation.solvers, computation.warnings),
-        arcAngles_(computation.domain.graph, computation.prepared.geometry),
-        interpolation_(computation.domain, computation.prepared, arcAngles_, computation.options, solver_),
-        traced_(computation.prepared.geometry.areas.size(),
-                computation.keepsHits() ? computation.cone.directions.size() : 0) {}
-
-  RoundsResult run(const RunControl& control) {
-    const uint64_t traceableCount = computation_.domain.traceableFaces.size();
-    runRound(resolveSeedCount(options_, traceableCount), !options_.rounds.areSet(), control);
-    while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
-    control.checkpoint(1);
-    return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_, std::move(traceVariant_)};
-  }
-
- private:
-  void runRound(uint64_t count, bool isLast, const RunControl& control);
-  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density, const RunControl& control);
-  [[nodiscard]] SeedChoice timedChoice(const SeedShares& shares, std::span<const double> density,
-                                       const RunControl& control);
-  [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares, const RunControl& control);
-  void traceChosen(SeedChoice choice, const RunControl& control);
-  void sortSampled();
-  std::vector<uint32_t> predictWithoutHeldOut(Stage stage, const RunControl& control);
-  [[nodiscard]] UnsetVector<double> indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom);
-  std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
-                                          const RunControl& control);
-  void interpolate(std::span<const uint32_t> extremes, UnsetVector<double> indicator, bool estimates,
-                   const RunControl& control);
-  [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes);
-  [[nodiscard]] uint64_t furtherCount() const;
-  [[nodiscard]] uint64_t countForError() const;
-  [[nodiscard]] uint64_t countForTarget(std::optional<double> maximum, double estimate, double standardError) const;
-  [[nodiscard]] uint64_t countForTime() const;
-  [[nodiscard]] uint64_t remainingCount() const;
-  [[nodiscard]] double raySeconds() const {
-    return clock_.secondsOf(Stage::Trace) + clock_.secondsOf(Stage::Sample) + hiddenSampleSeconds_;
-  }
-
-  const Computation& computation_;
-  const Options& options_;
-  StageClock& clock_;
-  const MakeSeedTracing& makeTracing_;
-  std::unique_ptr<SeedTracing> tracing_;  ///< Null before the first seeds are chosen and after the last ray.
-  std::optional<TraceVariant> traceVariant_;
-  SeedPrediction prediction_;
-  EquationSolver solver_;
-  ArcAngles arcAngles_;
-  Interpolation interpolation_;
-
-  SeedChoice sampled_;  ///< All seeds. `sampled` includes extreme seeds.
-  TracedSeeds traced_;
-  HeldOutFaces heldOut_;
-  Interpolated result_;
-  std::optional<EstimatedErrors> errors_;
-  double hiddenSampleSeconds_ = 0;   ///< Time of the choice of the first seeds that Stage::Sample does not include.
-  double interpolationSeconds_ = 0;  ///< Time of the last round without its rays.
-  uint32_t roundCount_ = 0;
-};
-
-void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
-  errors_.reset();
-  count = std::min(count, remainingCount());
-  const bool predicts = computation_.predicts();
-  const SeedShares shares = options_.estimatesError && count < remainingCount()
-                                ? shareSeeds(count, heldOut_.faces.size(), predicts)
-                                : SeedShares{.sampled = count};
-  const bool refines = samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount();
-  const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
-  const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
-  SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first, control) : timedChoice(first, {}, control);
-  const double begin = clock_.elapsed(), earlierRays = raySeconds();
-  traced_.faces.reserve(traced_.faces.size() + count);
-  traced_.hits.reserve(traced_.hits.size() + count * traced_.hitsPerSeed);
-  traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
-  if (refines) {
-    const UnsetVector<double> density =
-        indicateErrors(Stage::Sample, predictWithoutHeldOut(Stage::Sample, control.withoutProgress()));
-    traceChosen(timedChoice({.sampled = refiningCount}, density, control),
-                control.part(kTracedProgress / 2, kTracedProgress));
-  }
-  const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
-  UnsetVector<double> indicator;
-  std::vector<uint32_t> extremes;
-  if (estimates && predicts) {
-    indicator = indicateErrors(
-        Stage::Estimate, predictWithoutHeldOut(Stage::Predict, control.part(kTracedProgress, kIndicatorProgress)));
-    control.checkpoint(kIndicatorProgress);
-    extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
-  }
-  if (isLast) tracing_.reset();
-  interpolate(extremes, std::move(indicator), estimates, control.part(kHeldOutTracedProgress, 1));
-  interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);
-}
-
-/// Computes the result and, if `estimates`, its errors. extremes: the extreme seeds of this round.
-void Rounds::interpolate(std::span<const uint32_t> extremes, UnsetVector<double> indicator, bool estimates,
-                         const RunControl& control) {
-  const bool hasPrediction = estimates && computation_.predicts();  // The prediction is made without held-out faces.
-  std::vector<ReplacedValue> replaced;
-  {
-    const auto scope = clock_.time(hasPrediction ? Stage::Estimate : Stage::Predict);
-    const RunControl predicting = control.part(0, kPredictedProgress);
-    if (hasPrediction)
-      replaced = prediction_.addSeeds({traced_.faces, traced_.hits}, predicting);
-    else
-      prediction_.predict({traced_.faces, traced_.hits}, predicting);
-  }
-  if (!tracing_) freeMemory(traced_.hits);  // No further round follows.
-  control.checkpoint(kPredictedProgress);
-  {
-    const auto scope = clock_.time(Stage::Solve);
-    result_ = interpolation_.solve(traced_.values, prediction_.last().values, control.part(kPredictedProgress, 1));
-  }
-  std::vector<double> withoutHeldOut;  // #H
-  if (estimates) {
-    const auto scope = clock_.time(Stage::Estimate);
-    prediction_.exchange(replaced);
-    withoutHeldOut = solveWithoutHeldOut(extremes);
-    prediction_.exchange(replaced);
-  }
-  interpolation_.pool(prediction_.last().values, result_.values);
-  if (const AggregatedMesh* const aggregated = computation_.domain.aggregated) {
-    const auto scope = clock_.time(Stage::Solve);
-    aggregated->spread(result_.values, indicator);
-  }
-  if (estimates) {
-    const auto scope = clock_.time(Stage::Estimate);
-    EstimatedErrors errors = estimateErrors(computation_.scene.mesh, {traced_, heldOut_, withoutHeldOut, indicator,
-                                                                      result_.values, computation_.predicts()});
-    if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
-  }
+uint64_t remainingCount(const Computation& computation, const Seeds& seeds) {
+  return computation.domain.traceable.size() - seeds.size();
 }
 
 /// density: see chooseSeeds().
-SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density, const RunControl& control) {
-  return chooseSeeds(computation_.domain, computation_.prepared.geometry, arcAngles_, options_, shares, sampled_,
-                     density, control.withoutProgress());
-}
-
-SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double> density, const RunControl& control) {
-  const auto scope = clock_.time(Stage::Sample);
-  return choose(shares, density, control);
+SeedChoice choose(RoundTools& tools, const Seeds& seeds, const SeedShares& shares, std::span<const double> density,
+                  const RunControl& control) {
+  const Computation& computation = tools.computation;
+  const auto scope = computation.clock.time(Stage::Sample);
+  return chooseSeeds(computation.domain, tools.arcAngles, computation.options, shares, seeds, density,
+                     control.withoutProgress());
 }
 
 /// The first seeds are chosen in the background while this thread builds the hierarchy and makes the tracer. Therefore
-/// choose() must not read the hierarchy. Stage::Sample includes only the time for which this thread then waits.
-SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares, const RunControl& control) {
+/// chooseSeeds() must not read the hierarchy. Stage::Sample includes only the time for which this thread then waits.
+SeedChoice chooseWhileOpening(RoundTools& tools, const RaySource& source, const SeedShares& shares,
+                              const RunControl& control) {
+  const Computation& computation = tools.computation;
   SeedChoice choice;
-  double seconds = 0;
   BackgroundTask choosing([&] {
-    const Stopwatch watch;
-    choice = choose(shares, {}, control);
-    seconds = watch.seconds();
+    choice = chooseSeeds(computation.domain, tools.arcAngles, computation.options, shares, {}, {},
+                         control.withoutProgress());
   });
-  callIsolated([&] {
-    tracing_ = makeTracing_();
-    traceVariant_ = tracing_->traceVariant();
-  });
-  const Stopwatch watch;
-  const auto scope = clock_.time(Stage::Sample);
+  callIsolated([&] { tools.tracing = std::make_unique<SeedTracing>(computation, source, control.withoutProgress()); });
+  const auto scope = computation.clock.time(Stage::Sample);
   choosing.wait();
-  hiddenSampleSeconds_ = std::max(0.0, seconds - watch.seconds());
   return choice;
 }
 
-void Rounds::traceChosen(SeedChoice choice, const RunControl& control) {
-  ++roundCount_;
-  const auto scope = clock_.time(Stage::Trace);
+void traceChoice(RoundTools& tools, const SeedChoice& choice, Seeds& seeds, const RunControl& control) {
+  const auto scope = tools.computation.clock.time(Stage::Trace);
   const auto sampledCount = static_cast<double>(choice.sampled.size()),
              heldOutCount = static_cast<double>(choice.heldOut.size());
   const double sampledShare = sampledCount / std::max(1.0, sampledCount + heldOutCount);
-  tracing_->trace(choice.sampled, traced_, control.part(0, sampledShare));
-  tracing_->trace(choice.heldOut, traced_, control.part(sampledShare, 1));
-  std::vector<double> equalWeights(choice.heldOut.size(), 1.0);
-  heldOut_.append({std::move(choice.heldOut), std::move(equalWeights)});
-  {  // The interpolation without held-out faces needs a value in each component, too.
-    const HiddenValues hidden(traced_.values, heldOut_.faces);
-    tracing_->traceComponentsWithoutValue(traced_, control);
-  }
-  sortSampled();
+  tools.tracing->trace(choice.sampled, SeedKind::Sampled, seeds, control.part(0, sampledShare));
+  tools.tracing->trace(choice.heldOut, SeedKind::HeldOut, seeds, control.part(sampledShare, 1));
+  seeds.heldOutWeights.resize(seeds.heldOutWeights.size() + choice.heldOut.size(), 1.0);
+  tools.tracing->traceComponentsWithoutValue(seeds, control);
 }
 
-void Rounds::sortSampled() {
-  sampled_.heldOut = sorted(heldOut_.faces);
-  const std::vector<uint32_t> all = sorted(traced_.faces);
-  sampled_.sampled.clear();
-  std::set_difference(all.begin(), all.end(), sampled_.heldOut.begin(), sampled_.heldOut.end(),
-                      std::back_inserter(sampled_.sampled));
-}
-
-/// Predicts from all seeds except held-out faces. Returns these seeds: #S as in traced_.faces, kNoFace for held-out
-/// faces.
-std::vector<uint32_t> Rounds::predictWithoutHeldOut(Stage stage, const RunControl& control) {
-  const auto scope = clock_.time(stage);
-  std::vector<uint32_t> faces = traced_.faces;
-  for (uint32_t& face : faces)
-    if (std::binary_search(sampled_.heldOut.begin(), sampled_.heldOut.end(), face)) face = kNoFace;
-  prediction_.predict({faces, traced_.hits}, control);
-  return faces;
-}
-
-/// The error indicator, #F, from the last prediction. predictedFrom: the seeds of this prediction. stage: the stage to
-/// charge.
-UnsetVector<double> Rounds::indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom) {
-  const auto scope = clock_.time(stage);
-  return errorIndicator(prediction_.last(), predictedFrom, traced_.values);
-}
-
-/// Traces extreme seeds, the faces with the greatest predictions, and held-out faces that are sampled by the indicator.
-/// Returns the extreme seeds.
-std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
-                                                const RunControl& control) {
-  std::vector<uint32_t> extremes, faces;
-  HeldOutFaces heldOut;
+/// Predicts from all seeds except held-out seeds. Returns the error indicator of this prediction, #N.
+UnsetVector<double> indicateErrors(RoundTools& tools, const Seeds& seeds, Stage stageOfPrediction,
+                                   Stage stageOfIndicator, const RunControl& control) {
+  StageClock& clock = tools.computation.clock;
+  const std::vector<uint32_t> nodes = nodesWithoutHeldOut(seeds);
   {
-    const auto scope = clock_.time(Stage::Sample);
-    const std::span<const uint32_t> traceable = computation_.domain.traceableFaces;
-    extremes = extremeSeeds(traceable, prediction_.last().values, traced_.isSeed, shares.extreme);
-    const std::vector<uint32_t> candidates = selectInParallel(traceable, [&](uint32_t face) {
-      return !traced_.isSeed[face] && !std::binary_search(extremes.begin(), extremes.end(), face);
-    });
-    const AggregatedMesh* const aggregated = computation_.domain.aggregated;
-    const UnsetVector<uint32_t> counts = aggregated ? aggregated->representedCounts() : UnsetVector<uint32_t>();
-    heldOut = sampleHeldOut(candidates, indicator, shares.heldOut,
-                            heldOutSeed(options_.randomSeed, heldOut_.faces.size()), counts);
-    faces = extremes;
-    faces.insert(faces.end(), heldOut.faces.begin(), heldOut.faces.end());
+    const auto scope = clock.time(stageOfPrediction);
+    tools.prediction.predict({nodes, seeds.hits}, control);
   }
-  const auto scope = clock_.time(Stage::Trace);
-  tracing_->trace(sorted(std::move(faces)), traced_, control);
-  heldOut_.append(heldOut);
-  sortSampled();
-  return extremes;
+  const auto scope = clock.time(stageOfIndicator);
+  return errorIndicator(tools.prediction.last(), nodes, seeds.values);
 }
 
-/// #H: the values of the held-out faces, interpolated without them and without these extreme seeds. NaN for a face
-/// without a traced value.
-std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extremes) {
-  std::vector<size_t> measured;  // Held-out faces without a traced value have no error.
-  std::vector<uint32_t> faces;
-  for (size_t i = 0; i < heldOut_.faces.size(); ++i) {
-    if (std::isnan(traced_.values[heldOut_.faces[i]])) continue;
-    measured.push_back(i);
-    faces.push_back(heldOut_.faces[i]);
+/// Traces extreme seeds, the nodes with the greatest predictions, and held-out seeds that are sampled by the indicator.
+void traceByPrediction(RoundTools& tools, const SeedShares& shares, std::span<const double> indicator, Seeds& seeds,
+                       const RunControl& control) {
+  const Computation& computation = tools.computation;
+  const FaceDomain& domain = computation.domain;
+  std::vector<uint32_t> nodes;
+  std::vector<SeedKind> kinds;
+  {
+    const auto scope = computation.clock.time(Stage::Sample);
+    std::vector<uint8_t> isSeed = seedFlags(seeds, domain.size());
+    const std::vector<uint32_t> extremes =
+        extremeSeeds(domain.traceable, tools.prediction.last().values, isSeed, shares.extreme);
+    for (const uint32_t node : extremes) isSeed[node] = 1;
+    const HeldOutFaces heldOut = sampleHeldOut(
+        selectInParallel(domain.traceable, [&](uint32_t node) { return isSeed[node] == 0; }), indicator, shares.heldOut,
+        heldOutSeed(computation.options.randomSeed, seeds.heldOutWeights.size()), domain.representedCounts);
+    std::ranges::merge(extremes, heldOut.faces, std::back_inserter(nodes));
+    for (const uint32_t node : nodes) kinds.push_back(isSeed[node] != 0 ? SeedKind::Extreme : SeedKind::HeldOut);
+    seeds.heldOutWeights.insert(seeds.heldOutWeights.end(), heldOut.weights.begin(), heldOut.weights.end());
   }
-  std::vector<uint32_t> unknown = heldOut_.faces;
-  unknown.insert(unknown.end(), extremes.begin(), extremes.end());
-  const HiddenValues hidden(traced_.values, std::move(unknown));
+  const auto scope = computation.clock.time(Stage::Trace);
+  tools.tracing->trace(nodes, kinds, seeds, control);
+}
+
+/// #H: the values at the held-out seeds, interpolated without them and without the extreme seeds of this round, which
+/// begins with the seed `firstOfRound`. NaN for a seed without a traced value. solved: interpolated from all seeds.
+std::vector<double> solveWithoutHeldOut(RoundTools& tools, const Seeds& seeds, size_t firstOfRound,
+                                        std::span<const double> solved) {
+  std::vector<size_t> measured;  // Places of held-out seeds with a value; the others have no error.
+  std::vector<uint32_t> nodes;
+  for (size_t seed = 0, place = 0; seed < seeds.size(); ++seed) {
+    if (!seeds.isHeldOut(seed)) continue;
+    if (!std::isnan(seeds.values[seed])) {
+      measured.push_back(place);
+      nodes.push_back(seeds.nodes[seed]);
+    }
+    ++place;
+  }
+  const std::vector<double> constraints = constraintsOf(seeds, tools.computation.domain.size(), [&](size_t seed) {
+    return !seeds.isHeldOut(seed) && (seed < firstOfRound || seeds.kinds[seed] != SeedKind::Extreme);
+  });
   const std::vector<double> values =
-      interpolation_.valuesAt(faces, traced_.values, prediction_.last().values, result_.values);
-  std::vector<double> ofHeldOut(heldOut_.faces.size(), kNoValue);
+      tools.interpolation.valuesAt(nodes, constraints, tools.prediction.last().values, solved);
+  std::vector<double> ofHeldOut(seeds.heldOutWeights.size(), kNoValue);
   for (size_t i = 0; i < measured.size(); ++i) ofHeldOut[measured[i]] = values[i];
   return ofHeldOut;
 }
 
-uint64_t Rounds::remainingCount() const {
-  return computation_.domain.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
+/// Computes the values and, if `estimates`, their errors.
+void interpolate(RoundTools& tools, size_t firstOfRound, bool estimates, RoundsResult& result,
+                 const RunControl& control) {
+  const Computation& computation = tools.computation;
+  StageClock& clock = computation.clock;
+  Seeds& seeds = result.seeds;
+  const bool isPredicted = estimates && computation.predicts();  // The prediction was made without held-out seeds.
+  Prediction withAll;
+  {
+    const auto scope = clock.time(isPredicted ? Stage::Estimate : Stage::Predict);
+    const RunControl predicting = control.part(0, kPredictedProgress);
+    if (isPredicted)
+      withAll = tools.prediction.withFurtherSeeds({seeds.nodes, seeds.hits}, predicting);
+    else
+      tools.prediction.predict({seeds.nodes, seeds.hits}, predicting);
+  }
+  const std::span<const double> predicted = isPredicted ? withAll.values : tools.prediction.last().values;
+  if (!tools.tracing) freeMemory(seeds.hits);  // No further round follows.
+  control.checkpoint(kPredictedProgress);
+  {
+    const auto scope = clock.time(Stage::Solve);
+    result.interpolated =
+        tools.interpolation.solve(constraintsOf(seeds, computation.domain.size(), [](size_t) { return true; }),
+                                  predicted, control.part(kPredictedProgress, 1));
+  }
+  std::vector<double> withoutHeldOut;
+  if (estimates) {
+    const auto scope = clock.time(Stage::Estimate);
+    withoutHeldOut = solveWithoutHeldOut(tools, seeds, firstOfRound, result.interpolated.values);
+  }
+  tools.interpolation.pool(predicted, result.interpolated.values);
+  if (!estimates) return;
+  const auto scope = clock.time(Stage::Estimate);
+  EstimatedErrors errors =
+      estimateErrors(computation.scene.mesh, computation.domain,
+                     {seeds, withoutHeldOut, result.indicator, result.interpolated.values, computation.predicts()});
+  if (errors.estimate.heldOutCount > 0) result.errors = std::move(errors);
 }
 
-/// Number of seeds of the next round; 0 if the conditions of the rounds are fulfilled.
-uint64_t Rounds::furtherCount() const {
-  if (!options_.rounds.areSet() || remainingCount() == 0) return 0;
-  return std::min({countForError(), countForTime(), remainingCount()});
-}
-
-uint64_t Rounds::countForError() const {
-  const RoundOptions& rounds = options_.rounds;
-  if (!rounds.limitError()) return remainingCount();
-  if (!errors_) return static_cast<uint64_t>(std::ceil((kMaxGrowth - 1) * static_cast<double>(traced_.faces.size())));
-  const ErrorEstimate& estimate = errors_->estimate;
-  return std::max(
-      countForTarget(rounds.maxError, estimate.average, estimate.standardError),
-      countForTarget(rounds.maxRelativeError, estimate.relativeMedian, estimate.relativeMedianStandardError));
-}
-
-/// Number of further seeds until the bound of an error is at most `maximum`; 0 without a maximum. estimate,
-/// standardError: of the error now.
-uint64_t Rounds::countForTarget(std::optional<double> maximum, double estimate, double standardError) const {
-  if (!maximum) return 0;
-  const auto seedCount = static_cast<double>(traced_.faces.size());
-  const double target = *maximum, bound = estimate + kStandardErrors * standardError;
-  if (bound <= target) return 0;
-  // The number of interpolated faces falls with the number of seeds. The error of an interpolated face falls with a
-  // power of the number of seeds.
-  const auto candidateCount = static_cast<double>(computation_.domain.traceableFaces.size());
-  const double perFace = bound / (1 - seedCount / candidateCount);
-  double growth = kMinGrowth;
-  while (growth < kMaxGrowth && growth * seedCount < candidateCount &&
-         (1 - growth * seedCount / candidateCount) * perFace * std::pow(growth, -kConvergence) > target)
-    growth *= kGrowthStep;
-  return static_cast<uint64_t>(std::ceil((growth - 1) * seedCount));
-}
-
-uint64_t Rounds::countForTime() const {
-  if (!options_.rounds.timeBudgetSeconds) return std::numeric_limits<uint64_t>::max();
-  const auto seedCount = static_cast<double>(traced_.faces.size());
-  const double remaining = *options_.rounds.timeBudgetSeconds - clock_.elapsed() - interpolationSeconds_;
-  const double perSeed = raySeconds() / std::max(1.0, seedCount);
-  const double count = kPlannedShare * remaining / std::max(perSeed, 1e-12);
-  if (count < kMinRoundShare * seedCount) return 0;
-  return static_cast<uint64_t>(std::min(count, kMaxSeedCount));
+/// count: number of seeds of the round.
+void runRound(RoundTools& tools, const RaySource& source, uint64_t count, RoundsResult& result,
+              const RunControl& control) {
+  const Computation& computation = tools.computation;
+  const Options& options = computation.options;
+  Seeds& seeds = result.seeds;
+  const size_t firstOfRound = seeds.size();
+  const bool isFirst = !tools.tracing, predicts = computation.predicts(),
+             leavesNodes = count < remainingCount(computation, seeds);
+  const SeedShares shares = options.estimatesError && leavesNodes
+                                ? shareSeeds(count, seeds.heldOutWeights.size(), predicts)
+                                : SeedShares{.sampled = count};
+  const bool refines = samplerOf(options).refine && predicts && isFirst && leavesNodes;
+  const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
+  const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
+  result.errors.reset();
+  freeMemory(result.indicator);
+  const SeedChoice choice =
+      isFirst ? chooseWhileOpening(tools, source, first, control) : choose(tools, seeds, first, {}, control);
+  if (isFirst) result.traceVariant = tools.tracing->traceVariant();
+  seeds.hits.reserve(seeds.hits.size() + count * seeds.hitsPerSeed);
+  traceChoice(tools, choice, seeds, control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
+  if (refines) {
+    const UnsetVector<double> density =
+        indicateErrors(tools, seeds, Stage::Sample, Stage::Sample, control.withoutProgress());
+    traceChoice(tools, choose(tools, seeds, {.sampled = refiningCount}, density, control), seeds,
+                control.part(kTracedProgress / 2, kTracedProgress));
+  }
+  result.roundCount += refines ? 2 : 1;
+  const bool estimates = remainingCount(computation, seeds) > 0 && shares.heldOut + seeds.heldOutWeights.size() > 0;
+  if (estimates && predicts) {
+    result.indicator = indicateErrors(tools, seeds, Stage::Predict, Stage::Estimate,
+                                      control.part(kTracedProgress, kIndicatorProgress));
+    control.checkpoint(kIndicatorProgress);
+    traceByPrediction(tools, shares, result.indicator, seeds, control.part(kIndicatorProgress, kHeldOutTracedProgress));
+  }
+  if (!options.rounds.areSet()) tools.tracing.reset();
+  interpolate(tools, firstOfRound, estimates, result, control.part(kHeldOutTracedProgress, 1));
 }
 
 }  // namespace
 
-RoundsResult runRounds(const Computation& computation, const MakeSeedTracing& makeTracing, const RunControl& control) {
-  return Rounds(computation, makeTracing).run(control);
+RoundsResult runRounds(const Computation& computation, const RaySource& source, const RunControl& control) {
+  RoundTools tools(computation);
+  RoundsResult result;
+  result.seeds.hitsPerSeed = computation.keepsHits() ? computation.cone.directions.size() : 0;
+  const uint64_t traceableCount = computation.domain.traceable.size();
+  runRound(tools, source, resolveSeedCount(computation.options, traceableCount), result, control);
+  while (const uint64_t further =
+             furtherSeedCount(computation.options.rounds, result.errors ? &result.errors->estimate : nullptr,
+                              result.seeds.size(), traceableCount))
+    runRound(tools, source, further, result, control.withoutProgress());
+  control.checkpoint(1);
+  return result;
 }
 
 }  // namespace asdfvk

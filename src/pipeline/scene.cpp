@@ -157,8 +157,7 @@ struct Scene::State {
         const auto scope = clock.time(Stage::Sample);
         return regionOf(scene->prepared, region);
       }();
-      const FaceDomain domain = part ? part->domain() : wholeMesh(scene->prepared);
-      computeOn({session, scene, domain, tracers(), false, former}, options, clock, rest, result);
+      computeOn({session, scene, part ? &*part : nullptr, &tracers(), former}, options, clock, rest, result);
       return result;
     });
   }

@@ -11,7 +11,6 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "estimate/held_out.h"
-#include "pipeline/aggregated_mesh.h"
 
 namespace asdfvk {
 namespace {
@@ -25,6 +24,23 @@ std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const u
   std::vector<uint32_t> rest;
   std::set_difference(faces.begin(), faces.end(), removed.begin(), removed.end(), std::back_inserter(rest));
   return rest;
+}
+
+/// Sorts faces whose first part is usually sorted.
+void sortRuns(std::vector<uint32_t>& faces) {
+  const auto end = std::is_sorted_until(faces.begin(), faces.end());
+  sortInParallel(end, faces.end());
+  std::inplace_merge(faces.begin(), end, faces.end());
+}
+
+/// All seeds; those that are not held out are in `sampled`.
+SeedChoice earlierChoice(const Seeds& seeds) {
+  SeedChoice choice;
+  for (size_t seed = 0; seed < seeds.size(); ++seed)
+    (seeds.isHeldOut(seed) ? choice.heldOut : choice.sampled).push_back(seeds.nodes[seed]);
+  sortRuns(choice.sampled);
+  sortRuns(choice.heldOut);
+  return choice;
 }
 
 }  // namespace
@@ -61,43 +77,40 @@ SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predict
   return shares;
 }
 
-SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, ArcAngles& arcAngles,
-                       const Options& options, const SeedShares& shares, const SeedChoice& earlier,
-                       std::span<const double> density, const RunControl& stopOnly) {
+SeedChoice chooseSeeds(const FaceDomain& domain, ArcAngles& arcAngles, const Options& options, const SeedShares& shares,
+                       const Seeds& earlierSeeds, std::span<const double> density, const RunControl& stopOnly) {
+  const SeedChoice earlier = earlierChoice(earlierSeeds);
   // Samplers keep a distance to earlier seeds but ignore held-out faces, which must be a random sample.
   std::vector<uint32_t> notHeldOut;
-  if (!earlier.heldOut.empty()) notHeldOut = without(faces.traceableFaces, earlier.heldOut);
-  const SeedDomain domain{faces.graph,
-                          geometry,
-                          arcAngles,
-                          earlier.heldOut.empty() ? faces.traceableFaces : std::span(std::as_const(notHeldOut)),
-                          faces.aggregated ? &faces.aggregated->aggregates() : nullptr,
-                          stopOnly};
+  if (!earlier.heldOut.empty()) notHeldOut = without(domain.traceable, earlier.heldOut);
+  const SeedDomain candidates{domain.graph, domain.geometry, arcAngles,
+                              earlier.heldOut.empty() ? domain.traceable : std::span(std::as_const(notHeldOut)),
+                              stopOnly};
   const Sampler& sampler = samplerOf(options);
   SeedChoice choice;
   if (sampler.isUniform) {
     // All seeds are sampled at random, so that any of them can be held out. The seeds are then the same with and
     // without an estimate.
     const std::vector<uint32_t> all =
-        sampler.sample(domain, shares.sampled + shares.heldOut, earlier.sampled, options.randomSeed);
+        sampler.sample(candidates, shares.sampled + shares.heldOut, earlier.sampled, options.randomSeed);
     choice.heldOut = randomPermutationSeeds(all, shares.heldOut, heldOutSeed(options.randomSeed, 0));
     choice.sampled = without(all, choice.heldOut);
     return choice;
   }
   ASDFVK_CHECK(density.empty() || sampler.refine);
   choice.sampled = density.empty()
-                       ? sampler.sample(domain, shares.sampled, earlier.sampled, options.randomSeed)
-                       : sampler.refine(domain, density, shares.sampled, earlier.sampled, options.randomSeed);
-  const std::vector<uint32_t> rest = without(remainingCandidates(domain, earlier.sampled), choice.sampled);
+                       ? sampler.sample(candidates, shares.sampled, earlier.sampled, options.randomSeed)
+                       : sampler.refine(candidates, density, shares.sampled, earlier.sampled, options.randomSeed);
+  const std::vector<uint32_t> rest = without(remainingCandidates(candidates, earlier.sampled), choice.sampled);
   choice.heldOut =
       randomPermutationSeeds(rest, shares.heldOut, heldOutSeed(options.randomSeed, earlier.heldOut.size()));
   return choice;
 }
 
-std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces, std::span<const double> prediction,
+std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceable, std::span<const double> prediction,
                                    std::span<const uint8_t> isSeed, uint64_t count) {
   std::vector<uint32_t> faces =
-      selectInParallel(traceableFaces, [&](uint32_t face) { return !isSeed[face] && std::isfinite(prediction[face]); });
+      selectInParallel(traceable, [&](uint32_t face) { return !isSeed[face] && std::isfinite(prediction[face]); });
   const auto end = faces.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count, faces.size()));
   std::nth_element(faces.begin(), end, faces.end(), [&](uint32_t a, uint32_t b) {
     return prediction[a] != prediction[b] ? prediction[a] > prediction[b] : a < b;

@@ -15,7 +15,7 @@ bool SeedPrediction::predictsOnDevice() const {
          (solver == kAutomaticSolver ? !computation_.backend.runsOnCpu() : findSolver(solver).needsDevice);
 }
 
-/// Null where the CPU predicts.
+/// Returns null if the CPU predicts.
 DevicePredictor* SeedPrediction::devicePredictor() {
   if (!predictsOnDevice()) return nullptr;
   try {
@@ -57,23 +57,19 @@ void SeedPrediction::runWithDevice(const Run& run) {
 void SeedPrediction::predict(const SeedHitsView& hits, const RunControl& control) {
   if (hits.hits.empty()) return;
   runWithDevice([&](DevicePredictor* device) {
-    last_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {},
+    last_ = predictValues(computation_.scene, computation_.domain, computation_.cone, hits, {},
                           std::exchange(last_, {}), device, control);
   });
 }
 
-std::vector<ReplacedValue> SeedPrediction::addSeeds(const SeedHitsView& hits, const RunControl& control) {
-  std::vector<ReplacedValue> replaced;
-  if (hits.hits.empty()) return replaced;
+Prediction SeedPrediction::withFurtherSeeds(const SeedHitsView& hits, const RunControl& control) {
+  Prediction result;
+  if (hits.hits.empty()) return result;
   runWithDevice([&](DevicePredictor* device) {
-    replaced = asdfvk::addSeeds(computation_.scene, computation_.domain.graph, computation_.cone, hits, {}, last_,
-                                device, control);
+    result = asdfvk::withFurtherSeeds(last_, computation_.scene, computation_.domain, computation_.cone, hits, {},
+                                      device, control);
   });
-  return replaced;
-}
-
-void SeedPrediction::exchange(std::vector<ReplacedValue>& replaced) {
-  for (auto& [face, value] : replaced) std::swap(value, last_.values[face]);
+  return result;
 }
 
 }  // namespace asdfvk

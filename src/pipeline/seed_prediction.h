@@ -11,22 +11,19 @@
 namespace asdfvk {
 
 /// Predictions of one computation, from the hits of any of its seeds. The device predicts if the solver runs on the
-/// device. Where the solver is "auto" and the device fails or is too small, the CPU predicts and a warning contains the
-/// reason.
+/// device. With the solver "auto", the CPU predicts if the device fails or is too small. A warning has the reason.
 class SeedPrediction {
  public:
   /// The computation must outlive this object.
   explicit SeedPrediction(const Computation& computation) : computation_(computation) {}
 
-  /// Predicts all faces from the hits of these seeds. Does nothing if Computation::keepsHits() is false. A seed that
+  /// Predicts all nodes from the hits of these seeds. Does nothing if Computation::keepsHits() is false. A seed that
   /// was in `hits` of an earlier call, and is in `hits` again, must have the same index. A new seed must have an index
   /// that no other seed had. An entry kNoFace leaves a seed out. Throws Error{Cancelled}.
   void predict(const SeedHitsView& hits, const RunControl& control);
-  /// Adds the seeds that have no cell yet to the last prediction. Returns the values that were replaced; see
-  /// asdfvk::addSeeds(). Throws the errors of predict().
-  [[nodiscard]] std::vector<ReplacedValue> addSeeds(const SeedHitsView& hits, const RunControl& control);
-  /// Swaps the values in `replaced` with the values of the same faces in the last prediction.
-  void exchange(std::vector<ReplacedValue>& replaced);
+  /// The last prediction with the seeds that have no cell yet, see asdfvk::withFurtherSeeds(); empty if
+  /// Computation::keepsHits() is false. Throws the errors of predict().
+  [[nodiscard]] Prediction withFurtherSeeds(const SeedHitsView& hits, const RunControl& control);
   /// The last prediction; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& last() const { return last_; }
 

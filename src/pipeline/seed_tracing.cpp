@@ -1,35 +1,20 @@
 #include "pipeline/seed_tracing.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 #include "core/free_memory.h"
 #include "core/parallel.h"
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
 
-std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const TracedSeeds& traced) {
-  std::vector<uint8_t> hasValue(domain.componentCount, 0);
-  size_t withoutValueCount = domain.componentCount;
-  for (size_t i = 0; i < traced.faces.size() && withoutValueCount > 0; ++i) {
-    const uint32_t face = traced.faces[i];
-    if (std::isfinite(traced.values[face]) && std::exchange(hasValue[domain.componentOf[face]], 1) == 0)
-      --withoutValueCount;
-  }
-  if (withoutValueCount == 0) return {};
-  return selectInParallel(domain.traceableFaces, [&](uint32_t face) {
-    return !traced.isSeed[face] && hasValue[domain.componentOf[face]] == 0;
-  });
+SeedTracing::SeedTracing(const Computation& computation, const RaySource& source, const RunControl& control)
+    : computation_(computation), released_(source.keepsNodes ? nullptr : &source.scene.bvh) {
+  source.scene.requireHierarchy(bvhOptionsFor(computation.backend), computation.clock, control);
+  const ConeOptions& cone = computation.options.cone;
+  const TracerNeeds needs{.hits = computation.keepsHits()};
+  tracer_ = source.kept != nullptr
+                ? source.kept->get(cone, needs, computation.clock)
+                : std::make_shared<KeptTracer>(computation.backend, computation.scene, cone, needs, computation.clock);
 }
-
-SeedTracing::SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released)
-    : computation_(computation),
-      released_(released),
-      tracer_(tracers.get(computation.options.cone, {.hits = computation.keepsHits()}, computation.clock)) {}
 
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));
@@ -37,27 +22,35 @@ SeedTracing::~SeedTracing() {
   if (released_ != nullptr) freeMemory(released_->nodes);
 }
 
-void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
-  std::vector<double> values(faces.size());
-  const size_t earlierHitCount = traced.hits.size();
-  traced.hits.resize(earlierHitCount + faces.size() * traced.hitsPerSeed);
-  const TraceStatistics statistics =
-      tracer_->tracer->trace(faces, {values, std::span(traced.hits).subspan(earlierHitCount)}, control);
-  traced.statistics.rayCount += statistics.rayCount;
-  traced.statistics.redoneConeCount += statistics.redoneConeCount;
-  traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
-  forEachInParallel(faces.size(), [&](size_t i) {
-    traced.values[faces[i]] = values[i];
-    traced.isSeed[faces[i]] = 1;
-  });
+void SeedTracing::trace(std::span<const uint32_t> nodes, std::span<const SeedKind> kinds, Seeds& seeds,
+                        const RunControl& control) {
+  const size_t earlierCount = seeds.size(), earlierHitCount = seeds.hits.size();
+  const FaceDomain& domain = computation_.domain;
+  const std::vector<uint32_t> faces =
+      domain.faces.empty() ? std::vector<uint32_t>() : entriesAt<std::vector<uint32_t>>(nodes, domain.faces);
+  seeds.values.resize(earlierCount + nodes.size());
+  seeds.hits.resize(earlierHitCount + nodes.size() * seeds.hitsPerSeed);
+  const TraceStatistics statistics = tracer_->tracer->trace(
+      domain.faces.empty() ? nodes : std::span<const uint32_t>(faces),
+      {std::span(seeds.values).subspan(earlierCount), std::span(seeds.hits).subspan(earlierHitCount)}, control);
+  seeds.nodes.insert(seeds.nodes.end(), nodes.begin(), nodes.end());
+  seeds.kinds.insert(seeds.kinds.end(), kinds.begin(), kinds.end());
+  seeds.statistics.rayCount += statistics.rayCount;
+  seeds.statistics.redoneConeCount += statistics.redoneConeCount;
 }
 
-void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
-  const std::vector<uint32_t> untried = untriedWithoutValue(computation_.domain, traced);
+void SeedTracing::traceComponentsWithoutValue(Seeds& seeds, const RunControl& control) {
+  const FaceDomain& domain = computation_.domain;
+  const auto isUsed = [&](size_t seed) { return !seeds.isHeldOut(seed); };
+  const std::vector<uint32_t> untried = untriedWithoutValue(domain, seeds, isUsed);
   if (untried.empty()) return;
-  ComponentSeeds further(computation_.domain.componentOf, traced.values, untried, computation_.options.randomSeed);
-  for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
-    trace(batch, traced, control.withoutProgress());
+  std::vector<double> values = constraintsOf(seeds, domain.size(), isUsed);
+  ComponentSeeds further(domain.componentOf, values, untried, computation_.options.randomSeed);
+  for (auto batch = further.next(values); !batch.empty(); batch = further.next(values)) {
+    const size_t earlierCount = seeds.size();
+    trace(batch, SeedKind::Component, seeds, control.withoutProgress());
+    for (size_t i = 0; i < batch.size(); ++i) values[batch[i]] = seeds.values[earlierCount + i];
+  }
 }
 
 }  // namespace asdfvk

@@ -4,37 +4,63 @@
 #include <span>
 #include <vector>
 
-#include "bvh/bvh.h"
 #include "pipeline/computation.h"
 #include "pipeline/kept_tracers.h"
+#include "pipeline/prepared_scene.h"
 #include "trace/cone_tracer.h"
-#include "trace/traced_seeds.h"
+#include "trace/seeds.h"
 
 namespace asdfvk {
 
-/// Returns the traceable faces of the domain that are not seeds and whose component has no value.
-[[nodiscard]] std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const TracedSeeds& traced);
+/// Returns the traceable nodes of the domain that are not seeds and whose component has no value from a seed with
+/// holds(seed).
+template <typename Holds>
+[[nodiscard]] std::vector<uint32_t> untriedWithoutValue(const FaceDomain& domain, const Seeds& seeds,
+                                                        const Holds& holds) {
+  std::vector<uint8_t> hasValue(domain.componentCount, 0);
+  size_t withoutValueCount = domain.componentCount;
+  for (size_t seed = 0; seed < seeds.size() && withoutValueCount > 0; ++seed)
+    if (holds(seed) && std::isfinite(seeds.values[seed]) &&
+        std::exchange(hasValue[domain.componentOf[seeds.nodes[seed]]], 1) == 0)
+      --withoutValueCount;
+  if (withoutValueCount == 0) return {};
+  const std::vector<uint8_t> isSeed = seedFlags(seeds, domain.size());
+  return selectInParallel(domain.traceable,
+                          [&](uint32_t node) { return isSeed[node] == 0 && hasValue[domain.componentOf[node]] == 0; });
+}
 
-/// Casts the rays of seeds of one computation. Its destructor releases the tracer, unless `tracers` keep it, and the
-/// nodes of the hierarchy if they are not needed later.
+/// Where the rays of a computation are cast.
+struct RaySource {
+  PreparedScene& scene;
+  KeptTracers* kept;  ///< Null: the tracer, and nodes of the hierarchy, are not used again.
+  bool keepsNodes;    ///< Whether the nodes of the hierarchy are needed after the last ray.
+};
+
+/// Casts the rays of seeds of one computation. Its destructor releases the tracer, unless it is kept, and the nodes of
+/// the hierarchy if they are not needed later.
 class SeedTracing {
  public:
-  /// The computation must outlive this object. released: the hierarchy whose nodes the destructor releases; null: none.
-  SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released);
+  /// Builds the hierarchy if there is none. The computation and the scene must outlive this object. Throws
+  /// Error{Device} and Error{Cancelled}.
+  SeedTracing(const Computation& computation, const RaySource& source, const RunControl& control);
   ~SeedTracing();
   SeedTracing(const SeedTracing&) = delete;
   SeedTracing& operator=(const SeedTracing&) = delete;
 
   /// The variant of the kernels; unset without Vulkan.
   [[nodiscard]] const std::optional<TraceVariant>& traceVariant() const { return tracer_->variant; }
-  /// Adds `faces`, none of which may be in `traced`, and their hits.
-  void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
-  /// Adds seeds to each component without a value until the component has a value or no face is left.
-  void traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control);
+  /// Appends nodes that are no seeds yet. kinds: one per node.
+  void trace(std::span<const uint32_t> nodes, std::span<const SeedKind> kinds, Seeds& seeds, const RunControl& control);
+  void trace(std::span<const uint32_t> nodes, SeedKind kind, Seeds& seeds, const RunControl& control) {
+    trace(nodes, std::vector<SeedKind>(nodes.size(), kind), seeds, control);
+  }
+  /// Appends seeds in each component without a value, held-out seeds ignored, until the component has a value or no
+  /// node is left.
+  void traceComponentsWithoutValue(Seeds& seeds, const RunControl& control);
 
  private:
   const Computation& computation_;
-  Bvh* released_;
+  Bvh* released_;  ///< The hierarchy whose nodes are released; null: none.
   std::shared_ptr<KeptTracer> tracer_;
 };
 

@@ -22,8 +22,7 @@ Result Session::compute(const MeshView& mesh, const Options& given, const RunCon
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);
     const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options.orientation, clock, rest));
-    KeptTracers tracers(*state_->named.backend, scene->view(), 0);
-    computeOn({*state_, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, rest, result);
+    computeOn({*state_, scene, nullptr, nullptr}, options, clock, rest, result);
     return result;
   });
 }

@@ -20,12 +20,12 @@ constexpr double kMeasured = 0.4, kFormerMeasured = 0.7;
 /// The computation on the faces of a surface.
 class SurfaceComputation {
  public:
-  SurfaceComputation(const Computation& ofMesh, const JudgedSurface& surface, const FaceDomain& domain)
+  SurfaceComputation(const Computation& ofMesh, const JudgedSurface& surface, const InputFaceSet& region)
       : scene_(surface.scene().view()), computation_{ofMesh.options, surface.scene().prepared,
-                                                     domain,         scene_,
-                                                     ofMesh.cone,    ofMesh.backend,
-                                                     ofMesh.solvers, ofMesh.clock,
-                                                     ofMesh.warnings} {}
+                                                     ofMesh.domain,  region,
+                                                     scene_,         ofMesh.cone,
+                                                     ofMesh.backend, ofMesh.solvers,
+                                                     ofMesh.clock,   ofMesh.warnings} {}
   SurfaceComputation(const SurfaceComputation&) = delete;
   SurfaceComputation& operator=(const SurfaceComputation&) = delete;
 
@@ -53,16 +53,16 @@ void addMeasured(Result& result, const Computation& computation, const JudgedSur
 
 void measureSurface(Result& result, const Computation& ofMesh, const JudgedSurface& surface, const BodyNames& names,
                     const RunControl& control) {
-  const SurfaceComputation computation(ofMesh, surface, ofMesh.domain);
+  const SurfaceComputation computation(ofMesh, surface, ofMesh.region);
   addMeasured(result, computation.get(), surface, names, measureThickness(computation.get(), surface, control));
 }
 
 /// Measures the surface of the material and a former version of it, and compares them.
 void compareSurfaces(Result& result, const Computation& ofMesh, const JudgedSurface& surface, const BodyNames& names,
                      const JudgedSurface& former, const RunControl& control) {
-  const SurfaceComputation computation(ofMesh, surface, ofMesh.domain);
+  const SurfaceComputation computation(ofMesh, surface, ofMesh.region);
   FaceThickness thickness = measureThickness(computation.get(), surface, control.part(0, kMeasured));
-  const FaceDomain wholeFormer = wholeMesh(former.original().prepared);
+  const InputFaceSet wholeFormer;
   const SurfaceComputation formerComputation(ofMesh, former, wholeFormer);
   FaceThickness formerThickness;
   if (surface.limitIn(ofMesh.options.thickness))
@@ -82,15 +82,15 @@ void compareSurfaces(Result& result, const Computation& ofMesh, const JudgedSurf
   result.fields.push_back(makeField("thickness_change", std::move(change)));
 }
 
-/// Voids and contacts of which the domain has a face.
-void describeSpace(Report& report, const FaceDomain& domain, const JudgedSurface& space, const BodyNames& names) {
+/// Voids and contacts of which the region has a face.
+void describeSpace(Report& report, const InputFaceSet& region, const JudgedSurface& space, const BodyNames& names) {
   const PreparedMesh& prepared = space.scene().prepared;
   std::vector<Box3d> boxes(space.solids().isClosed.size());
-  std::vector<uint32_t> firstFaces(boxes.size(), kNoFace);  // In the domain.
+  std::vector<uint32_t> firstFaces(boxes.size(), kNoFace);  // In the region.
   for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face) {
     const uint32_t part = space.solids().solidOf[face];
     for (const uint32_t vertex : prepared.mesh.faces[face]) boxes[part].add(prepared.mesh.vertices[vertex]);
-    if (firstFaces[part] == kNoFace && domain.contains(prepared.mesh.inputFaceOf(face))) firstFaces[part] = face;
+    if (firstFaces[part] == kNoFace && region.contains(prepared.mesh.inputFaceOf(face))) firstFaces[part] = face;
   }
   std::vector<uint32_t> voidOf(boxes.size(), kNoFace), groupOf;
   for (uint32_t i = 0; i < space.voids().size(); ++i)
@@ -110,7 +110,7 @@ void describeSpace(Report& report, const FaceDomain& domain, const JudgedSurface
                             .looseBodies = std::move(looseBodies[i]),
                             .isCertain = each.isCertain});
   }
-  report.contacts = names.contacts(domain);
+  report.contacts = names.contacts(region);
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ void measureSurfaces(Result& result, const Computation& computation, const Prepa
   if (!options.measuresGap()) return;
   const JudgedSurface space(material, JudgedSurface::Space{});
   measureSurface(result, computation, space, names, control.part(gapsBegin, 1));
-  describeSpace(result.report, computation.domain, space, names);
+  describeSpace(result.report, computation.region, space, names);
 }
 
 }  // namespace asdfvk

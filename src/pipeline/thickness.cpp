@@ -96,7 +96,7 @@ class Measurement {
     return bodies;
   }
 
-  [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
+  [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.region.contains(mesh_.inputFaceOf(face)); }
 
   /// For each solid: whether the domain has a face of it for which holds(face) is true.
   template <typename Holds>
@@ -224,7 +224,6 @@ class Measurement {
   std::vector<FaceBalls> measureFaces(const WallTree& tree, std::span<const GreatestSection> sections,
                                       const RunControl& control) {
     std::vector<uint32_t> faces;
-    faces.reserve(computation_.domain.traceableFaces.size());
     for (const Wall& wall : tree.walls())
       if (isInDomain(wall.face)) faces.push_back(wall.face);
     std::vector<FaceBalls> thin;

@@ -33,7 +33,7 @@ class Description {
     report_.isOfGaps = surface_.isSpace();
     describePercentiles();
     report_.noValueCount =
-        countWithoutValue(computation_.domain, thicknessOfInputFaces(prepared_.mesh, thickness_.least));
+        countWithoutValue(computation_.region, thicknessOfInputFaces(prepared_.mesh, thickness_.least));
     if (thickness_.greatestSection)
       report_.greatestSection = {thickness_.greatestSection->diameter, thickness_.greatestSection->centre};
     report_.unjudged = thickness_.unjudged;
@@ -231,7 +231,7 @@ double areaOfDomain(const Computation& computation) {
   const PreparedMesh& prepared = computation.prepared;
   double total = 0;
   for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
-    if (computation.domain.contains(prepared.mesh.inputFaceOf(face))) total += prepared.geometry.areas[face];
+    if (computation.region.contains(prepared.mesh.inputFaceOf(face))) total += prepared.geometry.areas[face];
   return total;
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMinRobustShare = 0.1, kLargeRelativeError = 0.1, kMaxRelativeOverAverage = 5;
 
 /// The warning about faces without a value, with its likely causes. sdf: #I.
-Warning describeMissing(const Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
+Warning describeMissing(const Report& report, const PreparedMesh& prepared, const InputFaceSet& region,
                         std::span<const double> sdf, bool keepsMissing) {
   std::vector<uint8_t> isInverted(prepared.components.components.size(), 0);
   for (const uint32_t index : prepared.invertedComponents) isInverted[index] = 1;
@@ -26,7 +26,7 @@ Warning describeMissing(const Report& report, const PreparedMesh& prepared, cons
       .count = report.noValueCount, .faceCount = report.regionFaceCount, .keepsMissing = keepsMissing};
   for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
     const uint32_t inputFace = prepared.mesh.inputFaceOf(f);
-    if (!std::isnan(sdf[inputFace]) || prepared.geometry.isDegenerate(f) || !domain.contains(inputFace)) continue;
+    if (!std::isnan(sdf[inputFace]) || prepared.geometry.isDegenerate(f) || !region.contains(inputFace)) continue;
     const uint32_t component = prepared.components.componentOf[f];
     missing.isInverted = missing.isInverted || isInverted[component];
     missing.isOpen = missing.isOpen || !prepared.components.components[component].isClosed;
@@ -55,15 +55,15 @@ std::optional<Warning> warningOfRange(const Report& report) {
 
 }  // namespace
 
-uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field) {
-  return countInParallel(field.size(), [&](uint32_t i) { return std::isnan(field[i]) && domain.contains(i); });
+uint64_t countWithoutValue(const InputFaceSet& region, std::span<const double> field) {
+  return countInParallel(field.size(), [&](uint32_t i) { return std::isnan(field[i]) && region.contains(i); });
 }
 
-void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
+void describeValues(Report& report, const PreparedMesh& prepared, const InputFaceSet& region,
                     const std::vector<double>& sdf, bool keepsMissing) {
   report.sdf = rangeOf(sdf);
-  report.noValueCount = countWithoutValue(domain, sdf);
-  if (report.noValueCount > 0) report.warnings.push_back(describeMissing(report, prepared, domain, sdf, keepsMissing));
+  report.noValueCount = countWithoutValue(region, sdf);
+  if (report.noValueCount > 0) report.warnings.push_back(describeMissing(report, prepared, region, sdf, keepsMissing));
   if (std::optional<Warning> warning = warningOfRange(report)) report.warnings.push_back(std::move(*warning));
   if (report.solver.finishedOnCpu) report.warnings.push_back(finishedOnCpu(report.solver));
   if (!report.solver.converged) report.warnings.push_back(notConverged(report.solver));

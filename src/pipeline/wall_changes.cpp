@@ -172,11 +172,11 @@ class WallComparison {
   /// Whether the place of a former point is outside of the domain, where no walls of `now` are known.
   [[nodiscard]] bool isOutside(const WallPoints& formerPoints, size_t i) const {
     uint32_t face = formerPoints.counterparts[i].face;
-    if (now_.computation.domain.inputFaces.empty()) return false;
+    if (now_.computation.region.hasAll()) return false;
     if (face == kNoFace)
       findNearestPoints(now_.surface.scene(), std::span(&formerPoints.placed.points[i], 1), RunControl(),
                         [&](size_t, const SurfacePoint& nearest) { face = nearest.face; });
-    return face != kNoFace && !now_.computation.domain.contains(now_.computation.prepared.mesh.inputFaceOf(face));
+    return face != kNoFace && !now_.computation.region.contains(now_.computation.prepared.mesh.inputFaceOf(face));
   }
 
   [[nodiscard]] PointChange changeOf(const ThicknessRange& thickness, const Counterpart& at) const {

@@ -28,14 +28,14 @@ class CellPredictor {
     weighting_.inverseAngleVariance = 1 / (kNormalDeviationRadians * kNormalDeviationRadians);
   }
 
-  /// values: #F; the values of the faces of these cells are written.
+  /// values: #N; the values of the nodes of these cells are written.
   void run(std::span<const uint32_t> cells, std::span<double> values) {
     points_.clear();
     cached_.assign(std::bit_ceil(2 * cells.size() * (1 + input_.options.neighbourCount)), {});
     appendHits(cells);
     for (size_t i = 0; i < cells.size(); ++i) {
-      nextFaces_ = {};
-      if (i + 1 < cells.size()) nextFaces_ = input_.cells[cells[i + 1]];
+      nextNodes_ = {};
+      if (i + 1 < cells.size()) nextNodes_ = input_.cells[cells[i + 1]];
       runCell(cells[i], values);
     }
   }
@@ -47,7 +47,7 @@ class CellPredictor {
   };
 
   void runCell(uint32_t cell, std::span<double> values);
-  void prefetchNextFace();
+  void prefetchNextNode();
   [[nodiscard]] CachedHits& placeOf(uint32_t seed);
   void appendHits(std::span<const uint32_t> cells);
   [[nodiscard]] HitRange hitsOf(uint32_t seed);
@@ -61,10 +61,10 @@ class CellPredictor {
   PredictionKernel kernel_;
   std::vector<CachedHits> cached_;       // Hash table by seed, with open addressing. Its size is a power of two.
   std::vector<CachedHits*> newHits_;     // Entries of cached_ that appendHits() fills.
-  std::span<const uint32_t> nextFaces_;  // Faces of the next cell that are not yet prefetched.
+  std::span<const uint32_t> nextNodes_;  // Nodes of the next cell that are not yet prefetched.
 
   // For the current cell:
-  std::vector<uint32_t> remainingFaces_;
+  std::vector<uint32_t> remainingNodes_;
   std::vector<HitRange> neighbourHits_;
   std::vector<SeedGroup> neighbourSeeds_;
   SeedWeighting weighting_;
@@ -73,33 +73,34 @@ class CellPredictor {
 };
 
 void CellPredictor::runCell(uint32_t cell, std::span<double> values) {
-  const TraceScene& scene = input_.scene;
+  const Normalization& unit = input_.scene.bvh.normalization;
+  const FaceGeometry& geometry = input_.domain.geometry;
   reuseEarlier(cell, values);
-  if (remainingFaces_.empty()) return;
+  if (remainingNodes_.empty()) return;
   gatherNeighbours(input_.nearest.of(cell));
-  for (const uint32_t face : remainingFaces_) {
-    prefetchNextFace();
-    const Vec3d& normal = scene.geometry.normals[face];
+  for (const uint32_t node : remainingNodes_) {
+    prefetchNextNode();
+    const Vec3d& normal = geometry.normals[node];
     if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // The face is degenerate.
-    const VirtualCone at{scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]), normal,
-                         scene.representatives[face]};
+    const VirtualCone at{unit.toNormalized(geometry.barycentres[node]), normal,
+                         input_.scene.representatives[input_.domain.faceOf(node)]};
     weighNeighbours(at);
     double value = valueAt(at, kMinWeightShare);
     if (std::isnan(value)) value = valueAt(at, 0);
-    values[face] = scene.bvh.normalization.toMeshLength(value);
+    values[node] = unit.toMeshLength(value);
   }
-  while (!nextFaces_.empty()) prefetchNextFace();
+  while (!nextNodes_.empty()) prefetchNextNode();
 }
 
-/// The faces of a cell are neighbours on the surface but not in memory. One face at a time, as in HitPoints::append().
-void CellPredictor::prefetchNextFace() {
-  if (nextFaces_.empty()) return;
-  const FaceGeometry& geometry = input_.scene.geometry;
-  const uint32_t face = nextFaces_.front();
-  nextFaces_ = nextFaces_.subspan(1);
-  prefetchMemory(&geometry.barycentres[face]);
-  prefetchMemory(&geometry.normals[face]);
-  prefetchMemory(&input_.scene.representatives[face]);
+/// The nodes of a cell are neighbours on the surface but not in memory. One node at a time, as in HitPoints::append().
+void CellPredictor::prefetchNextNode() {
+  if (nextNodes_.empty()) return;
+  const FaceGeometry& geometry = input_.domain.geometry;
+  const uint32_t node = nextNodes_.front();
+  nextNodes_ = nextNodes_.subspan(1);
+  prefetchMemory(&geometry.barycentres[node]);
+  prefetchMemory(&geometry.normals[node]);
+  prefetchMemory(&input_.scene.representatives[input_.domain.faceOf(node)]);
 }
 
 /// The entry of the seed, or the empty entry for the seed.
@@ -147,15 +148,15 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
   return cached.range;
 }
 
-/// Copies the values of faces that were in this cell in the earlier prediction, if the contributing seeds are
-/// unchanged. Puts the other faces into remainingFaces_.
+/// Copies the values of nodes that were in this cell in the earlier prediction, if the contributing seeds are
+/// unchanged. Puts the other nodes into remainingNodes_.
 void CellPredictor::reuseEarlier(uint32_t cell, std::span<double> values) {
-  const std::span<const uint32_t> faces = input_.cells[cell];
-  remainingFaces_.assign(faces.begin(), faces.end());
+  const std::span<const uint32_t> nodes = input_.cells[cell];
+  remainingNodes_.assign(nodes.begin(), nodes.end());
   if (!input_.hasEarlierSeeds(cell)) return;
-  std::erase_if(remainingFaces_, [&](uint32_t face) {
-    const bool isSame = input_.earlier.cellOf[face] == cell;
-    if (isSame) values[face] = input_.earlier.values[face];
+  std::erase_if(remainingNodes_, [&](uint32_t node) {
+    const bool isSame = input_.earlier.cellOf[node] == cell;
+    if (isSame) values[node] = input_.earlier.values[node];
     return isSame;
   });
 }
@@ -208,15 +209,25 @@ double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
   return kernel_.value(points_.groups(), weighted_, at, neighbourHits_[0].medianLength);
 }
 
+/// #S from nodes. kNoFace remains.
+std::vector<uint32_t> facesOfSeeds(const FaceDomain& domain, std::span<const uint32_t> seeds) {
+  std::vector<uint32_t> faces(seeds.begin(), seeds.end());
+  for (uint32_t& face : faces)
+    if (face != kNoFace) face = domain.faceOf(face);
+  return faces;
+}
+
 /// The cells in the order of their seeds in the hierarchy. In this order, neighbours in space are close to each other.
-std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds, const SeedCells& cells) {
-  const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
-  const auto cellAt = [&](size_t primitive) {
-    const uint32_t cell = cells.cellOf[faces[primitive]];
-    return cell != kNoCell && seeds[cell] == faces[primitive] ? cell : kNoCell;
-  };
-  std::vector<uint32_t> order = selectInParallel(faces.size(), cellAt, [](uint32_t cell) { return cell != kNoCell; });
+/// seeds: faces.
+std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds) {
   const auto isCell = [&](uint32_t cell) { return seeds[cell] != kNoFace; };
+  UnsetVector<uint32_t> cellOfFace = filledInParallel(scene.mesh.faceCount(), kNoCell);
+  for (uint32_t cell = 0; cell < seeds.size(); ++cell)
+    if (isCell(cell)) cellOfFace[seeds[cell]] = cell;
+  const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
+  std::vector<uint32_t> order = selectInParallel(
+      faces.size(), [&](size_t primitive) { return cellOfFace[faces[primitive]]; },
+      [](uint32_t cell) { return cell != kNoCell; });
   if (order.size() == countInParallel(seeds.size(), isCell)) return order;
   std::vector<uint8_t> isListed(seeds.size(), 0);
   for (const uint32_t cell : order) isListed[cell] = 1;
@@ -236,19 +247,20 @@ void predictOnCpu(const PredictionInput& input, std::span<double> values) {
   });
 }
 
-/// Gives each new cell those faces around its seed that are nearer to this seed than to the seed of their current cell.
-/// Returns these faces, ascending.
-std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
+/// Gives each new cell those nodes around its seed that are nearer to this seed than to the seed of their current cell.
+/// Returns these nodes, ascending.
+std::vector<uint32_t> claimNodes(const FaceDomain& domain, std::span<const uint32_t> seeds,
                                  std::span<const uint32_t> newCells, std::span<uint32_t> cellOf) {
-  const auto squaredDistance = [&](uint32_t face, uint32_t cell) {
-    return comparableSquare(geometry.barycentres[face] - geometry.barycentres[seeds[cell]]);
+  const UnsetVector<Vec3d>& barycentres = domain.geometry.barycentres;
+  const auto squaredDistance = [&](uint32_t node, uint32_t cell) {
+    return comparableSquare(barycentres[node] - barycentres[seeds[cell]]);
   };
   for (const uint32_t cell : newCells) cellOf[seeds[cell]] = cell;
   std::vector<uint32_t> claimed, queue;
   for (const uint32_t cell : newCells) {
     queue.assign(1, seeds[cell]);
     for (size_t next = 0; next < queue.size(); ++next)
-      for (const uint32_t neighbour : graph.neighboursOf(queue[next])) {
+      for (const uint32_t neighbour : domain.graph.neighboursOf(queue[next])) {
         const uint32_t other = cellOf[neighbour];
         if (other == cell || (other != kNoCell && seeds[other] == neighbour)) continue;
         if (other != kNoCell && !(squaredDistance(neighbour, cell) < squaredDistance(neighbour, other))) continue;
@@ -262,60 +274,54 @@ std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geo
   return claimed;
 }
 
+/// device: null predicts on the CPU.
+void predict(const PredictionInput& input, std::span<double> values, DevicePredictor* device,
+             const RunControl& control) {
+  if (device != nullptr)
+    device->predict(input, values, control);
+  else
+    predictOnCpu(input, values);
+}
+
 }  // namespace
 
 bool PredictionInput::hasEarlierSeeds(uint32_t cell) const {
   return cell < earlier.nearest.cellCount() && std::ranges::equal(earlier.nearest.of(cell), nearest.of(cell));
 }
 
-Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHitsView& hits,
+Prediction predictValues(const TraceScene& scene, const FaceDomain& domain, const Cone& cone, const SeedHitsView& hits,
                          const PredictionOptions& options, Prediction earlier, DevicePredictor* device,
                          const RunControl& control) {
   ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
-  SeedCells cells = buildSeedCells(graph, hits.seeds);
-  Prediction prediction{filledInParallel(scene.geometry.areas.size(), kNoValue),
+  SeedCells cells = buildSeedCells(domain.graph, hits.seeds);
+  Prediction prediction{filledInParallel(domain.size(), kNoValue),
                         {},
-                        NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
-  const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
-  const PredictionInput input{scene, cone, hits, cells.faces, prediction.nearest, options, order, earlier};
-  if (device != nullptr)
-    device->predict(input, prediction.values, control);
-  else
-    predictOnCpu(input, prediction.values);
+                        NearestCells(cells, domain.graph, domain.geometry, hits.seeds, options.neighbourCount)};
+  const std::vector<uint32_t> faces = facesOfSeeds(domain, hits.seeds), order = cellsInOrder(scene, faces);
+  predict({scene, domain, cone, {faces, hits.hits}, cells.faces, prediction.nearest, options, order, earlier},
+          prediction.values, device, control);
   prediction.cellOf = std::move(cells.cellOf);
   return prediction;
 }
 
-std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
-                                    const SeedHitsView& hits, const PredictionOptions& options, Prediction& prediction,
-                                    DevicePredictor* device, const RunControl& control) {
+Prediction withFurtherSeeds(const Prediction& prediction, const TraceScene& scene, const FaceDomain& domain,
+                            const Cone& cone, const SeedHitsView& hits, const PredictionOptions& options,
+                            DevicePredictor* device, const RunControl& control) {
   const std::vector<uint32_t> newCells = indicesInParallel(hits.seeds.size(), [&](uint32_t cell) {
     return hits.seeds[cell] != kNoFace && prediction.cellOf[hits.seeds[cell]] != cell;
   });
-  // A copy, so that a failure of the device leaves the prediction unchanged.
-  UnsetVector<uint32_t> cellOf = prediction.cellOf;
-  const std::vector<uint32_t> claimed = claimFaces(graph, scene.geometry, hits.seeds, newCells, cellOf);
-  const Buckets<uint32_t> cells = sortIntoBuckets<uint32_t>(
-      hits.seeds.size(), claimed.size(), [&](uint32_t i, const auto& put) { put(cellOf[claimed[i]], claimed[i]); });
-  std::vector<ReplacedValue> replaced;
-  replaced.reserve(claimed.size());
-  for (const uint32_t face : claimed) replaced.push_back({face, std::exchange(prediction.values[face], kNoValue)});
-  NearestCells nearest = prediction.nearest;
-  nearest.update(newCells, cells, cellOf, graph, scene.geometry, hits.seeds);
+  Prediction result = prediction;
+  const std::vector<uint32_t> claimed = claimNodes(domain, hits.seeds, newCells, result.cellOf);
+  const Buckets<uint32_t> cells =
+      sortIntoBuckets<uint32_t>(hits.seeds.size(), claimed.size(),
+                                [&](uint32_t i, const auto& put) { put(result.cellOf[claimed[i]], claimed[i]); });
+  for (const uint32_t node : claimed) result.values[node] = kNoValue;
+  result.nearest.update(newCells, cells, result.cellOf, domain.graph, domain.geometry, hits.seeds);
+  const std::vector<uint32_t> faces = facesOfSeeds(domain, hits.seeds);
   const Prediction none;
-  const PredictionInput input{scene, cone, hits, cells, nearest, options, newCells, none};
-  try {
-    if (device != nullptr)
-      device->predict(input, prediction.values, control);
-    else
-      predictOnCpu(input, prediction.values);
-  } catch (...) {
-    for (const auto& [face, value] : replaced) prediction.values[face] = value;
-    throw;
-  }
-  prediction.cellOf = std::move(cellOf);
-  prediction.nearest = std::move(nearest);
-  return replaced;
+  predict({scene, domain, cone, {faces, hits.hits}, cells, result.nearest, options, newCells, none}, result.values,
+          device, control);
+  return result;
 }
 
 }  // namespace asdfvk

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "asdf_vk/run_control.h"
+#include "mesh/face_domain.h"
 #include "predict/seed_cells.h"
 #include "trace/seed_hits.h"
 
@@ -25,19 +26,20 @@ struct PredictionOptions {
 };
 
 struct Prediction {
-  /// #F, seeds included, in the unit of the mesh; kNoValue if a face is degenerate, belongs to no cell, or has no hit
+  /// #N, seeds included, in the unit of the mesh; kNoValue if a face is degenerate, belongs to no cell, or has no hit
   /// point in its cone.
   UnsetVector<double> values;
-  UnsetVector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
+  UnsetVector<uint32_t> cellOf;  ///< #N, as SeedCells::cellOf.
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
 /// Input of a prediction. Has references and views only.
 struct PredictionInput {
   const TraceScene& scene;
+  const FaceDomain& domain;
   const Cone& cone;
-  const SeedHitsView& hits;
-  const Buckets<uint32_t>& cells;  ///< For each cell, its faces that are to be predicted.
+  SeedHitsView hits;               ///< Its seeds are faces of the mesh.
+  const Buckets<uint32_t>& cells;  ///< For each cell, its nodes that are to be predicted.
   const NearestCells& nearest;
   const PredictionOptions& options;
   /// The cells that are not empty, in an order in which neighbours in space are close to each other.
@@ -54,34 +56,28 @@ class DevicePredictor {
  public:
   virtual ~DevicePredictor() = default;
 
-  /// Writes the values of all faces in input.cells. values: #F. Two calls with the same hits give the same bits.
+  /// Writes the values of all nodes in input.cells. values: #N. Two calls with the same hits give the same bits.
   /// Throws Error{Cancelled} between submissions, and Error of kind Device, for example if there are more neighbours
   /// than the device supports.
   virtual void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) = 0;
 };
 
-/// Predicts the values of all faces. The result does not depend on the number of threads. earlier: empty, or a
-/// prediction of the same scene, cone and options. A seed of both predictions must have the same index in `hits` of
-/// both. Values that did not change are copied from `earlier`. device: null predicts on the CPU, which cannot be
-/// cancelled. Throws the errors of the device.
-[[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
+/// Predicts the values of all nodes of the domain. hits: of nodes. The result does not depend on the number of threads.
+/// earlier: empty, or a prediction of the same scene, cone and options. A seed of both predictions must have the same
+/// index in `hits` of both. Values that did not change are copied from `earlier`. device: null predicts on the CPU,
+/// which cannot be cancelled. Throws the errors of the device.
+[[nodiscard]] Prediction predictValues(const TraceScene& scene, const FaceDomain& domain, const Cone& cone,
                                        const SeedHitsView& hits, const PredictionOptions& options,
                                        Prediction earlier = {}, DevicePredictor* device = nullptr,
                                        const RunControl& control = {});
 
-/// A value of a prediction before it was replaced.
-struct ReplacedValue {
-  uint32_t face;
-  double value;
-};
-
-/// Adds the seeds in `hits` that have no cell in the prediction yet. The cell of a new seed takes those faces around
-/// the seed that are nearer to the new seed than to the seed of their current cell. Only these faces are predicted
-/// again. The other faces keep their values, although a new seed may be near. Arguments and errors as in
-/// predictValues(). Returns the values that were replaced, by ascending face.
-[[nodiscard]] std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
-                                                  const SeedHitsView& hits, const PredictionOptions& options,
-                                                  Prediction& prediction, DevicePredictor* device = nullptr,
-                                                  const RunControl& control = {});
+/// A prediction with further seeds: those in `hits` that have no cell in `prediction`. The cell of a new seed takes
+/// those nodes around the seed that are nearer to the new seed than to the seed of their current cell. Only these nodes
+/// are predicted again. The other nodes keep their values, although a new seed may be near. Arguments and errors as in
+/// predictValues().
+[[nodiscard]] Prediction withFurtherSeeds(const Prediction& prediction, const TraceScene& scene,
+                                          const FaceDomain& domain, const Cone& cone, const SeedHitsView& hits,
+                                          const PredictionOptions& options, DevicePredictor* device = nullptr,
+                                          const RunControl& control = {});
 
 }  // namespace asdfvk

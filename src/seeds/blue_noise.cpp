@@ -72,15 +72,7 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
   std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
   if (count >= waiting.size()) return waiting;
   if (count == 0) return {};
-  if (domain.aggregates == nullptr)
-    return throwAtGraph(domain.graph, lengths, std::move(waiting), count, existing, randomSeed, domain.stopOnly);
-  // The same seeds, in less time: without the faces that are not centres, the arrays need less of the cache.
-  const FaceAggregates& aggregates = *domain.aggregates;
-  using Nodes = std::vector<uint32_t>;
-  return entriesAt<Nodes>(
-      throwAtGraph(aggregates.graph, lengths, entriesAt<Nodes>(waiting, aggregates.aggregateOf), count,
-                   entriesAt<Nodes>(existing, aggregates.aggregateOf), randomSeed, domain.stopOnly),
-      aggregates.centres);
+  return throwAtGraph(domain.graph, lengths, std::move(waiting), count, existing, randomSeed, domain.stopOnly);
 }
 
 // On a smooth mesh, the distances between close seeds are nearly integers. Without a change of the lengths, different

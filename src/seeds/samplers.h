@@ -10,7 +10,6 @@
 #include "core/vec3.h"
 #include "mesh/arc_angles.h"
 #include "mesh/dual_graph.h"
-#include "mesh/face_aggregates.h"
 #include "mesh/face_geometry.h"
 
 /// Samplers: selection of seeds, the faces that cast rays. A new sampler requires a file with its function. This header
@@ -23,10 +22,7 @@ struct SeedDomain {
   const FaceGeometry& geometry;
   ArcAngles& arcAngles;
   std::span<const uint32_t> candidates;  ///< Faces that can cast rays, ascending, each once.
-  /// Set if only centres of aggregates have arcs and are candidates or existing seeds. Then the arcs of `graph` are
-  /// those of aggregates->graph, in the same order.
-  const FaceAggregates* aggregates = nullptr;
-  RunControl stopOnly = {};  ///< Ends samplers that measure distances, by Error{Cancelled}.
+  RunControl stopOnly = {};              ///< Ends samplers that measure distances, by Error{Cancelled}.
 };
 
 /// The candidates that are not in `existing` (any order), ascending. Throws CheckFailure for an existing face that is

@@ -9,7 +9,7 @@
 namespace asdfvk {
 
 struct SeedHitsView {
-  std::span<const uint32_t> seeds;  ///< #S faces; kNoFace: this seed and its hits are ignored.
+  std::span<const uint32_t> seeds;  ///< #S nodes; kNoFace: this seed and its hits are ignored.
   std::span<const ConeHit> hits;    ///< #S x rays, see ConeResults::hits.
 
   [[nodiscard]] std::span<const ConeHit> of(uint32_t seed) const {

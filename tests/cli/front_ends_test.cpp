@@ -200,8 +200,8 @@ TEST_CASE("the library implies what the command line implies") {
   Options ofCgal;
   applyDefinition(Definition::Cgal, ofCgal);
   isSame(ofCgal, lineOf({"--definition", "cgal"}));
-  ofCgal.rounds.timeBudgetSeconds = 1;
-  isSame(ofCgal, lineOf({"--definition", "cgal", "--time-budget", "1"}));
+  ofCgal.rounds.maxError = 0.01;
+  isSame(ofCgal, lineOf({"--definition", "cgal", "--max-error", "1%"}));
   CHECK_EQ(completed(ofCgal).seeds.share, kFirstRoundShare);
 }
 

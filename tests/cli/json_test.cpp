@@ -90,8 +90,7 @@ TEST_CASE("--json is exactly one document with every documented key and its type
   CHECK_EQ(options.at("rngSeed").get<uint64_t>(), 7);
   CHECK_EQ(options.at("check").get<std::string>(), "all");
   CHECK_EQ(options.at("estimate").get<bool>(), true);
-  for (const char* key :
-       {"maxError", "maxRelativeError", "timeBudgetSeconds", "parts", "detail", "clusters", "cgalExpansion"})
+  for (const char* key : {"maxError", "maxRelativeError", "parts", "detail", "clusters", "cgalExpansion"})
     CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
   CHECK_EQ(options.at("definition").get<std::string>(), "paper");
@@ -115,16 +114,15 @@ TEST_CASE("options of the paper's definition are null with CGAL's") {
 TEST_CASE("the options of the command line are in the document") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
-  const Json json = onlyDocument(
-      runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--recipe", "quality", "--sampler", "adaptive",
-               "--max-error", "50%", "--time-budget", "100s", "--pooling", "0.5", "--smooth", "2x1"}));
+  const Json json =
+      onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--recipe", "quality", "--sampler",
+                            "adaptive", "--max-error", "50%", "--pooling", "0.5", "--smooth", "2x1"}));
   const Json& options = json.at("options");
   CHECK_EQ(options.at("recipe").get<std::string>(), "quality");
   CHECK_EQ(options.at("seeds").get<std::string>(), "2%");
   CHECK_EQ(options.at("sampler").get<std::string>(), "adaptive");
   CHECK_EQ(options.at("coneRotation").get<std::string>(), "hashed");
   CHECK_EQ(options.at("maxError").get<double>(), 0.5);
-  CHECK_EQ(options.at("timeBudgetSeconds").get<double>(), 100);
   CHECK_EQ(options.at("pooling").get<double>(), 0.5);
   CHECK_EQ(options.at("smooth").get<std::string>(), "2x1");
   CHECK(json.at("roundCount").get<uint64_t>() >= 2);  // The adaptive sampler's.

@@ -229,9 +229,6 @@ TEST_CASE("errors and times are read with their unit or without") {
     CHECK_EQ(rounds.maxRelativeError.value(), doctest::Approx(0.01));
     CHECK_FALSE(rounds.maxError.has_value());
   }
-  for (const char* text : {"2s", "2", "2.0s", "2e0"})
-    CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).computation.options.rounds.timeBudgetSeconds.value(),
-             2);
 }
 
 TEST_CASE("smoothing is off, by the number of faces, or by a given window") {
@@ -250,7 +247,6 @@ TEST_CASE("smoothing is off, by the number of faces, or by a given window") {
 TEST_CASE("rounds begin with few seeds unless --seeds is given") {
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%"}).computation.options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "5%rel"}).computation.options.seeds.share, 0.02);
-  CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).computation.options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).computation.options.seeds.share, 0.05);
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).computation.options.seeds.share, 0.1);
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "auto"}).computation.options.seeds.share, 0.02);

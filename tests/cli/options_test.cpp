@@ -52,7 +52,6 @@ const std::vector<OptionCase>& optionCases() {
          return l.computation.options.rounds.maxRelativeError == 0.05 &&
                 !l.computation.options.rounds.maxError.has_value();
        }},
-      {{"--time-budget", "2.5s"}, [](const Line& l) { return l.computation.options.rounds.timeBudgetSeconds == 2.5; }},
       {{"--no-estimate"}, [](const Line& l) { return !l.computation.options.estimatesError; }},
       {{"--weights", "distance"},
        [](const Line& l) { return l.computation.options.interpolation.weights == ArcWeights::Distance; }},
@@ -290,26 +289,13 @@ TEST_CASE("--help has tasks with examples, of options that exist; --help=all has
     CHECK_MESSAGE(position > previous, group);
     previous = position;
   }
-  for (const char* part : {"--recipe paper|balanced|quality",
-                           "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
-                           "--max-error E%[rel]",
-                           "--per face|vertex",
-                           "--points FILE.ply|FILE.swc",
-                           "--time-budget SECONDS",
-                           "--no-estimate",
-                           "--cone-rotation fixed|hashed",
-                           "--definition paper|cgal",
-                           "--weights distance|feature",
-                           "--guidance none|curvature|prediction",
-                           "--pooling P",
-                           "--picture-of sdf|seed|error|normalized|segment",
-                           "--segment none|parts|cgal",
-                           "--kernel auto|seed|ray|packet",
-                           "--fetch auto|texel|storage",
-                           "MESH...",
-                           ".stl .ply .off .obj",
-                           "--fields NAME,...",
-                           "default balanced"})
+  for (const char* part :
+       {"--recipe paper|balanced|quality", "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
+        "--max-error E%[rel]", "--per face|vertex", "--points FILE.ply|FILE.swc", "--no-estimate",
+        "--cone-rotation fixed|hashed", "--definition paper|cgal", "--weights distance|feature",
+        "--guidance none|curvature|prediction", "--pooling P", "--picture-of sdf|seed|error|normalized|segment",
+        "--segment none|parts|cgal", "--kernel auto|seed|ray|packet", "--fetch auto|texel|storage", "MESH...",
+        ".stl .ply .off .obj", "--fields NAME,...", "default balanced"})
     CHECK_MESSAGE(all.find(part) != std::string::npos, part);
   CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }

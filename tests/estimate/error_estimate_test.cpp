@@ -18,35 +18,64 @@ using test::referenceSession;
 
 namespace {
 
-void addSeed(TracedSeeds& seeds, uint32_t face, double value) {
-  seeds.faces.push_back(face);
-  seeds.values[face] = value;
-  seeds.isSeed[face] = 1;
+void addSeed(Seeds& seeds, uint32_t face, double value) {
+  seeds.nodes.push_back(face);
+  seeds.kinds.push_back(SeedKind::Sampled);
+  seeds.values.push_back(value);
 }
 
-/// #H from #F.
-std::vector<double> atHeldOut(const HeldOutFaces& heldOut, const std::vector<double>& values) {
-  std::vector<double> result;
-  for (const uint32_t face : heldOut.faces) result.push_back(values[face]);
-  return result;
-}
+struct HeldOut {
+  std::vector<uint32_t> faces;
+  std::vector<double> weights;
+};
+
+/// A mesh without arcs, some of whose faces are seeds. The test sets everything else.
+struct SeededFaces {
+  explicit SeededFaces(uint32_t faceCount) : values(faceCount), result(faceCount) {
+    mesh.faces.resize(faceCount);
+    graph.offsets.resize(faceCount + size_t{1}, 0);
+  }
+
+  [[nodiscard]] double& tracedAt(uint32_t face) {
+    return seeds.values[static_cast<size_t>(std::ranges::find(seeds.nodes, face) - seeds.nodes.begin())];
+  }
+  [[nodiscard]] EstimatedErrors estimateAt(const FaceDomain& domain) const {
+    Seeds marked = seeds;
+    std::vector<double> withoutHeldOut;
+    for (size_t seed = 0; seed < seeds.size(); ++seed) {
+      const auto found = std::ranges::find(heldOut.faces, seeds.nodes[seed]);
+      if (found == heldOut.faces.end()) continue;
+      marked.kinds[seed] = SeedKind::HeldOut;
+      marked.heldOutWeights.push_back(heldOut.weights[static_cast<size_t>(found - heldOut.faces.begin())]);
+      withoutHeldOut.push_back(values[seeds.nodes[seed]]);
+    }
+    return estimateErrors(mesh, domain, {marked, withoutHeldOut, indicator, result});
+  }
+  [[nodiscard]] EstimatedErrors estimate() {
+    EstimatedErrors errors = estimateAt({graph, geometry, {}, 0, {}});
+    expected = expectedErrors(errors, seeds, result, indicator);
+    return errors;
+  }
+
+  Mesh mesh;
+  DualGraph graph;
+  FaceGeometry geometry;
+  Seeds seeds;
+  HeldOut heldOut;
+  std::vector<double> values, indicator, result;
+  UnsetVector<double> expected;  ///< The expected errors of the last estimate.
+};
 
 /// Six faces: 0 and 1 are sampled seeds, 2 and 3 are held out; the interpolation without them is off by 1 and by 2.
-struct SixFaces {
-  Mesh mesh;
-  TracedSeeds traced{6};
-  HeldOutFaces heldOut{{2, 3}, {1, 1}};
-  std::vector<double> values{0, 10, 5, 8, 5, 5}, indicator, result{0, 10, 4, 6, 5, 5};
-
-  SixFaces() {
-    mesh.faces.resize(6);
-    addSeed(traced, 0, 0);
-    addSeed(traced, 1, 10);
-    addSeed(traced, 2, 4);
-    addSeed(traced, 3, 6);
-  }
-  [[nodiscard]] EstimatedErrors estimate() const {
-    return estimateErrors(mesh, {traced, heldOut, atHeldOut(heldOut, values), indicator, result});
+struct SixFaces : SeededFaces {
+  SixFaces() : SeededFaces(6) {
+    heldOut = {{2, 3}, {1, 1}};
+    values = {0, 10, 5, 8, 5, 5};
+    result = {0, 10, 4, 6, 5, 5};
+    addSeed(seeds, 0, 0);
+    addSeed(seeds, 1, 10);
+    addSeed(seeds, 2, 4);
+    addSeed(seeds, 3, 6);
   }
 };
 
@@ -60,11 +89,11 @@ double meanOf(const std::vector<double>& values) {
 }  // namespace
 
 TEST_CASE("without an indicator every interpolated face has the mean error of held-out faces, less their gain") {
-  const SixFaces six;
+  SixFaces six;
   const EstimatedErrors errors = six.estimate();
   const std::vector<double> expected{0, 0, 0, 0, 1.5 * kHalfGain, 1.5 * kHalfGain};
-  REQUIRE(errors.expected.size() == 6);
-  for (size_t face = 0; face < 6; ++face) CHECK(errors.expected[face] == doctest::Approx(expected[face]));
+  REQUIRE(six.expected.size() == 6);
+  for (size_t face = 0; face < 6; ++face) CHECK(six.expected[face] == doctest::Approx(expected[face]));
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 3.0 / 6 / 10));
   // The standard error of the mean of 1 and 2 is 0.5; it is scaled to two faces of six and the range 10. The gain of
   // the held-out faces has an uncertainty of its own size.
@@ -82,9 +111,9 @@ TEST_CASE("errors are in proportion to the indicator, and a held-out face counts
   SixFaces six;
   six.indicator = {9, 9, 1.5, 3.5, 2.5, 0.5};
   const EstimatedErrors errors = six.estimate();
-  CHECK(errors.expected[4] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 2.5));
-  CHECK(errors.expected[5] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 0.5));
-  CHECK(errors.expected[3] == 0);
+  CHECK(six.expected[4] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 2.5));
+  CHECK(six.expected[5] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 0.5));
+  CHECK(six.expected[3] == 0);
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 1.8 / 6 / 10));
   // The held-out faces are 0.1 below and above the ratio; the two faces have an indicator of 3, a held-out face 2.5.
   CHECK(errors.estimate.standardError ==
@@ -93,7 +122,7 @@ TEST_CASE("errors are in proportion to the indicator, and a held-out face counts
   six.heldOut.weights = {3, 1};
   const EstimatedErrors weighted = six.estimate();
   const double ratio = (3 * 1.0 + 2.0) / (3 * 1.5 + 3.5);
-  CHECK(weighted.expected[4] == doctest::Approx(kHalfGain * ratio * 2.5));
+  CHECK(six.expected[4] == doctest::Approx(kHalfGain * ratio * 2.5));
   const double first = 3 * (1 - ratio * 1.5), second = 2 - ratio * 3.5;
   CHECK(weighted.estimate.standardError ==
         doctest::Approx(kHalfGain *
@@ -111,10 +140,10 @@ TEST_CASE("the estimate has the same bits at any power of two of the unit of len
   const ErrorEstimate expected = six.estimate().estimate;
   for (const double scale : {0x1p500, 0x1p-500, 0x1p1000, 0x1p-1000}) {
     SixFaces scaled = six;
-    for (std::vector<double>* lengths : {&scaled.traced.values, &scaled.values, &scaled.indicator, &scaled.result})
+    for (std::vector<double>* lengths : {&scaled.seeds.values, &scaled.values, &scaled.indicator, &scaled.result})
       for (double& length : *lengths) length *= scale;
     const EstimatedErrors errors = scaled.estimate();
-    CHECK(errors.expected[4] == six.estimate().expected[4] * scale);
+    CHECK(scaled.expected[4] == six.expected[4] * scale);
     CHECK(errors.estimate.average == expected.average);
     CHECK(errors.estimate.standardError == expected.standardError);
     CHECK(errors.estimate.robustAverage == expected.robustAverage);
@@ -128,7 +157,7 @@ TEST_CASE("a held-out face of inclusion probability 1 is among the worst faces a
   six.heldOut = {{2, 3, 1}, {1, 1, 0}};
   six.values[1] = 4;
   const EstimatedErrors errors = six.estimate();
-  CHECK(errors.expected[4] == doctest::Approx(std::pow(0.25, 0.12) * 1.5));
+  CHECK(six.expected[4] == doctest::Approx(std::pow(0.25, 0.12) * 1.5));
   CHECK(errors.estimate.heldOutCount == 3);
   REQUIRE(errors.estimate.worstFaces.size() == 3);
   CHECK(errors.estimate.worstFaces[0].face == 1);
@@ -140,8 +169,8 @@ TEST_CASE("the error of a seed is the difference by which its value was moved") 
   six.result[0] = 1;
   six.result[3] = 5;
   const EstimatedErrors errors = six.estimate();
-  CHECK(errors.expected[0] == 1);
-  CHECK(errors.expected[3] == 1);
+  CHECK(six.expected[0] == 1);
+  CHECK(six.expected[3] == 1);
   CHECK(errors.estimate.average == doctest::Approx((1 + 1 + kHalfGain * (1.5 + 1.5)) / 6 / 10));
 }
 
@@ -149,10 +178,10 @@ TEST_CASE("faces without a value have no error, and held-out faces without one d
   SixFaces six;
   six.values[5] = six.result[5] = kNoValue;
   const EstimatedErrors errors = six.estimate();
-  CHECK(errors.expected[5] == 0);
+  CHECK(six.expected[5] == 0);
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 1.5 / 5 / 10));
 
-  six.traced.values[2] = kNoValue;
+  six.tracedAt(2) = kNoValue;
   CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 
@@ -160,30 +189,21 @@ TEST_CASE("an estimate needs two held-out faces and a positive range") {
   SixFaces one;
   one.heldOut = {{2}, {1}};
   CHECK(one.estimate().estimate.heldOutCount == 0);
-  for (const double entry : one.estimate().expected) CHECK(entry == 0);
   SixFaces flat;
-  for (const uint32_t face : {0u, 1u}) flat.traced.values[face] = 3;
-  for (const uint32_t face : {2u, 3u}) flat.traced.values[face] = 3;
+  for (double& value : flat.seeds.values) value = 3;
   CHECK(flat.estimate().estimate.heldOutCount == 0);
 }
 
 namespace {
 
 /// 100 faces of the value 10, with a median relative error at the held-out faces 2 .. 5. Faces 0 and 1 are sampled.
-struct HundredFaces {
-  Mesh mesh;
-  TracedSeeds traced{100};
-  HeldOutFaces heldOut{{2, 3, 4, 5}, {1, 1, 1, 1}};
-  std::vector<double> values = std::vector<double>(100, 10.0), result = values;
-
-  HundredFaces() {
-    mesh.faces.resize(100);
-    for (uint32_t face = 0; face < 6; ++face) addSeed(traced, face, 10);
-    traced.values[1] = result[1] = 20;
+struct HundredFaces : SeededFaces {
+  HundredFaces() : SeededFaces(100) {
+    heldOut = {{2, 3, 4, 5}, {1, 1, 1, 1}};
+    values = result = std::vector<double>(100, 10.0);
+    for (uint32_t face = 0; face < 6; ++face) addSeed(seeds, face, 10);
+    tracedAt(1) = result[1] = 20;
     for (uint32_t face = 2; face < 6; ++face) values[face] = 10 + face;  // 20 to 50 % off.
-  }
-  [[nodiscard]] ErrorEstimate estimate() const {
-    return estimateErrors(mesh, {traced, heldOut, atHeldOut(heldOut, values), {}, result}).estimate;
   }
 };
 
@@ -193,56 +213,65 @@ TEST_CASE("quantiles of the relative error are those of held-out faces by their 
   HundredFaces faces;
   const double gain = std::pow(1 - 4.0 / 6, 0.12);
   // Six faces without an error, then 23.5 faces of each held-out face.
-  CHECK(faces.estimate().relativeMedian == doctest::Approx(0.3 * gain));
-  CHECK(faces.estimate().relativePercentile90 == doctest::Approx(0.5 * gain));
-  CHECK(faces.estimate().relativeMedianStandardError > 0);
+  CHECK(faces.estimate().estimate.relativeMedian == doctest::Approx(0.3 * gain));
+  CHECK(faces.estimate().estimate.relativePercentile90 == doctest::Approx(0.5 * gain));
+  CHECK(faces.estimate().estimate.relativeMedianStandardError > 0);
   faces.heldOut.weights = {8, 1, 0.6, 0.4};
-  CHECK(faces.estimate().relativeMedian == doctest::Approx(0.2 * gain));
-  CHECK(faces.estimate().relativePercentile90 == doctest::Approx(0.3 * gain));
+  CHECK(faces.estimate().estimate.relativeMedian == doctest::Approx(0.2 * gain));
+  CHECK(faces.estimate().estimate.relativePercentile90 == doctest::Approx(0.3 * gain));
   // Half of the faces are seeds.
-  for (uint32_t face = 6; face < 52; ++face) addSeed(faces.traced, face, 10);
-  CHECK(faces.estimate().relativeMedian == 0);
-  CHECK(faces.estimate().relativeMedianStandardError == 0);
-  CHECK(faces.estimate().relativePercentile90 > 0);
+  for (uint32_t face = 6; face < 52; ++face) addSeed(faces.seeds, face, 10);
+  CHECK(faces.estimate().estimate.relativeMedian == 0);
+  CHECK(faces.estimate().estimate.relativeMedianStandardError == 0);
+  CHECK(faces.estimate().estimate.relativePercentile90 > 0);
 }
 
 TEST_CASE("values of seeds that were moved have a relative error, infinite where the traced value is 0") {
   HundredFaces faces;
-  for (uint32_t face = 6; face < 70; ++face) addSeed(faces.traced, face, 10);
-  CHECK(faces.estimate().relativeMedian == 0);
+  for (uint32_t face = 6; face < 70; ++face) addSeed(faces.seeds, face, 10);
+  CHECK(faces.estimate().estimate.relativeMedian == 0);
   for (uint32_t face = 6; face < 70; ++face) faces.result[face] = 10.5;
-  CHECK(faces.estimate().relativeMedian == doctest::Approx(0.05));
-  for (uint32_t face = 6; face < 70; ++face) faces.traced.values[face] = 0;
-  CHECK(faces.estimate().relativePercentile90 == std::numeric_limits<double>::infinity());
+  CHECK(faces.estimate().estimate.relativeMedian == doctest::Approx(0.05));
+  for (uint32_t face = 6; face < 70; ++face) faces.tracedAt(face) = 0;
+  CHECK(faces.estimate().estimate.relativePercentile90 == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("the robust average is over the range without one percent of the values at each end") {
   HundredFaces faces;
   for (uint32_t face = 0; face < 100; ++face) faces.result[face] = 10 + 0.01 * face;
-  for (uint32_t face = 0; face < 6; ++face) faces.result[face] = faces.traced.values[face];
-  faces.traced.values[1] = faces.result[1] = 1010;
-  const ErrorEstimate estimate = faces.estimate();
+  for (uint32_t face = 0; face < 6; ++face) faces.result[face] = faces.tracedAt(face);
+  faces.tracedAt(1) = faces.result[1] = 1010;
+  const ErrorEstimate estimate = faces.estimate().estimate;
   // 1000 and 0.98: from the second to the last but one of the values 10, ..., 10.99, 1010.
   CHECK(estimate.robustAverage / estimate.average == doctest::Approx(1000 / 0.99).epsilon(0.02));
   CHECK(estimate.average < 0.01);
   CHECK(estimate.robustAverage > 1);
 }
 
+TEST_CASE("a node stands for the faces that get its value, seeds included") {
+  SixFaces six;
+  six.indicator = {9, 9, 1.5, 3.5, 2.5, 0.5};
+  const std::vector<uint32_t> counts{3, 1, 1, 2, 4, 1};
+  const EstimatedErrors errors = six.estimateAt({six.graph, six.geometry, {}, 0, {}, {}, counts});
+  const double ratio = kHalfGain * 3.0 / (1.5 + 3.5), indicatorSum = 2 * 9 + 3.5 + 4 * 2.5 + 0.5;
+  CHECK(errors.perIndicator == doctest::Approx(ratio));
+  CHECK(errors.average == doctest::Approx(ratio * indicatorSum / 12));
+  CHECK(errors.estimate.average == doctest::Approx(ratio * indicatorSum / 12 / 10));
+}
+
 TEST_CASE("no more than five worst faces, by their number in the file") {
-  Mesh mesh;
-  mesh.faces.resize(20);
-  mesh.polygons.firstCorner.resize(11);
-  for (uint32_t face = 0; face < 20; ++face) mesh.polygons.inputFaceOf.push_back(face / 2);
-  TracedSeeds traced(20);
-  HeldOutFaces heldOut;
-  addSeed(traced, 0, 0);
+  SeededFaces twenty(20);
+  twenty.mesh.polygons.firstCorner.resize(11);
+  for (uint32_t face = 0; face < 20; ++face) twenty.mesh.polygons.inputFaceOf.push_back(face / 2);
+  addSeed(twenty.seeds, 0, 0);
   for (uint32_t face = 6; face < 20; ++face) {
-    addSeed(traced, face, face);
-    heldOut.append({{face}, {1}});
+    addSeed(twenty.seeds, face, face);
+    twenty.heldOut.faces.push_back(face);
+    twenty.heldOut.weights.push_back(1);
   }
-  std::vector<double> values(20, 6.0), result(20, 0.0);
-  std::iota(result.begin(), result.end(), 0.0);
-  const EstimatedErrors errors = estimateErrors(mesh, {traced, heldOut, atHeldOut(heldOut, values), {}, result});
+  twenty.values.assign(20, 6.0);
+  std::iota(twenty.result.begin(), twenty.result.end(), 0.0);
+  const EstimatedErrors errors = twenty.estimate();
   REQUIRE(errors.estimate.worstFaces.size() == 5);
   CHECK(errors.estimate.worstFaces[0].face == 9);  // Triangle 19.
   CHECK(errors.estimate.worstFaces[1].face == 9);

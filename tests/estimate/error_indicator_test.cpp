@@ -19,11 +19,10 @@ struct SeededSphere {
   FaceGeometry geometry = computeFaceGeometry(mesh);
   DualGraph graph = buildDualGraph(mesh);
   std::vector<uint32_t> seeds{3, 60, 120, 150};
-  std::vector<double> values;
+  std::vector<double> values;  ///< #S
   Prediction prediction;
 
-  SeededSphere() : values(mesh.faces.size(), kNoValue) {
-    for (const uint32_t seed : seeds) values[seed] = 2;
+  SeededSphere() : values(seeds.size(), 2) {
     const SeedCells cells = buildSeedCells(graph, seeds);
     prediction.cellOf = cells.cellOf;
     prediction.nearest = NearestCells(cells, graph, geometry, seeds, 6);
@@ -59,7 +58,7 @@ TEST_CASE("the indicator of a face is the difference to its seed plus half of th
 
 TEST_CASE("the indicator of a cell grows with the difference between its seed and neighbouring seeds") {
   SeededSphere sphere;
-  sphere.values[120] = 8;
+  sphere.values[2] = 8;
   const UnsetVector<double> indicator = sphere.indicator();
   const auto of = [&](uint32_t cell) { return indicator[sphere.seeds[cell]]; };
   REQUIRE(sphere.prediction.nearest.of(2).size() > 1);
@@ -78,7 +77,7 @@ TEST_CASE("a face without a prediction, or with a seed without a value, has the 
   sphere.prediction.values[sphere.faceOfCell(1)] = 5;
   const uint32_t unpredicted = sphere.faceOfCell(0);
   sphere.prediction.values[unpredicted] = kNoValue;
-  sphere.values[120] = kNoValue;  // A seed without any hit.
+  sphere.values[2] = kNoValue;  // A seed without any hit.
   const uint32_t ofNoValue = sphere.faceOfCell(2);
   const UnsetVector<double> indicator = sphere.indicator();
   CHECK(indicator[unpredicted] == doctest::Approx(3 * indicator[sphere.seeds[0]]));

@@ -24,15 +24,16 @@ struct TracedSphere {
   Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
   TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   Cone cone = makeCone({});
-  TracedSeeds traced{prepared.geometry.areas.size()};
+  Seeds traced;
+  std::vector<uint8_t> isSeed = std::vector<uint8_t>(mesh.faceCount(), 1);
 
   TracedSphere() {
-    traced.faces = prepared.traceableFaces;
-    std::fill(traced.isSeed.begin(), traced.isSeed.end(), uint8_t{1});
-    makeReferenceTracer(scene, cone)->trace(traced.faces, {traced.values}, {});
+    traced.nodes = prepared.traceableFaces;
+    traced.values.resize(traced.nodes.size());
+    makeReferenceTracer(scene, cone)->trace(traced.nodes, {traced.values}, {});
   }
   [[nodiscard]] CheckReport check(uint64_t count) const {
-    return checkAgainstReference(scene, cone, prepared.traceableFaces, {traced, traced.values}, count, 1, {});
+    return checkAgainstReference(scene, cone, prepared.traceableFaces, {traced, isSeed, traced.values}, count, 1, {});
   }
 };
 
@@ -107,8 +108,8 @@ TEST_CASE("one miss among few faces passes, the only face must not miss") {
   CHECK(sphere.check(kAll).passed == true);
   CHECK(sphere.check(kAll).agreeingCount == 319);
 
-  std::fill(sphere.traced.isSeed.begin(), sphere.traced.isSeed.end(), uint8_t{0});
-  sphere.traced.isSeed[77] = 1;
+  std::fill(sphere.isSeed.begin(), sphere.isSeed.end(), uint8_t{0});
+  sphere.isSeed[77] = 1;
   const CheckReport alone = sphere.check(10);
   CHECK(alone.tracedCount == 1);
   CHECK(alone.passed == false);
@@ -133,7 +134,7 @@ TEST_CASE("faces without a value on both sides are counted separately") {
 
 TEST_CASE("without a traced face a check has not passed") {
   TracedSphere sphere;
-  std::fill(sphere.traced.isSeed.begin(), sphere.traced.isSeed.end(), uint8_t{0});
+  std::fill(sphere.isSeed.begin(), sphere.isSeed.end(), uint8_t{0});
   CHECK(sphere.check(kAll).passed == false);
 }
 

@@ -44,7 +44,6 @@ _VALUES: dict[str, tuple[Values, Values]] = {
     "--check": (("", "1", "10", "all"), ("0", "-1", "x", "1.5")),
     "--log": (("log.jsonl", "absent/log.jsonl"), ("", ".")),
     "--timeout": (("0.01", "100"), ("0", *_ILLEGAL_NUMBERS)),
-    "--time-budget": (("0.001", "0.1"), ("0", *_ILLEGAL_NUMBERS)),
     "--max-faces": (("0", "10", "100000"), _ILLEGAL_NUMBERS),
     "--memory-limit": (("10M", "4G"), ("0", "4X", *_ILLEGAL_NUMBERS)),
     "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", *_ILLEGAL_NUMBERS)),
@@ -119,7 +118,7 @@ COMPUTATION = tuple(
     option
     for section, rows in _ROWS.items()
     for option, _ in rows
-    if (section in _SECTIONS_OF_VALUES or option.name in _OF_VALUES) and option.name != "--time-budget"
+    if (section in _SECTIONS_OF_VALUES or option.name in _OF_VALUES)
 )
 # Options that change neither values nor fields.
 NEUTRAL = (

@@ -8,7 +8,6 @@
 #include "asdf_vk/scene.h"
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
-#include "seeds/samplers.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
@@ -31,6 +30,11 @@ bool hasAggregates(const Mesh& mesh, double share, bool isPooled = false) {
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const auto seedCount = static_cast<uint64_t>(share * static_cast<double>(mesh.faces.size()));
   return aggregatesFor(prepared, seedCount, isPooled) != nullptr;
+}
+
+bool isCentre(const AggregatedMesh& aggregated, uint32_t face) {
+  const FaceDomain domain = aggregated.domain();
+  return std::binary_search(domain.faces.begin(), domain.faces.end(), face);
 }
 
 /// The result without aggregates: a region of all faces but one has none.
@@ -110,23 +114,32 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < bound);
 }
 
-TEST_CASE("blue noise on the graph of the aggregates is that on the graph of the faces") {
+TEST_CASE("the domain of aggregates has their centres as nodes, and its values are spread over all faces") {
   const Mesh mesh = makeAnimal(kFineFaceCount).mesh;
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const AggregatedMesh aggregated(prepared);
   const FaceDomain domain = aggregated.domain();
-  REQUIRE(2 * domain.traceableFaces.size() < mesh.faces.size());
-  ArcAngles arcAngles(domain.graph, prepared.geometry);
-  const SeedDomain onFaces{domain.graph, prepared.geometry, arcAngles, domain.traceableFaces},
-      onAggregates{domain.graph, prepared.geometry, arcAngles, domain.traceableFaces, &aggregated.aggregates()};
-  const std::vector<uint32_t> first = blueNoiseSeeds(onFaces, 1000, {}, 1);
-  CHECK(first.size() == 1000);
-  CHECK(blueNoiseSeeds(onAggregates, 1000, {}, 1) == first);
-  CHECK(blueNoiseSeeds(onAggregates, 2000, first, 2) == blueNoiseSeeds(onFaces, 2000, first, 2));
-  std::vector<double> density(mesh.faces.size());
-  for (size_t face = 0; face < density.size(); ++face) density[face] = 1 + static_cast<double>(face % 7);
-  CHECK(weightedBlueNoiseSeeds(onAggregates, density, 1000, first, 3) ==
-        weightedBlueNoiseSeeds(onFaces, density, 1000, first, 3));
+  REQUIRE(2 * domain.size() < mesh.faces.size());
+  CHECK(std::is_sorted(domain.faces.begin(), domain.faces.end()));
+  uint64_t faceCount = 0;
+  for (uint32_t node = 0; node < domain.size(); ++node) {
+    faceCount += domain.representedCountOf(node);
+    REQUIRE(domain.geometry.normals[node] == prepared.geometry.normals[domain.faceOf(node)]);
+    REQUIRE(domain.componentOf[node] == prepared.components.componentOf[domain.faceOf(node)]);
+  }
+  CHECK(faceCount == mesh.faces.size());
+  std::vector<double> values(domain.size());
+  UnsetVector<double> entries(domain.size());
+  for (uint32_t node = 0; node < domain.size(); ++node) values[node] = entries[node] = 1 + node % 5;
+  const std::vector<double> spread = aggregated.spreadValues(values);
+  const UnsetVector<double> spreadEntries = aggregated.spreadEntries(entries);
+  REQUIRE(spread.size() == mesh.faces.size());
+  REQUIRE(spreadEntries.size() == mesh.faces.size());
+  for (uint32_t node = 0; node < domain.size(); ++node) {
+    REQUIRE(spread[domain.faceOf(node)] == values[node]);
+    REQUIRE(spreadEntries[domain.faceOf(node)] == values[node]);
+  }
+  CHECK(std::all_of(spread.begin(), spread.end(), [](double value) { return value >= 1 && value <= 5; }));
 }
 
 TEST_CASE("only centres are seeds, with pooling all faces of a mesh of this size") {
@@ -140,7 +153,7 @@ TEST_CASE("only centres are seeds, with pooling all faces of a mesh of this size
     const Result result = cpuSession().compute(mesh, options);
     size_t count = 0;
     for (uint32_t face = 0; face < mesh.faces.size(); ++face)
-      count += result.seed()[face] != 0 && !aggregated->aggregates().isCentre(face) ? 1 : 0;
+      count += result.seed()[face] != 0 && !isCentre(*aggregated, face) ? 1 : 0;
     return count;
   };
   CHECK(countOtherSeeds() == 0);
@@ -154,7 +167,7 @@ TEST_CASE("a component whose centres have no valid ray has the value of another 
   const auto aggregated = aggregatesFor(prepared, 1000, false);
   REQUIRE(aggregated);
   auto face = static_cast<uint32_t>(mesh.faces.size() / 2);
-  while (aggregated->aggregates().isCentre(face)) ++face;
+  while (isCentre(*aggregated, face)) ++face;
   // Below the sheet, a triangle that only the rays of this face hit.
   const Vec3d place = prepared.geometry.barycentres[face] - Vec3d{0, 0, 0.05};
   const auto first = static_cast<uint32_t>(mesh.vertices.size());

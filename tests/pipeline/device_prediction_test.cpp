@@ -77,19 +77,18 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver
   Options options = test::tenthOfFaces();
   options.solver = solver;
   const Mesh mesh = makeAnimal(2000).mesh;
-  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
-  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
-  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  PreparedScene prepared(prepareMesh(mesh, Orientation::Keep));
+  const TraceScene scene = prepared.view();
   const Cone cone = makeCone(options.cone);
   GpuBackend backend(predictor);
   Solvers solvers;
   StageSeconds seconds;
   StageClock clock(seconds);
-  const FaceDomain domain = wholeMesh(prepared);
-  const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, outcome.warnings};
-  KeptTracers tracers(backend, scene, 0);
-  const RoundsResult result =
-      runRounds(computation, [&] { return std::make_unique<SeedTracing>(computation, tracers, nullptr); }, {});
+  const FaceDomain domain = wholeMesh(prepared.prepared);
+  const InputFaceSet all;
+  const Computation computation{options, prepared.prepared, domain,  all,   scene,
+                                cone,    backend,           solvers, clock, outcome.warnings};
+  const RoundsResult result = runRounds(computation, {prepared, nullptr, true}, {});
   outcome.values = result.interpolated.values;
   outcome.predictorCount = backend.requestCount;
   return outcome;

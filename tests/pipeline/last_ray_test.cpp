@@ -93,9 +93,8 @@ Outcome run(Options options, bool keepsNodes = false) {
   Outcome outcome;
   options.solver = "recording";
   const Mesh mesh = makeTorus(4000).mesh;
-  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
-  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
-  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  PreparedScene prepared(prepareMesh(mesh, Orientation::Keep));
+  const TraceScene scene = prepared.view();
   const Cone cone = makeCone(options.cone);
   RecordingBackend backend(outcome.events);
   Solvers solvers;
@@ -103,16 +102,15 @@ Outcome run(Options options, bool keepsNodes = false) {
   StageSeconds seconds;
   StageClock clock(seconds);
   std::vector<Warning> warnings;
-  const FaceDomain domain = wholeMesh(prepared);
-  const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, warnings};
-  KeptTracers tracers(backend, scene, 0);
-  const RoundsResult result =
-      runRounds(computation,
-                [&] { return std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &bvh); }, {});
+  const FaceDomain domain = wholeMesh(prepared.prepared);
+  const InputFaceSet all;
+  const Computation computation{options, prepared.prepared, domain,  all,   scene,
+                                cone,    backend,           solvers, clock, warnings};
+  const RoundsResult result = runRounds(computation, {prepared, nullptr, keepsNodes}, {});
   outcome.faceCount = mesh.faces.size();
   outcome.roundCount = result.roundCount;
-  outcome.seedCount = result.traced.faces.size();
-  outcome.nodeCount = bvh.nodes.size();
+  outcome.seedCount = result.seeds.size();
+  outcome.nodeCount = prepared.bvh.nodes.size();
   return outcome;
 }
 

@@ -26,13 +26,6 @@ Options roundsUntil(double maxError) {
   return options;
 }
 
-Options roundsFor(double seconds) {
-  Options options = test::tenthOfFaces();
-  options.seeds = SeedCount::ofShare(0.02);
-  options.rounds.timeBudgetSeconds = seconds;
-  return options;
-}
-
 uint64_t markedCount(const Result& result) {
   return static_cast<uint64_t>(std::count(result.seed().begin(), result.seed().end(), 1));
 }
@@ -159,28 +152,6 @@ TEST_CASE("seeds that a round gave to components without one are not chosen agai
     const Result result = computeRounds(mesh, once);
     CHECK(result.report.seedCount == markedCount(result));
   }
-}
-
-TEST_CASE("a budget that is spent at once makes one round, a large one takes every face") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  const Result spent = computeRounds(mesh, roundsFor(1e-9));
-  CHECK(spent.report.roundCount == 1);
-  CHECK(spent.report.seedCount == 51);
-  CHECK(spent.report.noValueCount == 0);
-  const Result rich = computeRounds(mesh, roundsFor(1000));
-  CHECK(rich.report.roundCount == 2);
-  CHECK(rich.report.seedCount == mesh.faces.size());
-  CHECK(computeRounds(mesh, roundsFor(1e9)).report.seedCount == mesh.faces.size());
-}
-
-TEST_CASE("rounds end at the time budget or at the maximum error, at the first that is reached") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  Options options = roundsUntil(1e-9);
-  options.rounds.timeBudgetSeconds = 1e-9;
-  CHECK(computeRounds(mesh, options).report.roundCount == 1);
-  options.rounds.timeBudgetSeconds = 1000;
-  options.rounds.maxError = 0.5;
-  CHECK(computeRounds(mesh, options).report.roundCount == 1);
 }
 
 TEST_CASE("the adaptive sampler casts as many rays in two rounds, and its error is not larger") {

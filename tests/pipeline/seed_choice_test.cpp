@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "generate/shapes.h"
+#include "pipeline/region.h"
 
 using namespace asdfvk;
 
@@ -42,7 +43,14 @@ SeedShares shares(uint64_t count, uint64_t heldOutCount) {
 SeedChoice choose(const PreparedMesh& mesh, const Options& options, const SeedShares& shares, const SeedChoice& earlier,
                   std::span<const double> density) {
   ArcAngles arcAngles(mesh.graph, mesh.geometry);
-  return chooseSeeds(wholeMesh(mesh), mesh.geometry, arcAngles, options, shares, earlier, density);
+  Seeds seeds;
+  for (const auto& [nodes, kind] :
+       {std::pair(earlier.heldOut, SeedKind::HeldOut), std::pair(earlier.sampled, SeedKind::Sampled)})
+    for (const uint32_t node : nodes) {
+      seeds.nodes.push_back(node);
+      seeds.kinds.push_back(kind);
+    }
+  return chooseSeeds(wholeMesh(mesh), arcAngles, options, shares, seeds, density);
 }
 
 uint64_t seedCountOf(const SeedCount& request, uint64_t faceCount, Recipe recipe = Recipe::Balanced) {

@@ -6,6 +6,7 @@
 #include "core/random.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/dual_graph.h"
+#include "mesh/face_domain.h"
 #include "predict/seed_cells.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_hits.h"
@@ -43,6 +44,7 @@ struct SeededMesh {
   SeededMesh& operator=(const SeededMesh&) = delete;
 
   [[nodiscard]] TraceScene scene() const { return {mesh, geometry, representatives, bvh}; }
+  [[nodiscard]] FaceDomain domain() const { return {graph, geometry, {}, 0, {}}; }
   [[nodiscard]] SeedHitsView seedHits() const { return {seeds, hits}; }
   [[nodiscard]] SeedCells cells() const { return buildSeedCells(graph, seeds); }
   /// The value from the face's own rays, in the unit of the mesh.

@@ -29,7 +29,7 @@ VulkanPredictionKernels kernelsFor(const Device& device, const Cone& cone) {
 }
 
 UnsetVector<double> predictOn(const SeededMesh& seeded, const PredictionOptions& options, DevicePredictor* device) {
-  return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options, {}, device).values;
+  return predictValues(seeded.scene(), seeded.domain(), seeded.cone, seeded.seedHits(), options, {}, device).values;
 }
 
 /// Differences between the values of the device and of the CPU, in units of the diagonal of the bounding box.
@@ -196,7 +196,7 @@ TEST_CASE("the device, too, copies the values of faces whose seeds are the same 
   for (const PredictionBatchSize& size : {PredictionBatchSize{7, 1}, PredictionBatchSize{1000, 4000}}) {
     const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, size);
     const auto predict = [&](std::span<const uint32_t> seeds, Prediction earlier) {
-      return predictValues(seeded.scene(), seeded.graph, seeded.cone, {seeds, seeded.hits}, {}, std::move(earlier),
+      return predictValues(seeded.scene(), seeded.domain(), seeded.cone, {seeds, seeded.hits}, {}, std::move(earlier),
                            predictor.get());
     };
     const Prediction first = predict(fewer, {}), expected = predict(seeded.seeds, {});
@@ -227,7 +227,8 @@ TEST_CASE("a stop ends a prediction on the device between submissions") {
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, PredictionBatchSize{100, 200});
   const auto predict = [&](const RunControl& control) {
-    return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, {}, predictor.get(), control)
+    return predictValues(seeded.scene(), seeded.domain(), seeded.cone, seeded.seedHits(), {}, {}, predictor.get(),
+                         control)
         .values;
   };
   std::vector<double> fractions;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "pipeline/generated_mesh.h"
+#include "pipeline/region.h"
 #include "predict/prediction.h"
 #include "trace/reference_tracer.h"
 #include "trace/vulkan/vulkan_tracer.h"
@@ -24,7 +25,7 @@ TracerCheck checkKernel(const VulkanConeKernel& kernel) {
 TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
   const GeneratedMesh generated(halfSquareRing());
   const TraceScene scene = generated.scene.view();
-  const DualGraph& graph = generated.scene.prepared.graph;
+  const FaceDomain domain = wholeMesh(generated.scene.prepared);
   const Cone cone = makeCone({.rayCount = kernels.rayCount(), .definition = kernels.definition()});
   std::vector<uint32_t> seeds;
   for (uint32_t face = 0; face < scene.mesh.faceCount(); face += kFacesPerSeed) seeds.push_back(face);
@@ -34,8 +35,8 @@ TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
 
   const SeedHitsView input{seeds, hits};
   const std::unique_ptr<DevicePredictor> predictor = makeVulkanPredictor(kernels, scene, cone);
-  const UnsetVector<double> expected = predictValues(scene, graph, cone, input, {}).values,
-                            predicted = predictValues(scene, graph, cone, input, {}, {}, predictor.get()).values;
+  const UnsetVector<double> expected = predictValues(scene, domain, cone, input, {}).values,
+                            predicted = predictValues(scene, domain, cone, input, {}, {}, predictor.get()).values;
   return compareValues(predicted, expected, scene.geometry.bounds.diagonal());
 }
 

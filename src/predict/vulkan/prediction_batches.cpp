@@ -57,17 +57,17 @@ void PredictionBatches::addSeeds(uint32_t cell) {
 }
 
 template <typename Visit>
-void PredictionBatches::forEachFace(const Part& part, const Visit& visit) const {
-  const std::span<const uint32_t> faces = input_.cells[part.cell];
-  if (faceCounts_[part.cell] == faces.size()) {
-    std::ranges::for_each(faces.subspan(part.firstFace, part.faceCount), visit);
+void PredictionBatches::forEachNode(const Part& part, const Visit& visit) const {
+  const std::span<const uint32_t> nodes = input_.cells[part.cell];
+  if (faceCounts_[part.cell] == nodes.size()) {
+    std::ranges::for_each(nodes.subspan(part.firstFace, part.faceCount), visit);
     return;
   }
   uint32_t index = 0;
-  for (const uint32_t face : faces) {
-    if (isKept(part.cell, face)) continue;
+  for (const uint32_t node : nodes) {
+    if (isKept(part.cell, node)) continue;
     if (index >= part.firstFace + part.faceCount) break;
-    if (index++ >= part.firstFace) visit(face);
+    if (index++ >= part.firstFace) visit(node);
   }
 }
 
@@ -75,8 +75,8 @@ void PredictionBatches::write(std::span<uint32_t> work) const {
   forEachInParallel(parts_.size(), [&](size_t i) {
     const Part& part = parts_[i];
     uint32_t* item = &work[2 * size_t{part.firstItem}];
-    forEachFace(part, [&](uint32_t face) {
-      *item++ = face;
+    forEachNode(part, [&](uint32_t node) {
+      *item++ = input_.domain.faceOf(node);
       *item++ = static_cast<uint32_t>(i);
     });
     const std::span<uint32_t> seeds =

@@ -21,9 +21,9 @@ class PredictionBatches {
   /// The input must outlive this object.
   explicit PredictionBatches(const PredictionInput& input);
 
-  /// Whether a face of the cell keeps its earlier value.
-  [[nodiscard]] bool isKept(uint32_t cell, uint32_t face) const {
-    return hasEarlierSeeds_[cell] && input_.earlier.cellOf[face] == cell;
+  /// Whether a node of the cell keeps its earlier value.
+  [[nodiscard]] bool isKept(uint32_t cell, uint32_t node) const {
+    return hasEarlierSeeds_[cell] && input_.earlier.cellOf[node] == cell;
   }
   /// Share of the faces that were in batches so far, 0 to 1.
   [[nodiscard]] double progress() const {
@@ -49,7 +49,7 @@ class PredictionBatches {
   void finishBatch();
   void addSeeds(uint32_t cell);
   template <typename Visit>
-  void forEachFace(const Part& part, const Visit& visit) const;
+  void forEachNode(const Part& part, const Visit& visit) const;
 
   const PredictionInput& input_;
   std::vector<uint8_t> hasEarlierSeeds_;  // One entry per cell.

@@ -113,10 +113,11 @@ class VulkanPredictor final : public DevicePredictor {
     constexpr size_t kGrain = 64;  // Few cells per task, because a cell may have many faces.
     forEachRange(input.order.size(), kGrain, [&](size_t begin, size_t end) {
       for (const uint32_t cell : input.order.subspan(begin, end - begin))
-        for (const uint32_t face : input.cells[cell]) {
-          const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
-          values[face] =
-              batches.isKept(cell, face) ? input.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
+        for (const uint32_t node : input.cells[cell]) {
+          const uint32_t bits = lengths[input.domain.faceOf(node)];
+          const double length = bits == kNoValueBits ? kNoValue : std::bit_cast<float>(bits);
+          values[node] =
+              batches.isKept(cell, node) ? input.earlier.values[node] : scene_.bvh.normalization.toMeshLength(length);
         }
     });
   }
