@@ -14,6 +14,7 @@ void reduce(Limit& limit, const auto& setting) {
 
 void change(VkPhysicalDeviceProperties& properties, const Settings& settings) {
   if (!settings.name.empty()) std::strcpy(properties.deviceName, settings.name.c_str());
+  if (settings.minorVersion) properties.apiVersion = VK_MAKE_API_VERSION(0, 1, *settings.minorVersion, 0);
   properties.deviceType = settings.type.value_or(properties.deviceType);
   properties.vendorID = settings.vendor.value_or(properties.vendorID);
   VkPhysicalDeviceLimits& limits = properties.limits;

@@ -51,6 +51,7 @@ Settings readSettings() {
   settings.name = valueOf("ASDF_VK_FAKE_NAME");
   if (settings.name.size() >= VK_MAX_PHYSICAL_DEVICE_NAME_SIZE) refuse("ASDF_VK_FAKE_NAME");
   settings.type = typeOf("ASDF_VK_FAKE_TYPE");
+  read("ASDF_VK_FAKE_MINOR_VERSION", settings.minorVersion);
   read("ASDF_VK_FAKE_VENDOR", settings.vendor);
   read("ASDF_VK_FAKE_SUBGROUP_SIZE", settings.subgroupSize);
   read("ASDF_VK_FAKE_TEXELS", settings.texelCount);

@@ -12,6 +12,7 @@ namespace asdfvk::fake {
 /// environment when an instance is created. Numbers are decimal, or hexadecimal after "0x". A limit is never larger
 /// than that of the driver.
 struct Settings {
+  std::optional<uint32_t> minorVersion;            ///< ASDF_VK_FAKE_MINOR_VERSION: of Vulkan 1, with patch version 0
   std::string name;                                ///< ASDF_VK_FAKE_NAME: of the device
   std::optional<VkPhysicalDeviceType> type;        ///< ASDF_VK_FAKE_TYPE: integrated, discrete, virtual or cpu
   std::optional<uint32_t> vendor;                  ///< ASDF_VK_FAKE_VENDOR: PCI id

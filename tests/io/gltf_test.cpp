@@ -203,6 +203,22 @@ TEST_CASE("glTF: faces have the name of their node, or else of their mesh") {
         std::vector<NamedFaces>{{0, "left arm"}, {12, ""}, {24, "mesh name"}, {48, "Geh\u00e4use"}, {60, ""}});
 }
 
+TEST_CASE("glTF: an accessor of one element more than its buffer view has is refused") {
+  const test::PlainMesh box = test::box();
+  for (const size_t accessor : {size_t{0}, size_t{1}})
+    for (const uint32_t more : {0u, 1u}) {
+      CAPTURE(accessor);
+      json document = test::documentOf(box);
+      json& count = document["accessors"][accessor]["count"];
+      count = count.get<uint32_t>() + more;
+      const std::string bytes = test::glbOf(document, test::binaryOf(box));
+      if (more == 0)
+        CHECK(test::parse("glb", bytes).faceCount() == 12);
+      else
+        CHECK(test::holds(test::errorOf("glb", bytes), "do not fit into the"));
+    }
+}
+
 TEST_CASE("glTF: an accessor without a buffer view has zeros") {
   json document = test::documentOf(test::box());
   document["accessors"][0].erase("bufferView");

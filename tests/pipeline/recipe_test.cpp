@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <utility>
 
 #include "asdf_vk/options.h"
 #include "generate/shapes.h"
@@ -116,5 +117,17 @@ TEST_CASE("quality is nearer to the function of many rays than balanced" * docte
     const double balanced = errorBy(Recipe::Balanced, mesh, truth);
     MESSAGE(name, ": quality ", quality, ", balanced ", balanced);
     CHECK(quality < balanced);
+  }
+}
+
+// Counted, not timed: a change that makes the solver slower fails here.
+TEST_CASE("the equation needs no more iterations than stored") {
+  for (const auto& [shape, count] : {std::pair("animal", 14u), std::pair("hand", 15u), std::pair("tree", 13u)}) {
+    CAPTURE(std::string(shape));
+    Options options;
+    options.solver = "cpu";
+    const SolverReport report = referenceSession().compute(generateShape(shape, 20'000).mesh, options).report.solver;
+    CHECK(report.converged);
+    CHECK(report.iterations <= count);
   }
 }

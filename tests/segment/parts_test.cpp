@@ -1,4 +1,5 @@
 #include "segment/parts.h"
+#include "segment/assembly_parts.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -295,4 +296,22 @@ TEST_CASE("a wall around a cavity is a thin shell; a plate, a tube and a ball ar
   CHECK_FALSE(isShell(makeSlab(1000).mesh, 0.125, seeEverything));
   CHECK_FALSE(isShell(makeCylinder(1000).mesh, 0.45, blocked));
   CHECK_FALSE(isShell(makeSphere(320).mesh, 1.72, blocked));
+}
+
+TEST_CASE("an assembly is a thin shell if one of its components is") {
+  const auto blocked = [](std::span<const LineSegment> segments) { return std::vector<uint8_t>(segments.size(), 0); };
+  Mesh inside = makeSphere(1280).mesh;
+  for (Face& face : inside.faces) std::swap(face[1], face[2]);
+  const Mesh bowl = shapes::joined(makeSphere(1280).mesh, shapes::scaledAndShifted(inside, 0.9)),
+             ball = makeSphere(320).mesh;
+  const auto isShell = [&](const Mesh& mesh, std::vector<double> values) {
+    const PartSample sample(mesh, std::move(values));
+    return segmentAssembly(sample.input(), {}, blocked).isThinShell;
+  };
+  std::vector<double> values(bowl.faces.size(), 0.125);
+  values.resize(bowl.faces.size() + ball.faces.size(), 1.72);
+  CHECK(isShell(shapes::joined(bowl, ball, {5, 0, 0}), values));
+  std::rotate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(bowl.faces.size()), values.end());
+  CHECK(isShell(shapes::joined(ball, bowl, {5, 0, 0}), values));
+  CHECK_FALSE(isShell(shapes::joined(ball, ball, {5, 0, 0}), std::vector<double>(2 * ball.faces.size(), 1.72)));
 }

@@ -57,6 +57,24 @@ TEST_CASE("the fake device has the properties and limits that its variables requ
   CHECK(facts.maxMemoryAllocationSize == 12'345'678);
 }
 
+TEST_CASE("a device of exactly Vulkan 1.2.0 is described to the end, and one of 1.1 is refused") {
+  FakeDevice::Variables variables = kDiscrete;
+  variables.emplace_back("ASDF_VK_FAKE_MINOR_VERSION", "2");
+  {
+    const FakeDevice fake(variables);
+    const Instance instance;
+    const OpenedDevice opened = openDevice(instance, {});
+    const DeviceFacts& facts = opened.device->facts();
+    CHECK(facts.apiVersion == VK_API_VERSION_1_2);
+    CHECK(facts.subgroupSize == 32);
+    CHECK_FALSE(facts.driver.empty());
+  }
+  variables.back().second = "1";
+  const FakeDevice fake(variables);
+  const Instance instance;
+  requireFailure([&] { (void)openDevice(instance, {}); }, ErrorCode::NoUsableDevice, "supports Vulkan 1.1 only");
+}
+
 TEST_CASE("memory of a fake device is separate and poisoned") {
   const FakeDevice fake(kDiscrete);
   const Instance instance;
