@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "bvh/wide_slots.h"
 #include "core/box3.h"
 #include "core/check.h"
 #include "core/parallel.h"

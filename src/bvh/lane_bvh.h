@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "bvh/bvh.h"
-#include "bvh/wide_bvh.h"
+#include "bvh/wide_collapse.h"
 #include "core/unset_vector.h"
 
 namespace asdfvk {

@@ -161,8 +161,10 @@ class WallComparison {
     now_.thickness.changedPlaces.assign(count, std::nullopt);
     former_.thickness.wallChanges.assign(formerCount, std::nullopt);
     former_.thickness.changedPlaces.assign(formerCount, std::nullopt);
+    std::vector<std::vector<size_t>> pointsOf(count);
+    for (size_t i = 0; i < points.regionOf.size(); ++i) pointsOf[points.regionOf[i]].push_back(i);
     for (size_t region = 0; region < count; ++region)
-      if (isOfCountedKind(now_, region)) judge(region, points, isMatched[region] != 0, control);
+      if (isOfCountedKind(now_, region)) judge(region, points, pointsOf[region], isMatched[region] != 0, control);
     for (size_t region = 0; region < formerCount; ++region)
       if (isOfCountedKind(former_, region))
         former_.thickness.wallChanges[region] = isFormerMatched[region] != 0 ? WallChange::Kept : WallChange::Gone;
@@ -186,12 +188,11 @@ class WallComparison {
     return partsOfFormer_.contains(at) ? PointChange::Thinner : PointChange::Added;
   }
 
-  void judge(size_t region, const WallPoints& points, bool isMatched, const RunControl& control) {
+  /// own: the points of the region.
+  void judge(size_t region, const WallPoints& points, std::span<const size_t> own, bool isMatched,
+             const RunControl& control) {
     std::vector<size_t> worse[4];  // By PointChange.
     bool hasCounterpart = false;
-    std::vector<size_t> own;
-    for (size_t i = 0; i < points.regionOf.size(); ++i)
-      if (points.regionOf[i] == region) own.push_back(i);
     const auto isCapped = [&](size_t i) { return points.placed.thickness[i].isCapped; };
     const bool areAllCapped = std::all_of(own.begin(), own.end(), isCapped);
     for (const size_t i : own) {

@@ -8,6 +8,9 @@
 #include <cstring>
 #include <numeric>
 
+#include "bvh/wide_boxes.h"
+#include "bvh/wide_collapse.h"
+#include "bvh/wide_slots.h"
 #include "bvh_invariants.h"
 #include "bvh_meshes.h"
 #include "device_hierarchy.h"

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "bvh/wide_boxes.h"
 #include "shared/cone_hit.h"
 
 namespace asdfvk {
