@@ -84,7 +84,7 @@ std::string comparisonSentence(const Report& report, bool hasPlaces) {
   return begin + fmt::format("{} (limit {}): {}{}{}{}{}", enumeration(worse), limitText(*thickness.thinnerThan), least,
                              before, hasPlaces ? " " + placeText(worst.place, worst.face) + bodies : "",
                              othersText(comparison, noun),
-                             isFormerUnclear ? "; the former version cannot be judged there" : "");
+                             isFormerUnclear ? "; the former version cannot be judged" : "");
 }
 
 ReportRows comparisonRows(const Report& report) {

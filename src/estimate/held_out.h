@@ -26,7 +26,7 @@ struct HeldOutFaces {
 /// represents. The exponent is above 1 because the held-out faces become seeds and so lower the error of the result
 /// (bench/experiments.md). The method is the ordered pivotal method (Deville and Tille 1998, "Unequal probability
 /// sampling without replacement through a splitting method"; Chauvet 2012). Neighbours in the list exclude each other,
-/// so that the sample is spread over the list. indicator: #F, above 0. representedCounts: #F, the number of faces that
+/// so that the sample is spread over the list. indicator: #N, above 0. representedCounts: #N, the number of faces that
 /// each face represents (itself and faces that get its value); if empty, each face represents only itself. If the
 /// candidates are ascending, the sampled faces are ascending, too.
 [[nodiscard]] HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator,

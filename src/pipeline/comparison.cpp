@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/free_memory.h"
 #include "pipeline/wall_changes.h"
 
 namespace asdfvk {
@@ -29,7 +30,7 @@ std::vector<double> compareVersions(const MeasuredVersion& now, const MeasuredVe
     placed.add(now, face, prepared.geometry.barycentres[face]);
     placed.thickness.push_back(rangeAtBarycentre(now, face));
   }
-  const std::vector<Counterpart> found = counterpartsOf(placed, former, control.part(0, kFacesProgress));
+  std::vector<Counterpart> found = counterpartsOf(placed, former, control.part(0, kFacesProgress));
   std::vector<Counterpart> counterparts(prepared.mesh.faceCount());
   std::vector<double> thickness(prepared.mesh.faceCount(), kNoValue);
   for (size_t i = 0; i < found.size(); ++i) {
@@ -37,6 +38,8 @@ std::vector<double> compareVersions(const MeasuredVersion& now, const MeasuredVe
     if (found[i].face != kNoFace)
       thickness[placed.faces[i]] = formerThicknessOf(placed.thickness[i], found[i].thickness);
   }
+  freeMemory(found);
+  freeMemory(placed);
   setWallChanges(now, former, counterparts, control.withoutProgress());
   control.checkpoint(1);
   return thickness;

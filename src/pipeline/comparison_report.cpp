@@ -71,15 +71,19 @@ void addThinnerRegions(const MeasuredVersion& now, std::span<const double> forme
   if (report.thinner.size() > kMaxListedRegions) report.thinner.resize(kMaxListedRegions);
 }
 
-ThicknessVerdict verdictOf(const MeasuredVersion& now, const ComparisonReport& report,
+/// A new or thinner wall fails only if the former version is known: where it is open, a wall may have been missing.
+ThicknessVerdict verdictOf(const MeasuredVersion& former, const ComparisonReport& report,
                            const ThicknessReport& described) {
   const std::vector<UnjudgedReason>& reasons = described.unjudged.reasons;
   if (std::any_of(reasons.begin(), reasons.end(),
                   [](const UnjudgedReason& reason) { return concernsWholeMesh(reason.cause); }))
     return ThicknessVerdict::NotJudged;
-  if (now.thickness.isWorseForSure) return ThicknessVerdict::Failed;
-  const bool isUnclear = report.newCount + report.thinnerCount > 0 || report.matchedFaceCount == 0 ||
-                         *described.verdict == ThicknessVerdict::NotJudged || !reasons.empty();
+  const bool isWorse = report.newCount + report.thinnerCount > 0,
+             isFormerKnown =
+                 !former.thickness.unjudged.preventVerdict() && !former.computation.prepared.traceableFaces.empty();
+  if (isWorse && isFormerKnown) return ThicknessVerdict::Failed;
+  const bool isUnclear =
+      isWorse || report.matchedFaceCount == 0 || *described.verdict == ThicknessVerdict::NotJudged || !reasons.empty();
   return isUnclear ? ThicknessVerdict::NotJudged : ThicknessVerdict::Passed;
 }
 
@@ -94,7 +98,7 @@ std::vector<double> thicknessChange(const MeasuredVersion& now, std::span<const 
 
 ComparisonReport describeComparison(const MeasuredVersion& now, std::span<const double> formerThickness,
                                     std::span<const double> change, const ThicknessReport& described,
-                                    const ThicknessReport& former) {
+                                    const MeasuredVersion& before, const ThicknessReport& former) {
   ComparisonReport report;
   for (const ThinRegion& region : described.regions) {
     if (region.change == WallChange::New) ++report.newCount;
@@ -109,7 +113,7 @@ ComparisonReport describeComparison(const MeasuredVersion& now, std::span<const 
   for (size_t face = 0; face < values.size(); ++face)
     if (!std::isnan(values[face])) ++(std::isnan(change[face]) ? report.unmatchedFaceCount : report.matchedFaceCount);
   addThinnerRegions(now, formerThickness, report);
-  if (described.verdict) report.verdict = verdictOf(now, report, described);
+  if (described.verdict) report.verdict = verdictOf(before, report, described);
   return report;
 }
 

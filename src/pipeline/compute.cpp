@@ -133,6 +133,7 @@ std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> va
 /// The results of the rounds with faces as nodes. aggregated: the mesh of the domain, or null.
 RoundsResult onFaces(RoundsResult rounds, const FaceDomain& domain, const AggregatedMesh* aggregated,
                      size_t faceCount) {
+  freeMemory(rounds.seeds.hits);  // If further rounds could follow, they still exist.
   for (uint32_t& node : rounds.seeds.nodes) node = domain.faceOf(node);
   std::vector<double>& values = rounds.interpolated.values;
   if (aggregated != nullptr) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "core/background_task.h"
 #include "core/free_memory.h"
 #include "core/parallel.h"
-#include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
 #include "estimate/held_out.h"
 #include "pipeline/next_round.h"

@@ -25,14 +25,11 @@ SeedTracing::~SeedTracing() {
 void SeedTracing::trace(std::span<const uint32_t> nodes, std::span<const SeedKind> kinds, Seeds& seeds,
                         const RunControl& control) {
   const size_t earlierCount = seeds.size(), earlierHitCount = seeds.hits.size();
-  const FaceDomain& domain = computation_.domain;
-  const std::vector<uint32_t> faces =
-      domain.faces.empty() ? std::vector<uint32_t>() : entriesAt<std::vector<uint32_t>>(nodes, domain.faces);
+  const std::vector<uint32_t> faces = facesAt(computation_.domain, nodes);
   seeds.values.resize(earlierCount + nodes.size());
   seeds.hits.resize(earlierHitCount + nodes.size() * seeds.hitsPerSeed);
   const TraceStatistics statistics = tracer_->tracer->trace(
-      domain.faces.empty() ? nodes : std::span<const uint32_t>(faces),
-      {std::span(seeds.values).subspan(earlierCount), std::span(seeds.hits).subspan(earlierHitCount)}, control);
+      faces, {std::span(seeds.values).subspan(earlierCount), std::span(seeds.hits).subspan(earlierHitCount)}, control);
   seeds.nodes.insert(seeds.nodes.end(), nodes.begin(), nodes.end());
   seeds.kinds.insert(seeds.kinds.end(), kinds.begin(), kinds.end());
   seeds.statistics.rayCount += statistics.rayCount;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pipeline/computation.h"

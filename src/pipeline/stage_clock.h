@@ -36,10 +36,6 @@ class StageClock {
     seconds_[from] -= seconds;
     seconds_[to] += seconds;
   }
-  /// Seconds of a stage. Precondition: no Scope of this stage is open.
-  [[nodiscard]] double secondsOf(Stage stage) const { return seconds_[stage]; }
-  /// Seconds since construction.
-  [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -54,8 +50,7 @@ class StageClock {
 
   StageSeconds& seconds_;
   std::function<void(Stage)> began_;
-  Clock::time_point begin_ = Clock::now();
-  Clock::time_point lastSwitch_ = begin_;
+  Clock::time_point lastSwitch_ = Clock::now();
   std::optional<Stage> current_;
 };
 

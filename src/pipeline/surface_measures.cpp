@@ -21,11 +21,10 @@ constexpr double kMeasured = 0.4, kFormerMeasured = 0.7;
 class SurfaceComputation {
  public:
   SurfaceComputation(const Computation& ofMesh, const JudgedSurface& surface, const InputFaceSet& region)
-      : scene_(surface.scene().view()), computation_{ofMesh.options, surface.scene().prepared,
-                                                     ofMesh.domain,  region,
-                                                     scene_,         ofMesh.cone,
-                                                     ofMesh.backend, ofMesh.solvers,
-                                                     ofMesh.clock,   ofMesh.warnings} {}
+      : scene_(surface.scene().view()),
+        domain_(wholeMesh(surface.scene().prepared)),
+        computation_{ofMesh.options, surface.scene().prepared, domain_,        region,       scene_,
+                     ofMesh.cone,    ofMesh.backend,           ofMesh.solvers, ofMesh.clock, ofMesh.warnings} {}
   SurfaceComputation(const SurfaceComputation&) = delete;
   SurfaceComputation& operator=(const SurfaceComputation&) = delete;
 
@@ -33,6 +32,7 @@ class SurfaceComputation {
 
  private:
   TraceScene scene_;
+  FaceDomain domain_;
   Computation computation_;
 };
 
@@ -77,7 +77,7 @@ void compareSurfaces(Result& result, const Computation& ofMesh, const JudgedSurf
   if (!formerThickness.isJudged.empty())
     ofFormer = describeThickness(formerComputation.get(), former, formerThickness, BodyNames(former), 0, unused);
   ComparisonReport& comparison = result.report.comparison.emplace();
-  comparison = describeComparison(now, values, change, *result.report.thickness, ofFormer);
+  comparison = describeComparison(now, values, change, *result.report.thickness, before, ofFormer);
   comparison.sentence = comparisonSentence(result.report);
   result.fields.push_back(makeField("thickness_change", std::move(change)));
 }

@@ -94,6 +94,7 @@ std::vector<double> thicknessAtPoints(const JudgedSurface& surface, std::span<co
 std::vector<ThicknessRange> thicknessRangesAt(const JudgedSurface& surface, std::span<const Vec3d> points,
                                               std::span<const Vec3d> normals, std::span<const uint32_t> faces,
                                               const ThicknessOptions& options, const RunControl& control) {
+  if (points.empty()) return {};
   const TraceScene view = surface.scene().view();
   const Normalization& unit = view.bvh.normalization;
   const Solids& solids = surface.solids();

@@ -32,7 +32,6 @@ struct FaceThickness {
   std::vector<GreatestSection> caps;
   std::vector<std::optional<WallChange>> wallChanges;      ///< For each region; empty without a comparison.
   std::vector<std::optional<ChangedPlace>> changedPlaces;  ///< For each region.
-  bool isWorseForSure = false;  ///< Whether a wall is new or thinner, whatever could not be judged.
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest

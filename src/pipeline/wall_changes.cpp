@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/vec3.h"
-#include "trace/nearest_point.h"
+#include "pipeline/thin_part_index.h"
 
 namespace asdfvk {
 namespace {
@@ -18,62 +20,16 @@ constexpr size_t kPointsPerWall = 64;
 constexpr size_t kFirstDiscCount = 8, kMaxDiscCount = 256;
 constexpr size_t kPointsPerDisc = 6;
 constexpr double kDiscRadius = 7.0 / 16;  // In units of the thickness.
-/// Points at most this far from a part of a wall are on it (normalised).
-constexpr double kOnPart = 4 * kUnresolved;
 
 enum class PointChange : uint8_t {
   None,
   Thinner,  ///< Thin before, and thinner now.
   Added,    ///< Thinner now, and not thin before; or without a place in the former version.
-  Unknown,  ///< Without a place in a former version in which a surface may be missing.
 };
 
 bool isOfCountedKind(const MeasuredVersion& version, size_t region) {
   return isCounted(version.computation.options.thickness, version.thickness.regions[region].kind);
 }
-
-/// The thin parts of a version, of all kinds: the kind of a place near the limits of a kind depends on the
-/// triangulation.
-class ThinPartsOfFaces {
- public:
-  explicit ThinPartsOfFaces(const MeasuredVersion& version) : version_(version) {
-    const std::vector<ConnectedThinParts>& regions = version.thickness.regions;
-    for (uint32_t region = 0; region < regions.size(); ++region)
-      for (const ThinPart& part : regions[region].parts) parts_.push_back({part.face, region, &part});
-    std::stable_sort(parts_.begin(), parts_.end(), [](const Row& a, const Row& b) { return a.face < b.face; });
-  }
-
-  /// Calls take(region) for the regions that have the point. Returns whether there is one.
-  template <typename Take>
-  bool forEachAt(const Counterpart& at, const Take& take) const {
-    bool isThin = false;
-    auto row = std::lower_bound(parts_.begin(), parts_.end(), at.face,
-                                [](const Row& each, uint32_t face) { return each.face < face; });
-    for (; row != parts_.end() && row->face == at.face; ++row) {
-      const auto& [a, b, c] = row->part->corners;
-      const Vec3d middle = (a + b + c) / 3.0;
-      const double reach = std::max({length(a - middle), length(b - middle), length(c - middle)}) + kOnPart;
-      if (length(at.point - middle) > reach) continue;  // Large faces have many parts.
-      const PlaneTriangle triangle{row->part->corners, version_.computation.prepared.geometry.normals[at.face]};
-      if (length(nearestPoint(triangle, at.point) - at.point) > kOnPart) continue;
-      isThin = true;
-      take(row->region);
-    }
-    return isThin;
-  }
-  [[nodiscard]] bool contains(const Counterpart& at) const {
-    return forEachAt(at, [](uint32_t) {});
-  }
-
- private:
-  struct Row {
-    uint32_t face = 0, region = 0;
-    const ThinPart* part = nullptr;
-  };
-
-  const MeasuredVersion& version_;
-  std::vector<Row> parts_;  // Ascending by face.
-};
 
 /// Points of the counted regions of a version with their counterparts.
 struct WallPoints {
@@ -82,14 +38,20 @@ struct WallPoints {
   std::vector<Counterpart> counterparts;
 };
 
-void keepCounterparts(WallPoints& points, const MeasuredVersion& of, const MeasuredVersion& other,
-                      const RunControl& control) {
-  measure(of, points.placed, control);
-  points.counterparts = counterpartsOf(points.placed, other, control);
+/// Some of the parts, ascending by face: at most kPointsPerWall or, if `ofEachFace`, also one of each face. parts: by
+/// ascending face.
+std::vector<const ThinPart*> sampleOf(std::span<const ThinPart* const> parts, bool ofEachFace) {
+  std::vector<const ThinPart*> sample;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const bool isChosen = i * kPointsPerWall / parts.size() != (i + 1) * kPointsPerWall / parts.size(),
+               isFirst = i == 0 || parts[i]->face != parts[i - 1]->face;
+    if (isChosen || (ofEachFace && isFirst)) sample.push_back(parts[i]);
+  }
+  return sample;
 }
 
-/// The place, and some points of each counted region: one of each face, if `ofFaces` has no counterpart at the middle
-/// of its only part, and others of faces with many parts.
+/// The place and the middles of some parts of each counted region. ofFaces: the counterparts of the barycentres, which
+/// need not be found again; empty: none are known, and not every face has a point.
 WallPoints wallPointsOf(const MeasuredVersion& version, const MeasuredVersion& other,
                         std::span<const Counterpart> ofFaces, const RunControl& control) {
   const Normalization& unit = version.surface.scene().bvh.normalization;
@@ -99,30 +61,25 @@ WallPoints wallPointsOf(const MeasuredVersion& version, const MeasuredVersion& o
     to.placed.add(version, face, point);
     to.regionOf.push_back(region);
   };
-  const auto addPart = [&](uint32_t region, const ThinPart& part, bool isOnly) {
-    const Vec3d middle = unit.toMesh(middleOf(part.corners));
-    const bool isWhole = isOnly && !ofFaces.empty() && ofFaces[part.face].face != kNoFace &&
-                         length(middle - geometry.barycentres[part.face]) <= unit.contactLength();
-    add(isWhole ? known : points, region, part.face, isWhole ? geometry.barycentres[part.face] : middle);
-  };
   const std::vector<ConnectedThinParts>& regions = version.thickness.regions;
-  for (uint32_t i = 0; i < regions.size(); ++i) {
-    if (!isOfCountedKind(version, i)) continue;
-    add(points, i, regions[i].place.face, unit.toMesh(regions[i].place.ball.ball.onFace));
+  for (uint32_t region = 0; region < regions.size(); ++region) {
+    if (!isOfCountedKind(version, region)) continue;
+    const WallPlace& place = regions[region].place;
+    add(points, region, place.face, unit.toMesh(place.ball.ball.onFace));
     std::vector<const ThinPart*> parts;
-    for (const ThinPart& part : regions[i].parts)
+    for (const ThinPart& part : regions[region].parts)
       if (part.isThinAtMiddle) parts.push_back(&part);
     std::stable_sort(parts.begin(), parts.end(),
                      [](const ThinPart* a, const ThinPart* b) { return a->face < b->face; });
-    for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
-      while (end < parts.size() && parts[end]->face == parts[begin]->face) ++end;
-      const size_t count = std::max<size_t>(1, kPointsPerWall * (end - begin) / parts.size());
-      if (ofFaces.empty() && count * parts.size() < kPointsPerWall) continue;
-      for (size_t k = 0; k < std::min(count, end - begin); ++k)
-        addPart(i, *parts[begin + k * (end - begin) / std::min(count, end - begin)], end - begin == 1);
+    for (const ThinPart* const part : sampleOf(parts, !ofFaces.empty())) {
+      const Vec3d middle = unit.toMesh(middleOf(part->corners)), &barycentre = geometry.barycentres[part->face];
+      const bool isKnown = !ofFaces.empty() && ofFaces[part->face].face != kNoFace &&
+                           length(middle - barycentre) <= unit.contactLength();
+      add(isKnown ? known : points, region, part->face, isKnown ? barycentre : middle);
     }
   }
-  keepCounterparts(points, version, other, control);
+  measure(version, points.placed, control);
+  points.counterparts = counterpartsOf(points.placed, other, control);
   for (size_t i = 0; i < known.regionOf.size(); ++i) {
     const uint32_t face = known.placed.faces[i];
     add(points, known.regionOf[i], face, known.placed.points[i]);
@@ -135,93 +92,116 @@ WallPoints wallPointsOf(const MeasuredVersion& version, const MeasuredVersion& o
 class WallComparison {
  public:
   WallComparison(const MeasuredVersion& now, const MeasuredVersion& former)
-      : now_(now),
-        former_(former),
-        partsOfNow_(now),
-        partsOfFormer_(former),
-        mayMissSurface_(former.thickness.unjudged.preventVerdict() ||
-                        former.computation.prepared.traceableFaces.empty()),
-        isInsideKnown_(std::ranges::all_of(former.thickness.unjudged.reasons, [](const UnjudgedReason& reason) {
-          return reason.cause == UnjudgedCause::Border || reason.cause == UnjudgedCause::Branching;
-        })) {}
+      : now_(now), former_(former), partsOfNow_(now), partsOfFormer_(former) {}
 
   void run(std::span<const Counterpart> ofFaces, const RunControl& control) {
     const size_t count = now_.thickness.regions.size(), formerCount = former_.thickness.regions.size();
+    now_.thickness.wallChanges.assign(count, std::nullopt);
+    now_.thickness.changedPlaces.assign(count, std::nullopt);
+    former_.thickness.wallChanges.assign(formerCount, std::nullopt);
+    former_.thickness.changedPlaces.assign(formerCount, std::nullopt);
     std::vector<uint8_t> isMatched(count), isFormerMatched(formerCount);
     const WallPoints points = wallPointsOf(now_, former_, ofFaces, control);
     for (size_t i = 0; i < points.regionOf.size(); ++i)
       if (partsOfFormer_.forEachAt(points.counterparts[i], [&](uint32_t region) { isFormerMatched[region] = 1; }))
         isMatched[points.regionOf[i]] = 1;
-    const WallPoints formerPoints = wallPointsOf(former_, now_, {}, control);
-    for (size_t i = 0; i < formerPoints.regionOf.size(); ++i)
-      if (partsOfNow_.forEachAt(formerPoints.counterparts[i], [&](uint32_t region) { isMatched[region] = 1; }) ||
-          isOutside(formerPoints, i))
-        isFormerMatched[formerPoints.regionOf[i]] = 1;
-    now_.thickness.wallChanges.assign(count, std::nullopt);
-    now_.thickness.changedPlaces.assign(count, std::nullopt);
-    former_.thickness.wallChanges.assign(formerCount, std::nullopt);
-    former_.thickness.changedPlaces.assign(formerCount, std::nullopt);
-    std::vector<std::vector<size_t>> pointsOf(count);
-    for (size_t i = 0; i < points.regionOf.size(); ++i) pointsOf[points.regionOf[i]].push_back(i);
+    matchFormer(isMatched, isFormerMatched, control);
     for (size_t region = 0; region < count; ++region)
-      if (isOfCountedKind(now_, region)) judge(region, points, pointsOf[region], isMatched[region] != 0, control);
+      if (isOfCountedKind(now_, region))
+        now_.thickness.wallChanges[region] = isMatched[region] != 0 ? WallChange::Kept : WallChange::New;
     for (size_t region = 0; region < formerCount; ++region)
       if (isOfCountedKind(former_, region))
         former_.thickness.wallChanges[region] = isFormerMatched[region] != 0 ? WallChange::Kept : WallChange::Gone;
+    findWorseParts(points, control);
   }
 
  private:
-  /// Whether the place of a former point is outside of the domain, where no walls of `now` are known.
-  [[nodiscard]] bool isOutside(const WallPoints& formerPoints, size_t i) const {
-    uint32_t face = formerPoints.counterparts[i].face;
-    if (now_.computation.region.hasAll()) return false;
-    if (face == kNoFace)
-      findNearestPoints(now_.surface.scene(), std::span(&formerPoints.placed.points[i], 1), RunControl(),
-                        [&](size_t, const SurfacePoint& nearest) { face = nearest.face; });
-    return face != kNoFace && !now_.computation.region.contains(now_.computation.prepared.mesh.inputFaceOf(face));
+  /// Points of a region that changed alike.
+  struct Candidates {
+    uint32_t region = 0;
+    PointChange change = PointChange::None;
+    std::vector<size_t> points;
+  };
+
+  /// Former walls whose places are outside of the region that was computed count as matched, because the walls there
+  /// are not known.
+  void matchFormer(std::vector<uint8_t>& isMatched, std::vector<uint8_t>& isFormerMatched, const RunControl& control) {
+    const WallPoints points = wallPointsOf(former_, now_, {}, control);
+    std::vector<uint32_t> faces;
+    for (const Counterpart& at : points.counterparts) faces.push_back(at.face);
+    if (!now_.computation.region.hasAll())
+      findNearestPoints(now_.surface.scene(), points.placed.points, control,
+                        [&](size_t i, const SurfacePoint& nearest) {
+                          if (faces[i] == kNoFace) faces[i] = nearest.face;
+                        });
+    for (size_t i = 0; i < points.regionOf.size(); ++i) {
+      const bool isOutside = faces[i] != kNoFace &&
+                             !now_.computation.region.contains(now_.computation.prepared.mesh.inputFaceOf(faces[i]));
+      if (partsOfNow_.forEachAt(points.counterparts[i], [&](uint32_t region) { isMatched[region] = 1; }) || isOutside)
+        isFormerMatched[points.regionOf[i]] = 1;
+    }
   }
 
   [[nodiscard]] PointChange changeOf(const ThicknessRange& thickness, const Counterpart& at) const {
-    if (at.face == kNoFace || std::isnan(at.thickness.low))
-      return mayMissSurface_ ? PointChange::Unknown : PointChange::Added;
+    if (at.face == kNoFace || std::isnan(at.thickness.low)) return PointChange::Added;
     if (!isThinner(thickness, at.thickness)) return PointChange::None;
     return partsOfFormer_.contains(at) ? PointChange::Thinner : PointChange::Added;
   }
 
-  /// own: the points of the region.
-  void judge(size_t region, const WallPoints& points, std::span<const size_t> own, bool isMatched,
-             const RunControl& control) {
-    std::vector<size_t> worse[4];  // By PointChange.
-    bool hasCounterpart = false;
+  /// For walls that were matched: the points that became worse, a group per region and change.
+  [[nodiscard]] std::vector<Candidates> candidatesOf(const WallPoints& points) const {
+    std::vector<std::vector<size_t>> pointsOf(now_.thickness.regions.size());
+    for (size_t i = 0; i < points.regionOf.size(); ++i) pointsOf[points.regionOf[i]].push_back(i);
     const auto isCapped = [&](size_t i) { return points.placed.thickness[i].isCapped; };
-    const bool areAllCapped = std::all_of(own.begin(), own.end(), isCapped);
-    for (const size_t i : own) {
-      hasCounterpart = hasCounterpart || points.counterparts[i].face != kNoFace;
-      // The section that limits a capped point may be far away.
-      if (areAllCapped || !isCapped(i))
-        worse[static_cast<size_t>(changeOf(points.placed.thickness[i], points.counterparts[i]))].push_back(i);
+    std::vector<Candidates> groups;
+    for (uint32_t region = 0; region < pointsOf.size(); ++region) {
+      if (now_.thickness.wallChanges[region] != WallChange::Kept) continue;
+      Candidates thinner{region, PointChange::Thinner, {}}, added{region, PointChange::Added, {}};
+      const bool areAllCapped = std::all_of(pointsOf[region].begin(), pointsOf[region].end(), isCapped);
+      for (const size_t i : pointsOf[region]) {
+        if (!areAllCapped && isCapped(i)) continue;  // The section that limits a capped point may be far away.
+        const PointChange change = changeOf(points.placed.thickness[i], points.counterparts[i]);
+        if (change != PointChange::None) (change == PointChange::Thinner ? thinner : added).points.push_back(i);
+      }
+      for (Candidates& group : {std::ref(thinner), std::ref(added)})
+        if (!group.points.empty()) groups.push_back(std::move(group));
     }
-    std::optional<WallChange>& change = now_.thickness.wallChanges[region];
-    const auto isWorse = [&](PointChange kind) {
-      const std::optional<size_t> middle = thinnestDisc(points, worse[static_cast<size_t>(kind)], control);
-      if (middle) now_.thickness.changedPlaces[region] = placeOf(points, *middle);
-      return middle.has_value();
-    };
-    if (!isMatched) {
-      change = WallChange::New;
-      if (hasCounterpart || !mayMissSurface_) keepWorse();
-      return;
-    }
-    const bool isThinner = isWorse(PointChange::Thinner);
-    if (isThinner || isWorse(PointChange::Added)) {
-      change = isThinner ? WallChange::Thinner : WallChange::New;
-      keepWorse();
-    } else {
-      change = isWorse(PointChange::Unknown) ? WallChange::New : WallChange::Kept;
+    return groups;
+  }
+
+  /// Finds the matched walls with a disc of points that became worse: first around a few points of each, then around
+  /// more points of those without such a disc.
+  void findWorseParts(const WallPoints& points, const RunControl& control) {
+    std::vector<Candidates> groups = candidatesOf(points);
+    for (const size_t maxCount : {kFirstDiscCount, kMaxDiscCount}) {
+      std::vector<size_t> middles, ends;
+      for (const Candidates& group : groups) {
+        const size_t count = std::min(maxCount, group.points.size());
+        for (size_t k = 0; k < count; ++k) middles.push_back(group.points[k * group.points.size() / count]);
+        ends.push_back(middles.size());
+      }
+      if (middles.empty()) return;
+      const std::vector<uint8_t> isWorse = areDiscsWorse(points.placed, middles, control);
+      size_t begin = 0;
+      for (size_t group = 0; group < groups.size(); begin = ends[group], ++group)
+        for (size_t k = begin; k < ends[group]; ++k)
+          if (isWorse[k] != 0) keepWorse(groups[group], points, middles[k]);
+      std::erase_if(groups, [&](const Candidates& group) {
+        return group.points.size() <= maxCount || now_.thickness.changedPlaces[group.region].has_value();
+      });
     }
   }
 
-  void keepWorse() { now_.thickness.isWorseForSure = isInsideKnown_; }
+  /// A wall with a part that became thinner is not also called new. Its place is the thinnest one.
+  void keepWorse(const Candidates& group, const WallPoints& points, size_t i) {
+    std::optional<WallChange>& change = now_.thickness.wallChanges[group.region];
+    std::optional<ChangedPlace>& place = now_.thickness.changedPlaces[group.region];
+    const bool isOfThinner = group.change == PointChange::Thinner;
+    if (change == WallChange::Thinner && !isOfThinner) return;
+    const ChangedPlace found = placeOf(points, i);
+    if (!place || !(place->thickness <= found.thickness)) place = found;
+    change = isOfThinner ? WallChange::Thinner : WallChange::New;
+  }
 
   [[nodiscard]] ChangedPlace placeOf(const WallPoints& points, size_t i) const {
     const Counterpart& at = points.counterparts[i];
@@ -230,25 +210,7 @@ class WallComparison {
             now_.computation.prepared.mesh.inputFaceOf(points.placed.faces[i]), points.placed.points[i]};
   }
 
-  /// The thinnest of those points that are the middle of a disc of points that became worse.
-  [[nodiscard]] std::optional<size_t> thinnestDisc(const WallPoints& points, std::span<const size_t> middles,
-                                                   const RunControl& control) const {
-    for (const size_t maxCount : {kFirstDiscCount, kMaxDiscCount}) {
-      const size_t count = std::min(maxCount, middles.size());
-      std::vector<size_t> chosen;
-      for (size_t k = 0; k < count; ++k) chosen.push_back(middles[k * middles.size() / count]);
-      const std::vector<uint8_t> isWorse = areDiscsWorse(points.placed, chosen, control);
-      std::optional<size_t> thinnest;
-      for (size_t k = 0; k < count; ++k)
-        if (isWorse[k] != 0 &&
-            !(thinnest && points.placed.thickness[*thinnest].low <= points.placed.thickness[chosen[k]].low))
-          thinnest = chosen[k];
-      if (thinnest || count == middles.size()) return thinnest;
-    }
-    return std::nullopt;
-  }
-
-  /// For each middle, whether all points of its disc became worse.
+  /// For each middle, whether the points on the border of its disc became worse, too.
   [[nodiscard]] std::vector<uint8_t> areDiscsWorse(const PlacedPoints& placed, std::span<const size_t> middles,
                                                    const RunControl& control) const {
     std::vector<Vec3d> points, normals;
@@ -291,9 +253,7 @@ class WallComparison {
 
   const MeasuredVersion& now_;
   const MeasuredVersion& former_;
-  ThinPartsOfFaces partsOfNow_, partsOfFormer_;
-  bool mayMissSurface_;  ///< Whether the former version may have had walls where it has no surface.
-  bool isInsideKnown_;   ///< Whether the former version has a known thickness where it has surface.
+  ThinPartIndex partsOfNow_, partsOfFormer_;
 };
 
 }  // namespace

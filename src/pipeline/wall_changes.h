@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// Sets FaceThickness::wallChanges of both versions, and isWorseForSure of `now`. ofFaces: #F, the counterpart of the
+/// Sets FaceThickness::wallChanges and changedPlaces of both versions. ofFaces: #F, the counterpart of the
 /// barycentre of each face of `now`.
 ///
 /// A point became worse if it has no counterpart, or if it is thinner than its counterpart (isThinner()). A wall is new

@@ -19,7 +19,7 @@ enum class SeedKind : uint8_t {
 };
 
 /// The seeds of a computation in the order in which they were traced. Entries are only appended; a step that leaves
-/// seeds out passes a condition to withoutNodes() or constraintsOf().
+/// seeds out uses nodesWithoutHeldOut(), or passes a condition to constraintsOf().
 struct Seeds {
   std::vector<uint32_t> nodes;  ///< #S: nodes of the domain, each once.
   std::vector<SeedKind> kinds;  ///< #S

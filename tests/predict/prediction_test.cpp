@@ -373,34 +373,20 @@ TEST_CASE("a domain of all faces in another order of memory, and a part of the f
   const FaceDomain named{seeded.graph, gathered, {}, 0, {}, every};
   CHECK(test::haveSameBits(predictValues(seeded.scene(), named, seeded.cone, seeded.seedHits(), {}).values,
                            predict(seeded)));
-  // The faces of the cells of the first seeds. Faces next to other cells have fewer neighbouring seeds.
-  const SeedCells cells = seeded.cells();
-  std::vector<uint32_t> faces, nodeOf(seeded.mesh.faceCount(), kNoFace);
-  for (uint32_t face = 0; face < nodeOf.size(); ++face)
-    if (cells.cellOf[face] < 200) {
-      nodeOf[face] = static_cast<uint32_t>(faces.size());
-      faces.push_back(face);
-    }
-  DualGraph graph;
-  graph.offsets.resize(1, 0);
-  for (const uint32_t face : faces) {
-    for (const uint32_t neighbour : seeded.graph.neighboursOf(face))
-      if (nodeOf[neighbour] != kNoFace) graph.neighbours.push_back(nodeOf[neighbour]);
-    graph.offsets.push_back(static_cast<uint32_t>(graph.neighbours.size()));
-  }
-  const FaceGeometry geometry = geometryOf(seeded.geometry, faces);
-  const FaceDomain part{graph, geometry, {}, 0, {}, faces};
-  std::vector<uint32_t> seedNodes;
-  for (size_t i = 0; i < 200; ++i) seedNodes.push_back(nodeOf[seeded.seeds[i]]);
-  const SeedHitsView hits{seedNodes, std::span(seeded.hits).first(200 * seeded.cone.directions.size())};
-  const Prediction ofPart = predictValues(seeded.scene(), part, seeded.cone, hits, {});
+  // Faces next to other cells have fewer neighbouring seeds.
+  const uint32_t firstSeed = 100;
+  const test::SeededPart part(seeded, firstSeed);
+  const Prediction ofPart = predictValues(seeded.scene(), part.domain(), seeded.cone, {part.seeds, part.hits}, {});
   const Prediction ofAll = predictValues(seeded.scene(), seeded.domain(), seeded.cone, seeded.seedHits(), {});
   size_t sameCount = 0;
-  for (uint32_t node = 0; node < faces.size(); ++node) {
-    const uint32_t cell = ofPart.cellOf[node];
-    CHECK(cell == cells.cellOf[faces[node]]);
-    if (!std::ranges::equal(ofPart.nearest.of(cell), ofAll.nearest.of(cell))) continue;
-    CHECK(ofPart.values[node] == ofAll.values[faces[node]]);
+  for (uint32_t node = 0; node < part.faces.size(); ++node) {
+    const uint32_t face = part.faces[node], cell = ofPart.cellOf[node];
+    CHECK(cell + firstSeed == ofAll.cellOf[face]);
+    std::vector<uint32_t> nearest;
+    for (const uint32_t other : ofPart.nearest.of(cell))
+      nearest.push_back(other == kNoCell ? other : other + firstSeed);
+    if (!std::ranges::equal(nearest, ofAll.nearest.of(cell + firstSeed))) continue;
+    CHECK(ofPart.values[node] == ofAll.values[face]);
     ++sameCount;
   }
   CHECK(sameCount > 100);

@@ -51,4 +51,35 @@ struct SeededMesh {
   [[nodiscard]] double tracedValue(uint32_t face) const { return referenceCone(scene(), cone, face); }
 };
 
+/// The faces of the cells of the last seeds, as a domain.
+struct SeededPart {
+  std::vector<uint32_t> faces, seeds;  ///< The seeds are nodes.
+  DualGraph graph;
+  FaceGeometry geometry;
+  std::vector<ConeHit> hits;
+
+  /// firstSeed: the first seed that the part has.
+  SeededPart(const SeededMesh& seeded, uint32_t firstSeed) {
+    const SeedCells cells = seeded.cells();
+    std::vector<uint32_t> nodeOf(seeded.mesh.faceCount(), kNoFace);
+    for (uint32_t face = 0; face < nodeOf.size(); ++face) {
+      if (cells.cellOf[face] == kNoCell || cells.cellOf[face] < firstSeed) continue;
+      nodeOf[face] = static_cast<uint32_t>(faces.size());
+      faces.push_back(face);
+    }
+    graph.offsets.resize(1, 0);
+    for (const uint32_t face : faces) {
+      for (const uint32_t neighbour : seeded.graph.neighboursOf(face))
+        if (nodeOf[neighbour] != kNoFace) graph.neighbours.push_back(nodeOf[neighbour]);
+      graph.offsets.push_back(static_cast<uint32_t>(graph.neighbours.size()));
+    }
+    geometry = geometryOf(seeded.geometry, faces);
+    for (size_t seed = firstSeed; seed < seeded.seeds.size(); ++seed) seeds.push_back(nodeOf[seeded.seeds[seed]]);
+    const auto firstHit = static_cast<std::ptrdiff_t>(firstSeed * seeded.cone.directions.size());
+    hits.assign(seeded.hits.begin() + firstHit, seeded.hits.end());
+  }
+
+  [[nodiscard]] FaceDomain domain() const { return {graph, geometry, {}, 0, {}, faces}; }
+};
+
 }  // namespace asdfvk::test

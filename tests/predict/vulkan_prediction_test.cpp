@@ -221,6 +221,23 @@ TEST_CASE("the device, too, copies the values of faces whose seeds are the same 
   }
 }
 
+TEST_CASE("the device predicts the nodes of a part of the mesh, whose indices are not those of their faces") {
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  const test::SeededPart part(seeded, 100);
+  REQUIRE(part.faces.back() > part.faces.size());
+  const test::ValidatedDevice device;
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+  const auto predict = [&](DevicePredictor* onDevice) {
+    return predictValues(seeded.scene(), part.domain(), seeded.cone, {part.seeds, part.hits}, {}, {}, onDevice).values;
+  };
+  const DeviceDifference difference = differenceOf(seeded, predict(predictor.get()), predict(nullptr));
+  CHECK(difference.count > 500);
+  CHECK(difference.mean < 1e-6);
+  CHECK(difference.farCount <= difference.count / 100);
+  CHECK(difference.missingCount <= 2);
+}
+
 TEST_CASE("a stop ends a prediction on the device between submissions") {
   const test::ValidatedDevice device;
   const SeededMesh seeded(makeAnimal(2000).mesh, 200);

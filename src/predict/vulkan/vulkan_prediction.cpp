@@ -109,7 +109,7 @@ class VulkanPredictor final : public DevicePredictor {
     PredictionBatches batches(input);
     predictBatches(input, batches, control);
     UnsetVector<uint32_t> copy;
-    const std::span<const uint32_t> lengths = readItems(kernels_.device(), values_, values.size(), copy);
+    const std::span<const uint32_t> lengths = readItems(kernels_.device(), values_, scene_.geometry.areas.size(), copy);
     constexpr size_t kGrain = 64;  // Few cells per task, because a cell may have many faces.
     forEachRange(input.order.size(), kGrain, [&](size_t begin, size_t end) {
       for (const uint32_t cell : input.order.subspan(begin, end - begin))
