@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <string_view>
+#include <vector>
+
 #include "reading.h"
 
 using namespace asdfvk;
@@ -88,4 +91,11 @@ TEST_CASE("errors of an OFF file name the line and the reason") {
   CHECK(holds(errorOf("off", "OFF\n4 1 0\n0 0 x\n" + corners), "line 3: expected a vertex coordinate, found 'x'"));
   const std::string whole = "OFF\n4 2 0\n" + corners + "3 0 1 2\n3 0 2 3";
   for (size_t size = 0; size < whole.size(); ++size) CHECK(errorOf("off", whole.substr(0, size)) != "no error");
+}
+
+TEST_CASE("OFF: nothing is read beyond a file that ends in a sign") {
+  for (const std::string_view text : {"OFF\n1 1 0\n0 0 +", "OFF\n1 1 0\n0 0 -", "OFF\n1 1 0\n0 0 1e+"}) {
+    const std::vector<char> exact(text.begin(), text.end());  // A sanitizer sees a read beyond its end.
+    CHECK_FALSE(errorOf("off", {exact.data(), exact.size()}).empty());
+  }
 }
