@@ -1,8 +1,7 @@
 #include "asdf_vk/error.h"
 
 #include <array>
-
-#include "asdf_vk/run_control.h"
+#include <cstddef>
 
 namespace asdfvk {
 namespace {
@@ -62,16 +61,5 @@ static_assert(rowsFollowTheEnum());
 
 ErrorKind kindOf(ErrorCode code) { return kErrors[static_cast<size_t>(code)].kind; }
 const char* nameOf(ErrorCode code) { return kErrors[static_cast<size_t>(code)].name; }
-
-void RunControl::checkpoint(double fraction) const {
-  if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
-  if (progress) progress(fraction);
-}
-
-RunControl RunControl::part(double from, double to) const {
-  RunControl control = withoutProgress();
-  if (progress) control.progress = [this, from, to](double fraction) { progress(from + fraction * (to - from)); };
-  return control;
-}
 
 }  // namespace asdfvk

@@ -122,6 +122,8 @@ std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::
   return openFirst(std::span(row + 1, kBackends.end()), options);
 }
 
+bool solverNeedsDevice(const std::string& name) { return name != kAutomaticSolver && findSolver(name).needsDevice; }
+
 std::vector<std::string> backendNames() {
   std::vector<std::string> names;
   for (const BackendRow& row : kBackends) names.emplace_back(row.name);

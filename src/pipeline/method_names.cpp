@@ -1,6 +1,5 @@
 #include "asdf_vk/options.h"
 
-#include "pipeline/backend.h"
 #include "poisson/poisson_solver.h"
 #include "seeds/samplers.h"
 
@@ -11,8 +10,6 @@ std::vector<std::string> solverNames() {
   for (const Solver& solver : solverTable()) names.emplace_back(solver.name);
   return names;
 }
-
-bool solverNeedsDevice(const std::string& name) { return name != kAutomaticSolver && findSolver(name).needsDevice; }
 
 std::vector<std::string> samplerNames() {
   std::vector<std::string> names;
