@@ -44,6 +44,7 @@ std::optional<ShownPlaces> shownPlaces(const Report& report) {
     shown->countsEdges = thickness.countsEdges;
     shown->regions.insert(shown->regions.end(), thickness.regions.begin(), thickness.regions.end());
   }
+  if (shown) shown->voids = report.voids;
   return shown;
 }
 

@@ -8,7 +8,8 @@
 
 namespace asdfvk {
 
-/// What pages and pictures show of the comparisons with limits: the thin places of the thickness, then those of gaps.
+/// What pages and pictures show of the comparisons with limits: the thin places of the thickness, then those of gaps,
+/// and sealed voids.
 struct ShownPlaces {
   double limit = 0;  ///< The limit of the thickness; without one, the limit of the gaps.
   /// Failed if a comparison failed, else NotJudged if one was not judged.
@@ -18,6 +19,7 @@ struct ShownPlaces {
   std::string title;     ///< "thinner than 0.8", "closer than 0.3", or both.
   bool countsDetails = false, countsEdges = false;
   std::vector<ThinRegion> regions;  ///< The regions to which ThinSurface::regions refers.
+  std::vector<SealedVoid> voids;    ///< Report::voids
 };
 
 /// Empty if nothing was compared with a limit.

@@ -39,6 +39,14 @@ Json describe(const PageThinPlaces& thin) {
                                {"change", region.change ? Json(nameOf(*region.change)) : Json(nullptr)},
                                {"place", arrayOf(region.place)},
                                {"opposite", arrayOf(region.opposite)}});
+  for (const SealedVoid& each : shown.voids)  // After the regions, to whose places the thin surface refers.
+    json["regions"].push_back({{"face", each.face},
+                               {"value", number(each.volume)},
+                               {"area", number(std::pow(std::cbrt(each.volume), 2))},  // About that of a section.
+                               {"kind", "void"},
+                               {"bodies", each.looseBodies},
+                               {"place", arrayOf(each.place)},
+                               {"opposite", arrayOf(each.place)}});
   return json;
 }
 

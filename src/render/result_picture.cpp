@@ -34,7 +34,7 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// Callouts of the first kMaxCount regions. In ShownPlaces::regions, walls are first.
+/// Callouts of the first kMaxCount regions and voids. In ShownPlaces::regions, walls are first.
 std::vector<Callout> calloutsOf(const ShownPlaces& shown) {
   constexpr size_t kMaxCount = 8;
   std::vector<Callout> callouts;
@@ -44,6 +44,9 @@ std::vector<Callout> calloutsOf(const ShownPlaces& shown) {
     const std::string kind = region.kind == ThinKind::Wall ? "" : fmt::format("{} ", nameOf(region.kind));
     callouts.push_back({region.place, region.opposite, change + kind + lengthText(region.min, shown.limit)});
   }
+  for (const SealedVoid& each : shown.voids)
+    if (callouts.size() < kMaxCount)
+      callouts.push_back({each.place, each.place, fmt::format("void, volume {}", lengthText(each.volume))});
   return callouts;
 }
 

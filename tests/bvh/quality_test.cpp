@@ -110,9 +110,9 @@ TEST_CASE("the costs of hierarchies are within 1 % of the stored ones") {
   } rows[]{{"animal", {18.5054, 31.4918, 4.9288, 37.6148, 12.0858, 62.2169}},
            {"hand", {21.5261, 29.605, 4.83462, 37.6838, 11.821, 60.4205}},
            {"tree", {12.1515, 30.7281, 5.26773, 38.0556, 11.961, 62.1844}}};
-  for (const auto& [shape, stored] : rows) {
-    CAPTURE(std::string(shape));
-    const Quality now = qualityOf(generateShape(shape, 20'000).mesh);
+  for (const auto& row : rows) {
+    CAPTURE(std::string(row.shape));
+    const Quality &stored = row.quality, now = qualityOf(generateShape(row.shape, 20'000).mesh);
     INFO("{", now.sahCost, ", ", now.nodesPerRay, ", ", now.trianglesPerRay, ", ", now.bytes, ", ", now.wideBytes, ", ",
          now.laneBytes, "}");
     CHECK(now.sahCost == doctest::Approx(stored.sahCost).epsilon(0.01));

@@ -75,10 +75,11 @@ def cavities(files):
     write_stl(files.folder / "cavities.stl", [((0, 0, 0), (40, 30, 20)), ((10, 8, 3), (14, 12, 15)), ((14.5, 8, 3), (20, 12, 15))])
     files.run("cavities.stl", "-o", "cavities.html", "--thinner-than", 0.8)
     files.run("cavities.stl", "-o", "thick.html", "--thinner-than", 0.4)
+    files.run("cavities.stl", "-o", "voids.html", "--closer-than", 0.4)
     write_ply(files.folder / "plate.ply", numpy.array([[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0], [4, 4, 0.5]], "f4"),
               numpy.array([[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], "i4"))
     files.run("cavities.stl", "plate.ply", "-o", "two.html", "--thinner-than", 0.8)
-    return {name: files.address(f"{name}.html") for name in ("cavities", "thick", "two")}
+    return {name: files.address(f"{name}.html") for name in ("cavities", "thick", "voids", "two")}
 
 
 @pytest.fixture(scope="session")

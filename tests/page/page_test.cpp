@@ -87,6 +87,7 @@ TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
       .shown = {.limit = 0.5, .verdict = ThicknessVerdict::Failed, .regions = {ThinRegion{}, ThinRegion{}}},
       .surface = {}};
   texts.thin->shown.regions[1].minFace = 7;
+  texts.thin->shown.voids = {{.volume = 8, .face = 3, .place = {1, 2, 3}, .looseBodies = {"ball"}}};
   texts.thin->shown.regions[0].kind = ThinKind::Wall;
   texts.thin->shown.regions[1].kind = ThinKind::Detail;
   texts.thin->shown.regions[1].least = 0.125;
@@ -104,6 +105,13 @@ TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
   CHECK_EQ(mesh["thin"]["limit"], 0.5);
   CHECK_EQ(mesh["thin"]["verdict"], "failed");
   CHECK_EQ(mesh["thin"]["regions"][1]["face"], 7);
+  REQUIRE_EQ(mesh["thin"]["regions"].size(), 3);
+  const auto& sealedVoid = mesh["thin"]["regions"][2];
+  CHECK_EQ(sealedVoid["kind"], "void");
+  CHECK_EQ(sealedVoid["value"], 8);
+  CHECK_EQ(sealedVoid["face"], 3);
+  CHECK_EQ(sealedVoid["place"][2], 3);
+  CHECK_EQ(sealedVoid["bodies"][0], "ball");
   CHECK_EQ(mesh["thin"]["sentence"], "FAIL: 1 wall thinner than 0.5: 0.25 at (1, 2, 3), face 0");
   CHECK_EQ(mesh["thin"]["countsDetails"], false);
   CHECK_EQ(mesh["thin"]["countsEdges"], false);

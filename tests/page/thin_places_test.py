@@ -120,3 +120,16 @@ def test_words_of_the_summary_are_whole(page):
         range.selectNodeContents(cell);
         return range.getClientRects().length; })""")
     assert heights and max(heights) == 1
+
+
+def test_sealed_voids_are_listed_and_marked(open_page, cavities):
+    page = open_page(cavities["voids"])
+    assert page.text("verdict-0").startswith("PASS: no gap closer than 0.4")
+    assert page.js("document.getElementById('thin-places').textContent.includes('Sealed voids')")
+    assert sorted(page.text(f"thin-0-{i}") for i in range(2)) == ["192", "264"]
+    settled_view(page)
+    shown = {page.text(f"marker-0-{i}") for i in range(2)} - {""}  # A text that would cover another one is hidden.
+    assert shown and shown <= {"void 192", "void 264"}
+    page.js("document.getElementById('thin-0-1').click()")
+    settled_view(page)
+    assert state(page)["face"].startswith("0:")

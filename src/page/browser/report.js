@@ -34,16 +34,17 @@ function link(text, id, action) {
   return button;
 }
 
-// Captions of the lists of thin regions.
-const kKinds = { wall: 'Walls, thinnest first', gap: 'Gaps, narrowest first', detail: 'Details', edge: 'Edges' };
+// Captions of the lists of thin regions and voids.
+const kKinds = { wall: 'Walls, thinnest first', gap: 'Gaps, narrowest first', detail: 'Details', edge: 'Edges', void: 'Sealed voids' };
 
-/** The verdict of a result and its thin regions: walls, gaps, details, edges. */
+/** The verdict of a result, its thin regions (walls, gaps, details, edges) and its voids. */
 function thinReport(mesh, index, hasOthers, visits) {
   const { limit, verdict, sentence, regions, countsDetails, countsEdges } = mesh.thin;
-  const counts = { wall: true, gap: true, detail: countsDetails, edge: countsEdges };
+  const counts = { wall: true, gap: true, detail: countsDetails, edge: countsEdges, void: true };
   const [word, ...rest] = sentence.split(':');
   const row = (region, i) => {
     const value = link(formatValue(region.value, limit), `thin-${index}-${i}`, visits && (() => visits.region(index, i)));
+    if (region.kind === 'void') return [value, region.bodies.join(', ')];
     const area = `${formatValue(region.area)} (${formatShare(region.areaShare)})`, count = formatCount(region.faceCount);
     if (region.kind === 'edge') return [value, `${formatValue(region.angleDegrees)}°`, formatValue(region.width), area, count];
     return [value, formatValue(region.least, limit), area, count, ...(region.kind === 'gap' ? [region.bodies.join(' and ')] : []),
@@ -52,7 +53,7 @@ function thinReport(mesh, index, hasOthers, visits) {
   const list = (kind) => {
     const rows = regions.flatMap((region, i) => region.kind === kind ? [row(region, i)] : []);
     const isCompared = regions.some((region) => region.kind === kind && region.change);
-    const heads = kind === 'edge' ? ['least', 'angle', 'width', 'thin area', 'faces']
+    const heads = kind === 'void' ? ['volume', 'loose bodies'] : kind === 'edge' ? ['least', 'angle', 'width', 'thin area', 'faces']
       : kind === 'gap' ? ['width', 'least beside it', 'area', 'faces', 'bodies'] : ['thickness', 'least beside it', 'thin area', 'faces'];
     if (isCompared && kind !== 'edge') heads.push('compared');
     return rows.length ? table(kKinds[kind] + (counts[kind] ? '' : ', not counted'), heads, rows) : [];

@@ -39,7 +39,7 @@ export class Visits {
     const outward = thickness > 1e-6 * radius ? scaled(span, 1 / thickness) : unit(normal, [0, 0, 1]);
     const { toViewer } = this.viewer.axesOf(index, this.viewer.state), point = scaled(add(...ends), 0.5);
     const direction = directionOfLeastCover(model, ends, outward, toViewer, 1e-4 * radius);
-    const extent = regionRadius(surface, regionOfTriangle, number, point) || Math.sqrt(area);
+    const extent = (surface && regionRadius(surface, regionOfTriangle, number, point)) || Math.sqrt(area);
     const seen = Math.max(1.3 * Math.min(extent, radius / 2), 8 * thickness, radius / 40);
     this.fly(index, point, Math.max(radius / seen, this.viewer.initial.zoom), direction);
     this.viewer.store.set({
