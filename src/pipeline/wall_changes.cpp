@@ -10,6 +10,7 @@
 
 #include "core/vec3.h"
 #include "pipeline/thin_part_index.h"
+#include "render/image.h"
 
 namespace asdfvk {
 namespace {
