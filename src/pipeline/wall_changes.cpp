@@ -10,7 +10,6 @@
 
 #include "core/vec3.h"
 #include "pipeline/thin_part_index.h"
-#include "render/image.h"
 
 namespace asdfvk {
 namespace {
@@ -217,8 +216,8 @@ class WallComparison {
     std::vector<Vec3d> points, normals;
     for (const size_t i : middles) {
       const Vec3d& normal = placed.normals[i];
-      const Vec3d side = unitVector(cross(normal, std::abs(normal.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
-      const Vec3d other = cross(normal, side);
+      const Vec3d across = cross(normal, std::abs(normal.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
+      const Vec3d side = across / length(across), other = cross(normal, side);
       for (size_t k = 0; k < kPointsPerDisc; ++k) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kPointsPerDisc;
         const double radius = kDiscRadius * placed.thickness[i].low;
