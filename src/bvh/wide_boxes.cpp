@@ -46,7 +46,7 @@ ASDFVK_ALWAYS_INLINE inline DeviceWideNode quantizeInLanes(std::span<const Box3f
   for (size_t i = 0; i < children.size(); ++i) {
     const Double4 lower = max((widened(children[i].min) - margin - start) * perUnit, Double4{});
     const Double4 upper = (widened(children[i].max) + margin - start) * perUnit;
-    // The numbers are not negative. Therefore conversion to integers rounds down.
+    // The numbers are not negative, so the conversion to integers rounds down.
     const auto lowerFloor = __builtin_convertvector(lower, IntsOf<Float4>);
     const auto upperFloor = __builtin_convertvector(upper, IntsOf<Float4>);
     const Longs lowerBytes = __builtin_convertvector(lowerFloor, Longs);

@@ -12,7 +12,7 @@ namespace asdfvk {
 /// A mesh that was read, or the exception that the reader threw.
 struct LoadedMesh {
   Mesh mesh;
-  /// contentHash() of the file and of the files beside that were read, in the order of reading; empty if not requested.
+  /// contentHash() of the file and of the files that it refers to, in the order of reading; empty if not requested.
   std::string hash;
   double seconds = 0;  ///< Time of reading.
   std::exception_ptr failure;
@@ -21,7 +21,7 @@ struct LoadedMesh {
 /// Whether opening or reading the file may wait for another process.
 [[nodiscard]] bool mayWait(const std::string& path);
 
-/// Reads a mesh. A stop request ends the wait for a FIFO or for standard input with the failure Error{Cancelled}.
+/// Reads a mesh. If a stop is requested while it waits for a FIFO or standard input, it fails with Error{Cancelled}.
 [[nodiscard]] LoadedMesh loadMesh(const std::string& path, const ReadOptions& options, bool computesHash,
                                   const std::stop_token& stop);
 

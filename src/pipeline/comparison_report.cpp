@@ -43,7 +43,7 @@ void addThinnerRegions(const MeasuredVersion& now, std::span<const double> forme
     uint64_t lastInputFace = UINT64_MAX;
   };
   std::map<uint32_t, Found> regions;
-  const double total = areaOfDomain(now.computation);
+  const double total = computedArea(now.computation);
   for (uint32_t triangle = 0; triangle < decreases.size(); ++triangle) {
     const auto& [face, ratio] = decreases[triangle];
     if (face == kNoFace) continue;

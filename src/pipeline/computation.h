@@ -19,7 +19,7 @@ struct Computation {
   const Options& options;
   const PreparedMesh& prepared;
   const FaceDomain& domain;
-  const InputFaceSet& region;
+  const InputFaceSet& region;  ///< The computed faces: those that get values.
   const TraceScene& scene;
   const Cone& cone;
   Backend& backend;

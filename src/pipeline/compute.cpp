@@ -86,7 +86,7 @@ void removeMissing(const PreparedMesh& prepared, const Seeds& seeds, FaceValues&
     if (prepared.geometry.isDegenerate(face)) remove(face);
 }
 
-/// The error at faces outside of the domain is unknown.
+/// Removes the expected errors of faces outside of the domain, which are unknown.
 void removeErrorsOutside(const FaceDomain& domain, UnsetVector<double>& expected) {
   if (domain.faces.empty()) return;
   expected = atFaces(domain, entriesAt<UnsetVector<double>>(domain.faces, expected), expected.size(), kNoValue);
@@ -130,10 +130,11 @@ std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> va
                  faceCount, kNoValue);
 }
 
-/// The results of the rounds with faces as nodes. aggregated: the mesh of the domain, or null.
+/// Spreads the results of the rounds over the faces: the nodes of the seeds become faces. aggregated: the mesh of the
+/// domain, or null.
 RoundsResult onFaces(RoundsResult rounds, const FaceDomain& domain, const AggregatedMesh* aggregated,
                      size_t faceCount) {
-  freeMemory(rounds.seeds.hits);  // If further rounds could follow, they still exist.
+  freeMemory(rounds.seeds.hits);  // With RoundOptions, runRounds() keeps them for further rounds.
   for (uint32_t& node : rounds.seeds.nodes) node = domain.faceOf(node);
   std::vector<double>& values = rounds.interpolated.values;
   if (aggregated != nullptr) {

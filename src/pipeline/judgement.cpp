@@ -45,9 +45,9 @@ uint64_t Judgement::countInputFaces(const Holds& holds) const {
   return count;
 }
 
-/// Counts such input faces of the domain.
+/// Counts such input faces in Computation::region.
 template <typename Holds>
-uint64_t Judgement::countDomainFaces(const Holds& holds) const {
+uint64_t Judgement::countComputedFaces(const Holds& holds) const {
   const TriangleMesh& mesh = computation_.prepared.mesh;
   return countInputFaces(
       [&](uint32_t face) { return computation_.region.contains(mesh.inputFaceOf(face)) && holds(face); });
@@ -56,9 +56,9 @@ uint64_t Judgement::countDomainFaces(const Holds& holds) const {
 UnjudgedFaces Judgement::unjudged() const {
   UnjudgedFaces unjudged;
   const FaceGeometry& geometry = computation_.prepared.geometry;
-  unjudged.degenerateCount = countDomainFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
-  unjudged.invertedCount = countDomainFaces([&](uint32_t face) { return isWoundAgainst(face) || isInverted(face); });
-  unjudged.openCount = countDomainFaces([&](uint32_t face) { return isOpen(face); });
+  unjudged.degenerateCount = countComputedFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
+  unjudged.invertedCount = countComputedFaces([&](uint32_t face) { return isWoundAgainst(face) || isInverted(face); });
+  unjudged.openCount = countComputedFaces([&](uint32_t face) { return isOpen(face); });
   unjudged.crossedCount = surface_.crossedCount();
   unjudged.insideCount = surface_.insideCount();
   addReason(unjudged, UnjudgedCause::Border,
@@ -79,12 +79,12 @@ UnjudgedFaces Judgement::unjudged() const {
 
 /// Adds a cause that is not at certain faces.
 void Judgement::addReasonOfMesh(UnjudgedFaces& unjudged, UnjudgedCause cause, double amount) const {
-  const uint64_t faceCount = countDomainFaces([](uint32_t) { return true; });
+  const uint64_t faceCount = countComputedFaces([](uint32_t) { return true; });
   unjudged.reasons.push_back({.cause = cause, .faceCount = faceCount, .amount = amount});
 }
 
-/// Adds the cause with the first face for which holds(face) is true, if there is one. The face need not be one of the
-/// domain: an unjudged face elsewhere can be, or belong to, the other side of a wall of the domain.
+/// Adds the cause with the first face for which holds(face) is true, if there is one. The face need not be
+/// a computed one: a face elsewhere that cannot be judged may be the other side of a wall.
 template <typename Holds>
 void Judgement::addReason(UnjudgedFaces& unjudged, UnjudgedCause cause, const Holds& holds) const {
   UnjudgedReason reason{.cause = cause, .faceCount = countInputFaces(holds)};

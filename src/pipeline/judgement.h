@@ -49,7 +49,7 @@ class Judgement {
   template <typename Holds>
   [[nodiscard]] uint64_t countInputFaces(const Holds& holds) const;
   template <typename Holds>
-  [[nodiscard]] uint64_t countDomainFaces(const Holds& holds) const;
+  [[nodiscard]] uint64_t countComputedFaces(const Holds& holds) const;
   void addReasonOfMesh(UnjudgedFaces& unjudged, UnjudgedCause cause, double amount) const;
   template <typename Holds>
   void addReason(UnjudgedFaces& unjudged, UnjudgedCause cause, const Holds& holds) const;

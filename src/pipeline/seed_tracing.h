@@ -38,8 +38,8 @@ struct RaySource {
   bool keepsNodes;    ///< Whether the nodes of the hierarchy are needed after the last ray.
 };
 
-/// Casts the rays of seeds of one computation. Its destructor releases the tracer, unless it is kept, and the nodes of
-/// the hierarchy if they are not needed later.
+/// Casts the rays of the seeds of one computation. The destructor releases the tracer, unless RaySource::kept keeps it.
+/// It also releases the nodes of the hierarchy if they are not needed later.
 class SeedTracing {
  public:
   /// Builds the hierarchy if there is none. The computation and the scene must outlive this object. Throws

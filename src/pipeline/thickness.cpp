@@ -96,15 +96,15 @@ class Measurement {
     return bodies;
   }
 
-  [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.region.contains(mesh_.inputFaceOf(face)); }
+  [[nodiscard]] bool isComputed(uint32_t face) const { return computation_.region.contains(mesh_.inputFaceOf(face)); }
 
-  /// For each solid: whether the domain has a face of it for which holds(face) is true.
+  /// For each solid: whether it has a computed face for which holds(face) is true.
   template <typename Holds>
-  [[nodiscard]] std::vector<uint8_t> solidsOfDomain(const Holds& holds) const {
-    std::vector<uint8_t> isOfDomain(solids_.isClosed.size());
+  [[nodiscard]] std::vector<uint8_t> computedSolids(const Holds& holds) const {
+    std::vector<uint8_t> hasFace(solids_.isClosed.size());
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
-      if (isInDomain(face) && holds(face)) isOfDomain[solids_.solidOf[face]] = 1;
-    return isOfDomain;
+      if (isComputed(face) && holds(face)) hasFace[solids_.solidOf[face]] = 1;
+    return hasFace;
   }
 
   /// Removes gaps that float32 does not tell from contact.
@@ -193,7 +193,7 @@ class Measurement {
 
   /// Searches the greatest section of each body, and farther where the limit needs it.
   void findThickBodies(double limit, std::vector<GreatestSection>& sections, const RunControl& control) {
-    const std::vector<uint8_t> isWanted = solidsOfDomain(
+    const std::vector<uint8_t> isWanted = computedSolids(
         [&](uint32_t face) { return solids_.isClosed[solids_.solidOf[face]] != 0 && judgement_.isJudged(face); });
     std::vector<uint8_t> isUndecided(sections.size());
     for (size_t solid = 0; solid < sections.size(); ++solid)
@@ -210,9 +210,10 @@ class Measurement {
   void keepGreatest(std::span<const GreatestSection> sections) {
     std::optional<GreatestSection>& greatest = thickness_.greatestSection;
     greatest.reset();
-    const std::vector<uint8_t> isOfDomain = solidsOfDomain([](uint32_t) { return true; });
+    const std::vector<uint8_t> isComputedSolid = computedSolids([](uint32_t) { return true; });
     for (size_t solid = 0; solid < sections.size(); ++solid)
-      if (const GreatestSection& section = sections[solid]; isOfDomain[solid] != 0 && section.diameter < kUnlimited &&
+      if (const GreatestSection& section = sections[solid]; isComputedSolid[solid] != 0 &&
+                                                            section.diameter < kUnlimited &&
                                                             !(greatest && section.diameter <= greatest->diameter))
         greatest = section;
     if (greatest)
@@ -225,7 +226,7 @@ class Measurement {
                                       const RunControl& control) {
     std::vector<uint32_t> faces;
     for (const Wall& wall : tree.walls())
-      if (isInDomain(wall.face)) faces.push_back(wall.face);
+      if (isComputed(wall.face)) faces.push_back(wall.face);
     std::vector<FaceBalls> thin;
     for (size_t begin = 0; begin < faces.size(); begin += kBlockFaceCount) {
       const size_t end = std::min(faces.size(), begin + kBlockFaceCount);
@@ -285,7 +286,7 @@ class Measurement {
 
   /// Searches the greatest sections that are less than the balls of a face, because they cap the thickness there.
   void searchCaps(std::vector<GreatestSection>& sections, const RunControl& control) const {
-    const std::vector<uint8_t> isWanted = solidsOfDomain([&](uint32_t face) {
+    const std::vector<uint8_t> isWanted = computedSolids([&](uint32_t face) {
       const uint32_t solid = solids_.solidOf[face];
       return solids_.isClosed[solid] != 0 && sections[solid].caps(thickness_.atBarycentre[face]);
     });

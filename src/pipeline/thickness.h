@@ -17,7 +17,7 @@ namespace asdfvk {
 /// A place is thinner than in another version of the mesh if its thickness is below this share of the other.
 inline constexpr double kThinnerShare = 0.95;
 
-/// Thickness of all triangles of the domain. Lengths are in the unit of the mesh unless stated.
+/// Thickness of all triangles of the computed faces. Lengths are in the unit of the mesh unless stated.
 struct FaceThickness {
   std::vector<double> atBarycentre;  ///< #F; NaN for no value.
   std::vector<double> least;         ///< #F, over all points of the face; 0 if float32 does not resolve it.
@@ -34,7 +34,7 @@ struct FaceThickness {
   std::vector<std::optional<ChangedPlace>> changedPlaces;  ///< For each region.
 };
 
-/// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
+/// For each computed face that is not degenerate, the least diameter over its opposing walls, at most the greatest
 /// section of its solid. A face without a wall that opposes it, in an open component, has no value. A face of the kind
 /// NoThickness has the thickness 0. computation: its mesh and scene are those of the surface.
 [[nodiscard]] FaceThickness measureThickness(const Computation& computation, const JudgedSurface& surface,
@@ -43,8 +43,8 @@ struct FaceThickness {
 [[nodiscard]] FaceThickness findThinPlaces(const Computation& computation, const JudgedSurface& surface,
                                            const RunControl& control);
 
-/// Area of the faces of the domain.
-[[nodiscard]] double areaOfDomain(const Computation& computation);
+/// Area of the computed faces.
+[[nodiscard]] double computedArea(const Computation& computation);
 
 /// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);

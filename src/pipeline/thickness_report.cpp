@@ -96,7 +96,7 @@ class Description {
       const auto rank = [&](uint32_t i) { return std::tuple(regions[i].kind, regions[i].min, -regions[i].area); };
       return rank(a) < rank(b);
     });
-    const double total = areaOfDomain(computation_);
+    const double total = computedArea(computation_);
     report_.thinArea = report_.thinAreaShare = 0;
     for (const uint32_t i : order) {
       ThinRegion& region = regions[i];
@@ -227,7 +227,7 @@ class Description {
 
 }  // namespace
 
-double areaOfDomain(const Computation& computation) {
+double computedArea(const Computation& computation) {
   const PreparedMesh& prepared = computation.prepared;
   double total = 0;
   for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)

@@ -43,7 +43,7 @@ class ThinPartIndex {
   }
 
  private:
-  /// Points at most this far from a part of a wall are on it (normalised).
+  /// A point is on a part if it is at most this far away (normalised).
   static constexpr double kOnPart = 4 * kUnresolved;
 
   struct Row {

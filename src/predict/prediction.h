@@ -62,18 +62,18 @@ class DevicePredictor {
   virtual void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) = 0;
 };
 
-/// Predicts the values of all nodes of the domain. hits: of nodes. The result does not depend on the number of threads.
-/// earlier: empty, or a prediction of the same scene, cone and options. A seed of both predictions must have the same
-/// index in `hits` of both. Values that did not change are copied from `earlier`. device: null predicts on the CPU,
-/// which cannot be cancelled. Throws the errors of the device.
+/// Predicts the values of all nodes of the domain. The result does not depend on the number of threads. hits: the seeds
+/// are nodes. earlier: empty, or a prediction of the same scene, domain, cone and options, from which values that did
+/// not change are copied. A seed that both predictions use must have the same index in both lists of hits. device: if
+/// null, the CPU predicts, which cannot be cancelled. Throws the errors of the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const FaceDomain& domain, const Cone& cone,
                                        const SeedHitsView& hits, const PredictionOptions& options,
                                        Prediction earlier = {}, DevicePredictor* device = nullptr,
                                        const RunControl& control = {});
 
-/// A prediction with further seeds: those in `hits` that have no cell in `prediction`. The cell of a new seed takes
-/// those nodes around the seed that are nearer to the new seed than to the seed of their current cell. Only these nodes
-/// are predicted again. The other nodes keep their values, although a new seed may be near. Arguments and errors as in
+/// A prediction with further seeds: those in `hits` that have no cell in `prediction`. The cell of a new seed takes the
+/// nodes around this seed that are nearer to it than to the seed of their current cell. Only these nodes are predicted
+/// again. The other nodes keep their values, although a new seed may be near. Arguments and errors as in
 /// predictValues().
 [[nodiscard]] Prediction withFurtherSeeds(const Prediction& prediction, const TraceScene& scene,
                                           const FaceDomain& domain, const Cone& cone, const SeedHitsView& hits,
