@@ -10,12 +10,13 @@
 #include "core/stopwatch.h"
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
+  const auto* const backend = asdfvk::findChoice(asdfvk::kBackendNames, argc > 2 ? argv[2] : "auto");
+  if (argc < 2 || backend == nullptr) {
     std::cerr << "usage: asdfvk-bench-call MESH [BACKEND]\n";
     return 1;
   }
   const asdfvk::Mesh mesh = asdfvk::readMesh(argv[1]);
-  asdfvk::Session session({.backend = argc > 2 ? argv[2] : "auto", .device = {}, .variant = {}});
+  asdfvk::Session session({.backend = *backend, .device = {}, .variant = {}});
   for (std::string line; std::getline(std::cin, line);) {
     const asdfvk::Stopwatch watch;
     const asdfvk::Result result = session.compute(mesh);

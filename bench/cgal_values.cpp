@@ -9,6 +9,7 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/session.h"
 #include "support/cgal_oracle.h"
+#include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
 
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
       const double cgalSeconds = cgalTimer.seconds();
       for (const std::string& backend : backends) {
         control.checkpoint(0);
-        Session session({.backend = backend});
+        Session session(sessionOptionsOf(backend, ""));
         Options options;
         applyDefinition(Definition::Cgal, options);
         const Timer timer(Clock::ProcessCpu);

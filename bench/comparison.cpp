@@ -31,11 +31,11 @@ std::map<std::string, std::unique_ptr<Backend>> openBackends(const std::string& 
   };
   open("reference", sessionOptionsOf("reference", device));
   for (const std::string& name : fastBackends()) open(name, sessionOptionsOf(name, device));
-  const std::string defaultKernel = backends["vulkan"]->traceVariant()->kernel;
+  const std::optional<TraceKernel> defaultKernel = backends["vulkan"]->traceVariant()->kernel;
   for (const auto& [name, kernel] : kKernels) {
-    if (name == defaultKernel) continue;
+    if (!kernel || kernel == defaultKernel) continue;
     SessionOptions options = sessionOptionsOf("vulkan", device);
-    options.variant.kernel = name;
+    options.variant.kernel = kernel;
     open(std::string("vulkan ") + name, options);
   }
   return backends;

@@ -38,7 +38,7 @@ struct Arguments {
   std::string device;
   std::vector<uint32_t> percents = {100, 10};
   uint32_t roundCount = 5;
-  std::string solver = kAutomaticSolver;
+  std::string solver = "auto";
   uint64_t generatedFaceCount = 1'500'000;
 };
 
@@ -192,9 +192,15 @@ class ConstantBackend final : public Backend {
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
   [[nodiscard]] bool runsOnCpu() const override { return facts().kind == DeviceKind::Cpu; }
   [[nodiscard]] std::optional<TraceVariant> traceVariant() const override {
-    return variantOf(defaultTraceChoice(facts()));
+    return defaultTraceChoice(facts()).variant();
   }
-  [[nodiscard]] const Device* device() const override { return opened_.device.get(); }
+  [[nodiscard]] BvhOptions bvhOptions() const override { return {.maxLeafTriangleCount = kMaxWideLeafTriangleCount}; }
+  [[nodiscard]] bool hasDevice() const override { return true; }
+  [[nodiscard]] const Solver& automaticSolver() const override { return defaultSolver(!runsOnCpu()); }
+  [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const override {
+    return asdfvk::makeSolver(choice, opened_.device.get());
+  }
+  [[nodiscard]] const Device& device() const { return *opened_.device; }
 
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        const TracerNeeds& needs) override {
@@ -241,7 +247,7 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
     for (const bool withHits : {false, true}) {
       std::vector<ConeHit> hits(withHits ? seeds.size() * cone.directions.size() : 0);
       const auto tracer = backend.makeTracer(mesh.scene(), cone, {.hits = withHits});
-      backend.device()->pool().clear();
+      backend.device().pool().clear();
       const IdleDevice idle;
       std::vector<double> seconds, coneRates, rayRates;
       for (uint32_t round = 0; round <= arguments.roundCount; ++round) {
@@ -255,7 +261,7 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
       text += fmt::format("| {} % | {} | {:>14} | {:>14} | {:>14} |\n", percent, withHits ? "yes" : "no",
                           toText(dispersionOf(seconds), 4), toText(dispersionOf(coneRates), 1),
                           toText(dispersionOf(rayRates), 3));
-      backend.device()->pool().clear();
+      backend.device().pool().clear();
     }
   }
   return text;
@@ -266,7 +272,7 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
   std::string text = "\nwhole computation, median seconds of the host by stage, without waiting for the device\n";
   for (const uint32_t percent : arguments.percents) {
     Options options = recipeOptions(Recipe::Balanced, percent);
-    options.solver = arguments.solver;
+    options.solver = choiceNamed(kSolverNames, arguments.solver);
     std::vector<std::vector<double>> stages(kStageCount);
     std::vector<double> totals, waits, hosts, rates;
     Traffic traffic;
@@ -277,7 +283,7 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
       StageWaits stageWaits;
       StageClock clock(result.report.stageSeconds, [&](Stage stage) { stageWaits.begin(stage); });
       const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options.orientation, clock, control));
-      computeOn({session, scene, nullptr, nullptr}, options, clock, control, result);
+      computeOn({session, scene, nullptr, nullptr}, CheckedOptions(options), clock, control, result);
       stageWaits.begin(Stage::Geometry);
       if (round == 0) continue;
       totals.push_back(watch.seconds());
@@ -302,10 +308,10 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
 }
 
 void run(const Arguments& arguments, const RunControl& control) {
-  SessionState session({.backend = "reference"});
+  SessionState session({.backend = BackendChoice::Reference});
   auto backend = std::make_unique<ConstantBackend>(arguments.device);
   ConstantBackend& constant = *backend;
-  session.named = {"vulkan", std::move(backend), {}};
+  session.named = {BackendChoice::Vulkan, "vulkan", std::move(backend), {}};
   const TrafficCounter counter;
   const auto measure = [&](const std::string& name, const Mesh& mesh) {
     writeOutput(fmt::format("{}: {} faces, {}, {}\n", name, groupDigits(mesh.faceCount()), constant.deviceName(),

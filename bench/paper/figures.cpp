@@ -57,7 +57,7 @@ void drawErrors(PictureWriter& pictures, const NamedMesh& mesh, const Evaluation
                      errorCaption("balanced", evaluation, balanced));
 }
 
-Options samplerOptions(const std::string& sampler, Recipe recipe, uint64_t randomSeed) {
+Options samplerOptions(SamplerChoice sampler, Recipe recipe, uint64_t randomSeed) {
   Options options = recipeOptions(recipe, kSamplerPercent, randomSeed);
   options.sampler = sampler;
   options.estimatesError = false;  // No error estimate, because its held-out faces would be random seeds.
@@ -99,12 +99,12 @@ void drawMeshFigures(PictureWriter& pictures, FigurePages& pages, Session& sessi
 CsvTable drawSamplers(PictureWriter& pictures, FigurePages& pages, Session& session, NamedMesh& mesh,
                       const Evaluation& evaluation, uint32_t seedSetCount, const RunControl& control) {
   CsvTable table{{"sampler", "seeds", "paper_average_error", "balanced_average_error"}, {}};
-  for (const std::string& sampler : samplerNames()) {
+  for (const auto& [sampler, choice] : kSamplerNames) {
     std::vector<double> paper, balanced;
     Result first;
     for (uint32_t round = 1; round <= seedSetCount; ++round) {
-      const auto compute = [&](Recipe recipe, std::vector<double>& errors) {
-        Result result = session.compute(mesh.mesh, samplerOptions(sampler, recipe, round), control);
+      const auto compute = [&, choice = choice](Recipe recipe, std::vector<double>& errors) {
+        Result result = session.compute(mesh.mesh, samplerOptions(choice, recipe, round), control);
         errors.push_back(errorsOverRange(evaluation.full.sdf(), result.sdf()).average);
         return result;
       };

@@ -16,7 +16,9 @@
 namespace asdfvk::bench {
 
 SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device) {
-  return {.backend = backend, .device = backend == "vulkan" || backend == "auto" ? device : ""};
+  const BackendChoice choice = choiceNamed(kBackendNames, backend);
+  const bool usesDevice = choice == BackendChoice::Vulkan || choice == BackendChoice::Automatic;
+  return {.backend = choice, .device = usesDevice ? device : ""};
 }
 
 SeedCount parseSeedCount(const std::string& text) {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <span>
 #include <string>
 
+#include "asdf_vk/choices.h"
+#include "asdf_vk/error.h"
 #include "asdf_vk/session.h"
 #include "bvh/bvh.h"
 #include "pipeline/prepared_mesh.h"
@@ -11,7 +15,15 @@
 
 namespace asdfvk::bench {
 
-/// backend: a name of backendNames(). device: only for the backend vulkan.
+/// Throws Error{UnknownName} for a name that is not in `names`.
+template <typename T, size_t N>
+[[nodiscard]] T choiceNamed(const ChoiceNames<T, N>& names, const std::string& name) {
+  const T* const found = findChoice(names, name);
+  if (found == nullptr) throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of {}", name, joined(names)));
+  return *found;
+}
+
+/// backend: a name of kBackendNames; throws Error{UnknownName} for another. device: only for the backend vulkan.
 [[nodiscard]] SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device);
 
 /// Reads "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{OptionOutOfRange}.

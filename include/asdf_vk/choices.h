@@ -2,13 +2,17 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "asdf_vk/options.h"
+#include "asdf_vk/session.h"
 
-/// Names of the enumerators of Options. The command line, the JSON report and the Python module use these names.
+/// Names of the enumerators of Options and SessionOptions. The command line, the JSON report and the Python module use
+/// these names.
 namespace asdfvk {
 
 template <typename T, size_t N>
@@ -21,6 +25,29 @@ inline constexpr ChoiceNames<Definition, 2> kDefinitions{{{"paper", Definition::
 
 inline constexpr ChoiceNames<ConeRotation, 2> kConeRotations{
     {{"fixed", ConeRotation::Fixed}, {"hashed", ConeRotation::Hashed}}};
+
+inline constexpr ChoiceNames<SamplerChoice, 5> kSamplerNames{{{"random", SamplerChoice::Random},
+                                                              {"blue-noise", SamplerChoice::BlueNoise},
+                                                              {"farthest-point", SamplerChoice::FarthestPoint},
+                                                              {"normal-space", SamplerChoice::NormalSpace},
+                                                              {"adaptive", SamplerChoice::Adaptive}}};
+
+inline constexpr ChoiceNames<SolverChoice, 5> kSolverNames{{{"auto", SolverChoice::Automatic},
+                                                            {"cg", SolverChoice::Cg},
+                                                            {"jacobi", SolverChoice::Jacobi},
+                                                            {"cpu", SolverChoice::Cpu},
+                                                            {"eigen", SolverChoice::Eigen}}};
+
+inline constexpr ChoiceNames<BackendChoice, 4> kBackendNames{{{"auto", BackendChoice::Automatic},
+                                                              {"vulkan", BackendChoice::Vulkan},
+                                                              {"cpu", BackendChoice::Cpu},
+                                                              {"reference", BackendChoice::Reference}}};
+
+inline constexpr ChoiceNames<std::optional<TraceKernel>, 4> kKernels{
+    {{"auto", std::nullopt}, {"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}}};
+
+inline constexpr ChoiceNames<std::optional<BvhFetch>, 3> kFetches{
+    {{"auto", std::nullopt}, {"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}}};
 
 inline constexpr ChoiceNames<ArcWeights, 2> kWeights{
     {{"distance", ArcWeights::Distance}, {"feature", ArcWeights::Feature}}};
@@ -67,7 +94,7 @@ template <typename T, size_t N>
 }
 
 template <typename T, size_t N>
-[[nodiscard]] const char* nameOf(const ChoiceNames<T, N>& names, const T& value) {
+[[nodiscard]] const char* nameOf(const ChoiceNames<T, N>& names, const std::type_identity_t<T>& value) {
   for (const auto& [name, candidate] : names)
     if (candidate == value) return name;
   return "";

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "asdf_vk/api.h"
 
@@ -56,6 +54,15 @@ struct SeedCount {
 inline constexpr double kAutomaticSeedShare = 0.1;
 inline constexpr uint64_t kMinAutomaticSeedCount = 3000;
 
+/// Selection of the seeds (docs/method.md).
+enum class SamplerChoice {
+  Random,         ///< ASDF paper, section 4.2.
+  BlueNoise,      ///< Poisson-disk sampling of the dual graph.
+  FarthestPoint,  ///< Each seed is the face that is farthest from all earlier seeds.
+  NormalSpace,    ///< The same number of seeds in each bin of normals.
+  Adaptive,       ///< Blue noise in two passes; the second is denser where the first one predicts errors.
+};
+
 /// Weights of the edges of the dual graph in the Poisson equation.
 enum class ArcWeights {
   Distance,  ///< 1 / distance of the two barycentres (ASDF paper, section 4.1).
@@ -76,6 +83,15 @@ struct InterpolationOptions {
   /// formula also applies to seeds, which keep their traced values only if pooling is 0. A pooling above 0 requires
   /// Guidance::Prediction.
   double pooling = 0;
+};
+
+/// Solver of the Poisson equation.
+enum class SolverChoice {
+  Automatic,  ///< Cg on a GPU that can run it, else Cpu.
+  Cg,         ///< Conjugate gradients on the Vulkan device, which then also predicts values.
+  Jacobi,     ///< Jacobi iterations on the Vulkan device: slow, for comparison.
+  Cpu,        ///< Conjugate gradients in float32 on the CPU; in double if float32 does not reach the tolerance.
+  Eigen,      ///< Conjugate gradients in double on the CPU.
 };
 
 struct SolverOptions {
@@ -210,11 +226,11 @@ enum class PerElement {
 
 /// Options of one computation. A computation throws Error{OptionOutOfRange} for a member out of its range. A
 /// computation throws Error{OptionConflict} if a member that differs from its default has no effect or contradicts
-/// another member. samplerNames() and solverNames() list the names for `sampler` and `solver`.
+/// another member.
 struct Options {
   ConeOptions cone;
   SeedCount seeds;
-  std::string sampler = "blue-noise";
+  SamplerChoice sampler = SamplerChoice::BlueNoise;
   /// Start value of all random numbers. The same value, mesh, options and device give the same bits.
   uint64_t randomSeed = 1;
   InterpolationOptions interpolation;
@@ -227,7 +243,7 @@ struct Options {
   ThicknessOptions thickness;
   bool estimatesError = true;
   RoundOptions rounds;
-  std::string solver = "auto";
+  SolverChoice solver = SolverChoice::Automatic;
   SolverOptions solverOptions;
   Orientation orientation = Orientation::Keep;
   bool computesCentres = false;  ///< Adds the fields "centre" and "component", for skeletons.
@@ -250,6 +266,23 @@ struct Options {
   }
 };
 
+/// Valid options together with the settings that they imply; computations do not check them again.
+class ASDFVK_API CheckedOptions {
+ public:
+  /// Throws Error{OptionOutOfRange}, Error{UnknownName} for an enumerator without a name, and Error{OptionConflict};
+  /// see Options.
+  explicit CheckedOptions(const Options& options);
+
+  [[nodiscard]] const Options& operator*() const { return options_; }
+  [[nodiscard]] const Options* operator->() const { return &options_; }
+
+ private:
+  friend struct ComputationSettings;
+  enum class Trust { Checked };
+  CheckedOptions(const Options& options, Trust) : options_(options) {}
+  Options options_;
+};
+
 /// Sets of options. The defaults of Options are the recipe Balanced.
 enum class Recipe {
   Paper,     ///< The method of the ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
@@ -265,8 +298,5 @@ ASDFVK_API void applyRecipe(Recipe recipe, Options& options);
 /// Sets the definition and its numbers of rays and seeds. Paper: 30 rays, SeedCount::automatic(). Cgal: 25 rays,
 /// SeedCount::all(). Leaves other options unchanged.
 ASDFVK_API void applyDefinition(Definition definition, Options& options);
-
-[[nodiscard]] ASDFVK_API std::vector<std::string> samplerNames();
-[[nodiscard]] ASDFVK_API std::vector<std::string> solverNames();
 
 }  // namespace asdfvk

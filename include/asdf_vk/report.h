@@ -15,7 +15,7 @@
 namespace asdfvk {
 
 // The members of the structs below are the keys of the JSON report and the members of the dataclasses in Python.
-// scripts/write-report-keys copies the comments. An unset member is null in JSON and None in Python.
+// asdfvk-write-documents copies the comments. An unset member is null in JSON and None in Python.
 
 /// The stages of a computation, in the order in which they run.
 enum class Stage {
@@ -199,10 +199,23 @@ struct PartsReport {
   std::vector<double> areaShares;  ///< Share of each part in the area of all faces; the sum is 1.
 };
 
-/// Variant of the Vulkan kernels.
+/// Assignment of rays to the lanes of a Vulkan device.
+enum class TraceKernel {
+  Packet,  ///< Like Ray, but the lanes of a subgroup traverse the hierarchy together.
+  Ray,     ///< Neighbouring lanes trace the rays of one seed.
+  Seed,    ///< Neighbouring lanes trace the same ray of neighbouring seeds.
+};
+
+/// How Vulkan kernels read the hierarchy.
+enum class BvhFetch {
+  Storage,  ///< Storage buffers.
+  Texel,    ///< Storage texel buffers: much faster on llvmpipe. Many devices allow at most 65,536 texels (of 16 bytes).
+};
+
+/// Variant of the Vulkan kernels. All variants compute the same values.
 struct TraceVariant {
-  std::string kernel;  ///< "seed", "ray" or "packet"
-  std::string fetch;   ///< "texel" or "storage"
+  std::optional<TraceKernel> kernel;  ///< Assignment of rays to lanes; set in a report.
+  std::optional<BvhFetch> fetch;      ///< Kind of buffers that the kernels read; set in a report.
 };
 
 /// Facts about a computation: mesh, device, times, errors and warnings.

@@ -51,12 +51,17 @@ class ASDFVK_API Scene {
   /// segmentation, which need the whole mesh.
   [[nodiscard]] Result compute(const Options& options = {}, std::span<const uint8_t> region = {},
                                const RunControl& control = {});
+  [[nodiscard]] Result compute(const CheckedOptions& options, std::span<const uint8_t> region = {},
+                               const RunControl& control = {});
 
   /// Like compute(), and compares the wall thickness with a former version of the mesh (ComparisonReport); adds the
   /// field "thickness_change", and Measure::Thickness. The meshes may be triangulated differently, but must be in the
   /// same place. `former` may belong to another session. Throws Error{UnitsDiffer} if both meshes state a unit, and not
   /// the same one.
   [[nodiscard]] Result compare(const Scene& former, const Options& options = {}, std::span<const uint8_t> region = {},
+                               const RunControl& control = {});
+  /// Precondition: the options measure the thickness.
+  [[nodiscard]] Result compare(const Scene& former, const CheckedOptions& options, std::span<const uint8_t> region = {},
                                const RunControl& control = {});
 
   /// Shape diameter at points. The cone of rays starts at the point, moved inwards by kPointOffset. The axis of the

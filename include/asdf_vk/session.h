@@ -16,16 +16,24 @@
 
 namespace asdfvk {
 
+/// What traces the rays. Only Automatic tries several backends; the others throw Error of kind Device if they are not
+/// available.
+enum class BackendChoice {
+  /// A Vulkan device (GPUs first, then CPU devices such as lavapipe), else Cpu. If the device fails, the next backend
+  /// computes the mesh, and the result has WarningCode::BackendReplaced. Later meshes also use the next backend, except
+  /// after a lack of device memory.
+  Automatic,
+  Vulkan,
+  Cpu,        ///< The cores of the CPU, in float32.
+  Reference,  ///< The cores of the CPU, in double precision.
+};
+
 struct SessionOptions {
-  /// One of backendNames(). "auto": a Vulkan device (GPUs first, then CPU devices such as lavapipe), else "cpu". If the
-  /// device of "auto" fails, the next backend computes the mesh, and the result has WarningCode::BackendReplaced. Later
-  /// meshes also use the next backend, except after a lack of device memory. "vulkan", "cpu" (float32, SIMD),
-  /// "reference" (double precision): only this backend; Error of kind Device if the backend is not available.
-  std::string backend = "auto";
+  BackendChoice backend = BackendChoice::Automatic;
   /// Vulkan device: an index in listDevices() or a part of a name. Empty: the device of the highest rank.
   std::string device;
-  bool requireGpu = false;  ///< Rejects CPU devices and the backends "cpu" and "reference".
-  TraceVariant variant;     ///< Empty members: the default of the device. Set members require Vulkan.
+  bool requireGpu = false;  ///< Rejects CPU devices, BackendChoice::Cpu and BackendChoice::Reference.
+  TraceVariant variant;     ///< Unset members: the default of the device. Set members require Vulkan.
 };
 
 /// Label of an input face without a triangle, for example in the field "segment".
@@ -84,8 +92,6 @@ struct DeviceInfo {
 /// marks CPU devices as not usable, as SessionOptions::requireGpu does.
 [[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr, bool requireGpu = false);
 
-[[nodiscard]] ASDFVK_API std::vector<std::string> backendNames();
-
 /// A device with its pipelines, for any number of meshes, one after another. Not thread-safe.
 class ASDFVK_API Session {
  public:
@@ -105,6 +111,7 @@ class ASDFVK_API Session {
   /// Computes one result for a mesh, which is not changed. For several computations on one mesh, use Scene. Throws
   /// Error of kind Input (no face, index out of range), Usage, Device or Cancelled.
   [[nodiscard]] Result compute(const MeshView& mesh, const Options& options = {}, const RunControl& control = {});
+  [[nodiscard]] Result compute(const MeshView& mesh, const CheckedOptions& options, const RunControl& control = {});
 
  private:
   friend class Scene;

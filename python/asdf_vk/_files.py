@@ -116,7 +116,7 @@ def write(
     target = _path(path)
     kind = (format or os.path.splitext(target)[1]).lower().removeprefix(".")
     results = [{} if fields is None else fields, *further]
-    if flag_of(ascii, "ascii") and kind != "ply":
+    if flag_of(ascii, "ascii") and not _core.has_text(kind):
         raise error_of("optionConflict", "ascii is for PLY only; remove ascii=True")
     if picture_of and kind != "png":
         raise error_of("optionConflict", "picture_of names the field of a picture (.png); drop it")

@@ -34,7 +34,7 @@ py::tuple segment(const py::object& mesh, const py::array& values, const py::dic
                   uint32_t threadCount, const py::object& progress) {
   requireSameProcess();
   const MeshView view = viewOf(mesh);
-  const CgalSegmentationOptions parsed = optionsOf(options).cgalSegmentation;
+  const CgalSegmentationOptions parsed = optionsOf(options)->cgalSegmentation;
   const CgalLabels kind = returnsClusters ? CgalLabels::Clusters : CgalLabels::Segments;
   const std::span<const double> numbers = entriesOf<double>(values);
   LabelledFaces result;

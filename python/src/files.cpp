@@ -13,6 +13,7 @@
 #include "asdf_vk/files.h"
 #include "gil.h"
 #include "interruptible.h"
+#include "io/formats.h"
 #include "mesh/input_faces.h"
 #include "report.h"
 
@@ -149,6 +150,10 @@ void bindFiles(py::module_& module) {
   module.def("mesh_of_polygons", meshOfPolygons);
   module.def("join_meshes", [](const std::vector<const Mesh*>& meshes, const std::vector<std::string>& names) {
     return joinMeshes(meshes, names);
+  });
+  module.def("has_text", [](const std::string& format) {
+    const FileFormat* const row = formatOfExtension(format);
+    return row != nullptr && row->hasText;
   });
   module.def("write", write);
   module.def("write_points", writePointsOf);

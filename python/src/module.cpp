@@ -72,7 +72,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("removed_keyword_text", removedKeywordText);
   module.def("session_key", [](const py::dict& values) {
     const SessionSettings session = sessionOf(values);
-    return py::make_tuple(session.backend, session.device, session.requireGpu, session.threadCount);
+    return py::make_tuple(static_cast<int>(session.backend), session.device, session.requireGpu, session.threadCount);
   });
   module.def("devices", devices);
   bindFiles(module);

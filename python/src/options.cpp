@@ -55,17 +55,14 @@ OptionValue valueOf(const py::handle& object) {
 }
 
 /// Sets the options in the order of the rows. The package has checked their names.
-GivenOptions setOptions(OptionRows rows, void* target, const py::dict& values) {
+GivenOptions setOptions(const OptionRows& rows, const py::dict& values) {
   GivenOptions given{.names = {}, .spelling = kSpelling};
   for (const OptionRow& row : rows) {
     const std::string name = spelled(row, kSpelling);
     if (name.empty() || !values.contains(name)) continue;
     const py::object object = values[name.c_str()];
     if (object.is_none()) continue;
-    OptionValue value = valueOf(object);
-    const bool isNumberOfDevice = std::holds_alternative<uint64_t>(value) && name == "device";
-    if (isNumberOfDevice) value = std::to_string(std::get<uint64_t>(value));
-    setOption(row, target, value, py::repr(object), kSpelling);
+    setOption(row, valueOf(object), py::repr(object), kSpelling);
     given.names.insert(row.name);
   }
   return given;
@@ -74,8 +71,9 @@ GivenOptions setOptions(OptionRows rows, void* target, const py::dict& values) {
 }  // namespace
 
 std::vector<std::string> optionNames() {
+  ComputationSettings defaults;
   std::vector<std::string> names;
-  for (const OptionRow& row : computationRows())
+  for (const OptionRow& row : computationRows(defaults))
     if (std::string name = spelled(row, kSpelling); !name.empty()) names.push_back(std::move(name));
   return names;
 }
@@ -85,22 +83,24 @@ std::string removedKeywordText(std::string_view name) { return removedOptionText
 std::string similarKeywords(std::string_view name, const std::vector<std::string>& keywords) {
   std::string flag(name);
   std::replace(flag.begin(), flag.end(), '_', '-');
-  const OptionRow* const row = findOption(computationRows(), flag);
+  ComputationSettings defaults;
+  const OptionRows rows = computationRows(defaults);
+  const OptionRow* const row = findOption(rows, flag);
   const std::string keyword = row == nullptr ? "" : spelled(*row, kSpelling);
   const bool isAllowed = std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
   return isAllowed ? keyword : similarNames(name, keywords);
 }
 
-Options optionsOf(const py::dict& values, bool compares) {
+CheckedOptions optionsOf(const py::dict& values, bool compares) {
   ComputationSettings computation;
   computation.compares = compares;
-  complete(computation, setOptions(computationRows(), &computation, values));
-  return computation.options;
+  complete(computation, setOptions(computationRows(computation), values));
+  return computation.checked();
 }
 
 SessionSettings sessionOf(const py::dict& values) {
   SessionSettings session;
-  (void)setOptions(sessionRows(), &session, values);
+  (void)setOptions(sessionRows(session), values);
   requireValid(session, kSpelling);
   return session;
 }

@@ -12,7 +12,7 @@ namespace asdfvk::python {
 /// Options from a dictionary with Python names, and the options that they imply. The value None means the default.
 /// Throws Error{UnknownName} for an unknown key or choice. Throws Error{OptionOutOfRange} for a value of the wrong type
 /// or out of range. Throws Error{OptionConflict} for options that contradict each other.
-[[nodiscard]] Options optionsOf(const pybind11::dict& values, bool compares = false);
+[[nodiscard]] CheckedOptions optionsOf(const pybind11::dict& values, bool compares = false);
 [[nodiscard]] SessionSettings sessionOf(const pybind11::dict& values);
 
 [[nodiscard]] std::vector<std::string> optionNames();

@@ -25,11 +25,6 @@ std::string snakeCase(const std::string& key) {
 
 py::object objectOf(const std::string& text) { return python::textOf(text); }
 py::object objectOf(const Vec3d& point) { return py::make_tuple(point.x, point.y, point.z); }
-py::object objectOf(WarningCode code) { return py::str(nameOf(code)); }
-py::object objectOf(ThinKind kind) { return py::str(nameOf(kind)); }
-py::object objectOf(WallChange change) { return py::str(nameOf(change)); }
-py::object objectOf(ThicknessVerdict verdict) { return py::str(nameOf(verdict)); }
-py::object objectOf(UnjudgedCause cause) { return py::str(nameOf(cause)); }
 py::object objectOf(const std::vector<ErrorDetail>& details) { return dictOf(details); }
 
 py::object objectOf(const StageSeconds& seconds) {
@@ -53,11 +48,13 @@ py::object objectOf(const std::vector<T>& items) {
   return tuple;
 }
 
-/// The Python object of a value of the report: a number, a flag, or the dataclass of a structure.
+/// The Python object of a value of the report: a number, a flag, a name, or the dataclass of a structure.
 template <typename T>
 py::object objectOf(const T& value) {
   if constexpr (std::is_arithmetic_v<T>) {
     return py::cast(value);
+  } else if constexpr (std::is_enum_v<T>) {
+    return py::str(nameOf(choicesOf(value), value));
   } else {
     py::dict members;
     visitKeys(value,

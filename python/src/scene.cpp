@@ -36,7 +36,7 @@ class SharedScene {
   SharedScene(std::shared_ptr<SharedSession> session, const py::object& mesh, const py::dict& options,
               const py::object& progress)
       : session_(std::move(session)), mesh_(mesh) {
-    const Orientation orientation = optionsOf(options).orientation;
+    const Orientation orientation = optionsOf(options)->orientation;
     const MeshView view = viewOf(mesh_);
     session_->run(
         [&](Session& idle, const RunControl& control) {
@@ -56,7 +56,7 @@ class SharedScene {
   SharedScene& operator=(const SharedScene&) = delete;
 
   [[nodiscard]] Result compute(const py::dict& options, const py::object& region, const py::object& progress) {
-    const Options parsed = optionsOf(options);
+    const CheckedOptions parsed = optionsOf(options);
     std::span<const uint8_t> mask;
     if (!region.is_none()) mask = entriesOf<uint8_t>(region.cast<py::array>());
     return runOn(*session_, progress,
@@ -65,7 +65,7 @@ class SharedScene {
 
   [[nodiscard]] Result compare(const SharedScene& former, const py::dict& options, const py::object& region,
                                const py::object& progress) {
-    const Options parsed = optionsOf(options, true);
+    const CheckedOptions parsed = optionsOf(options, true);
     std::span<const uint8_t> mask;
     if (!region.is_none()) mask = entriesOf<uint8_t>(region.cast<py::array>());
     return runOn(*session_, progress, [&](Session&, const RunControl& control) {
@@ -76,7 +76,7 @@ class SharedScene {
   /// points, normals: #P x 3 double. Returns #P float.
   [[nodiscard]] py::array_t<float> valuesAt(const py::array& points, const py::array& normals, const py::dict& options,
                                             const py::object& progress) {
-    const ConeOptions cone = optionsOf(options).cone;
+    const ConeOptions cone = optionsOf(options)->cone;
     const std::span<const double> origins = entriesOf<double>(points), axes = entriesOf<double>(normals);
     const std::vector<double> values = runOn(*session_, progress, [&](Session&, const RunControl& control) {
       return scene_->valuesAt(origins, axes, cone, control);
@@ -87,7 +87,7 @@ class SharedScene {
   /// points, normals: #P x 3 double. Returns #P double.
   [[nodiscard]] py::array_t<double> thicknessAt(const py::array& points, const py::array& normals,
                                                 const py::dict& options, const py::object& progress) {
-    const ThicknessOptions thickness = optionsOf(options).thickness;
+    const ThicknessOptions thickness = optionsOf(options)->thickness;
     const std::span<const double> places = entriesOf<double>(points), axes = entriesOf<double>(normals);
     return asArray(runOn(*session_, progress, [&](Session&, const RunControl& control) {
       return scene_->thicknessAt(places, axes, thickness, control);
@@ -160,7 +160,7 @@ void bindScenes(py::module_& module) {
       .def_property_readonly("runs_on_cpu", [](const SharedSession& self) { return self.session().runsOnCpu(); })
       .def("compute",
            [](SharedSession& self, const py::object& mesh, const py::dict& options, const py::object& progress) {
-             const Options parsed = optionsOf(options);
+             const CheckedOptions parsed = optionsOf(options);
              const MeshView view = viewOf(mesh);
              return runOn(self, progress, [&](Session& session, const RunControl& control) {
                return session.compute(view, parsed, control);

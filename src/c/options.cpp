@@ -8,25 +8,36 @@ namespace {
 
 constexpr OptionSpelling kSpelling = OptionSpelling::Name;
 
-/// Returns null for an unknown name, and for an option that only the program has (its keyword is empty).
-const OptionRow* rowOf(OptionRows rows, std::string_view name) {
+/// Returns null for an unknown name, and for an option that only the program has.
+const OptionRow* rowOf(const OptionRows& rows, std::string_view name) {
   const OptionRow* const row = findOption(rows, name);
-  return row == nullptr || isOfProgram(*row) ? nullptr : row;
+  return row == nullptr || row->where == OptionPlace::Program ? nullptr : row;
 }
 
-void setText(const OptionRow& row, void* target, const std::string& text) {
-  if (!isFlag(row)) return setOptionText(row, target, text, kSpelling);
+void setText(const OptionRow& row, const std::string& text) {
+  if (!isFlag(row)) return setOptionText(row, text, kSpelling);
   const std::string word = lowerCase(text);
   const bool isOn = word == "on" || word == "true", isOff = word == "off" || word == "false";
   if (!isOn && !isOff)
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("{}: '{}' is not on or off", row.name, text),
                 {{"option", row.name}});
-  setOption(row, target, isOn, text, kSpelling);
+  setOption(row, isOn, text, kSpelling);
 }
+
+/// The options of computations and of sessions.
+struct AllRows {
+  ComputationSettings computation;
+  SessionSettings session;
+  OptionRows ofComputation = computationRows(computation), ofSession = sessionRows(session);
+
+  AllRows() = default;
+  AllRows(const AllRows&) = delete;  // The rows refer to the members.
+  AllRows& operator=(const AllRows&) = delete;
+};
 
 /// Sets the options in the order of the rows. other: rows of options that are refused. use: the object that has the
 /// refused options, for the message.
-GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle, OptionRows other, const char* use) {
+GivenOptions setAll(const OptionRows& rows, const asdf_vk_options* handle, const OptionRows& other, const char* use) {
   GivenOptions given{.names = {}, .spelling = kSpelling};
   if (handle == nullptr) return given;
   const auto options = handles<asdf_vk_options>().get(handle);
@@ -36,19 +47,19 @@ GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle
   for (const OptionRow& row : rows) {
     const auto found = options->texts.find(row.name);
     if (found == options->texts.end()) continue;
-    setText(row, target, found->second);
+    setText(row, found->second);
     given.names.insert(row.name);
   }
   return given;
 }
 
-[[noreturn]] void failName(const std::string& name) {
+[[noreturn]] void failName(const std::string& name, const AllRows& all) {
   if (const std::string removed = removedOptionText(name, kSpelling); !removed.empty())
     throw Error(ErrorCode::UnknownName, removed, {{"option", name}});
   std::vector<std::string> names;
-  for (const OptionRows rows : {computationRows(), sessionRows()})
-    for (const OptionRow& row : rows)
-      if (rowOf(rows, row.name) != nullptr) names.emplace_back(row.name);
+  for (const OptionRows* const rows : {&all.ofComputation, &all.ofSession})
+    for (const OptionRow& row : *rows)
+      if (rowOf(*rows, row.name) != nullptr) names.emplace_back(row.name);
   const std::string similar = similarNames(name, names);
   throw Error(ErrorCode::UnknownName,
               fmt::format("there is no option '{}'{}", name, similar.empty() ? "" : "; did you mean " + similar + "?"));
@@ -57,17 +68,17 @@ GivenOptions setAll(OptionRows rows, void* target, const asdf_vk_options* handle
 }  // namespace
 
 SessionSettings sessionSettings(const asdf_vk_options* options) {
-  SessionSettings session;
-  (void)setAll(sessionRows(), &session, options, computationRows(), "computation");
-  requireValid(session, kSpelling);
-  return session;
+  AllRows all;
+  (void)setAll(all.ofSession, options, all.ofComputation, "computation");
+  requireValid(all.session, kSpelling);
+  return all.session;
 }
 
 ComputationSettings computationSettings(const asdf_vk_options* options, bool compares) {
-  ComputationSettings computation;
-  computation.compares = compares;
-  complete(computation, setAll(computationRows(), &computation, options, sessionRows(), "session"));
-  return computation;
+  AllRows all;
+  all.computation.compares = compares;
+  complete(all.computation, setAll(all.ofComputation, options, all.ofSession, "session"));
+  return all.computation;
 }
 
 Options pointOptions(const asdf_vk_options* handle) {
@@ -81,11 +92,12 @@ Options pointOptions(const asdf_vk_options* handle) {
   const auto hasEffect = [&](const OptionRow& row) {
     return row.atPoints == AtPoints::Both || row.atPoints == (isThickness ? AtPoints::Thickness : AtPoints::Diameter);
   };
+  const AllRows all;
   std::vector<std::string> names;
-  for (const OptionRow& row : computationRows())
+  for (const OptionRow& row : all.ofComputation)
     if (hasEffect(row)) names.emplace_back(row.name);
   for (const auto& [name, text] : handles<asdf_vk_options>().get(handle)->texts)
-    if (!hasEffect(*rowOf(computationRows(), name)))
+    if (!hasEffect(*rowOf(all.ofComputation, name)))
       throw Error(ErrorCode::OptionConflict,
                   fmt::format("{} has no effect on the {} at points; remove it (the options are {})", name,
                               isThickness ? "thickness" : "shape diameter", joined(names, ", ")),
@@ -111,17 +123,15 @@ asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, c
   return guarded([&] {
     const auto object = handles<asdf_vk_options>().get(options);
     requireArgument(name, "the name of the option");
-    ComputationSettings computation;  // Used only to check the value.
-    SessionSettings session;
-    const OptionRow* const ofComputation = rowOf(computationRows(), name);
-    const OptionRow* const ofSession = rowOf(sessionRows(), name);
-    if (ofComputation == nullptr && ofSession == nullptr) failName(name);
+    const AllRows all;  // Used only to check the value.
+    const OptionRow* const ofComputation = rowOf(all.ofComputation, name);
+    const OptionRow* const row = ofComputation != nullptr ? ofComputation : rowOf(all.ofSession, name);
+    if (row == nullptr) failName(name, all);
     if (value == nullptr) {
       object->texts.erase(name);
       return;
     }
-    if (ofComputation != nullptr) setText(*ofComputation, &computation, value);
-    if (ofSession != nullptr) setText(*ofSession, &session, value);
+    setText(*row, value);
     object->texts[name] = value;
   });
 }

@@ -101,12 +101,12 @@ void computeScene(const std::shared_ptr<asdf_vk_scene>& scene, asdf_vk_scene* fo
   object->mesh = scene->mesh;
   object->computation = computationSettings(options, former != nullptr);
   object->session = scene->session->settings;
-  const Options& computed = object->computation.options;
+  const CheckedOptions computed = object->computation.checked();
   const SessionUse use(*scene->session);
   StageSeconds preparation;
   const auto prepare = [&](asdf_vk_scene& each) -> Scene& {
     bool isNew = false;
-    Scene& prepared = preparedScene(each, computed.orientation, control, &isNew);
+    Scene& prepared = preparedScene(each, computed->orientation, control, &isNew);
     if (isNew) preparation += prepared.preparationSeconds();
     return prepared;
   };

@@ -224,7 +224,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
   const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
   const bool hasPicture = !settings.outputs.picture.empty();
   const auto compute = [&] {
-    const Options& options = settings.computation.options;
+    const CheckedOptions options = settings.computation.checked();
     ComputedMesh computed = files.withProgress([&](const RunControl& control) {
       return settings.others.isEmpty()
                  ? ComputedMesh{{}, session.compute(loaded.mesh, options, control)}
@@ -252,7 +252,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     if (isAmongOthers) ofMesh = fieldsOfMesh(loaded.mesh, result.fields);
     const std::vector<Field>& fields = isAmongOthers ? ofMesh : result.fields;
     if (page == nullptr) {
-      files.writeResult(written, loaded.mesh, options, result, fields);
+      files.writeResult(written, loaded.mesh, *options, result, fields);
     } else {
       files.withProgress([&](const RunControl& control) { addToPage(*page, outcome, shown, control); });
       if (ownPage) files.writePage(written, *ownPage);

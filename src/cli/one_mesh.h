@@ -29,7 +29,7 @@ struct MeshSettings {
 };
 
 /// The settings as JSON, for a worker process of the same version. The strings may contain any bytes.
-[[nodiscard]] nlohmann::ordered_json toJson(const MeshSettings& settings);
+[[nodiscard]] nlohmann::ordered_json toJson(MeshSettings settings);
 [[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
 /// Computes a mesh and reports the result or a failure. Throws Error{OptionConflict} if outputs contradict each other.

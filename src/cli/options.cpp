@@ -102,36 +102,34 @@ void requireNoIgnoredOption(const std::vector<std::string>& given, const Command
                                 option == "meshes" ? "a mesh" : option));
 }
 
-std::string helpText(const OptionRow& row, const OptionTable& table) {
+std::string helpText(const OptionRow& row, const OptionRows& rows) {
   std::string text = row.text;
   if (const std::string range = rangeText(row); !range.empty()) text += "; " + range;
-  if (*row.needs != 0) text += "; needs " + neededText(row, table.rows, OptionSpelling::Flag);
-  if (isFlag(row)) return text;
-  const std::string value = defaultText(row, table.target);
-  return value == "-" ? text : text + "; default " + value;
+  if (*row.needs != 0) text += "; needs " + neededText(row, rows, OptionSpelling::Flag);
+  if (const std::string value = defaultText(row); value != "-" && !isFlag(row)) text += "; default " + value;
+  return withSpelledOptions(rows, text, OptionSpelling::Flag);
 }
 
-/// Adds an argument for each row that has a flag. The argument sets the option in the target of the table.
-void addArguments(const OptionTable& table, std::vector<Argument>& arguments) {
-  for (const OptionRow& row : table.rows) {
+/// Adds an argument for each row that has a flag. The argument sets the option.
+void addArguments(const OptionRows& rows, std::vector<Argument>& arguments) {
+  for (const OptionRow& row : rows) {
     const std::string flag = spelled(row, OptionSpelling::Flag);
     if (flag.empty()) continue;
-    void* const target = table.target;
     Argument argument{.names = row.flags != nullptr ? row.flags : flag,
                       .placeholder = isFlag(row) ? "" : placeholderOf(row),
-                      .text = helpText(row, table),
+                      .text = helpText(row, rows),
                       .receive = {},
                       .group = row.group,
                       .isRepeatable = row.isRepeatable};
     if (isFlag(row))
-      argument.receive = [&row, target, value = !flag.starts_with("--no-")](const Argument::Values&) {
-        setOption(row, target, value, "", OptionSpelling::Flag);
+      argument.receive = [row, value = !flag.starts_with("--no-")](const Argument::Values&) {
+        setOption(row, value, "", OptionSpelling::Flag);
       };
     else
-      argument.receive = [&row, target](const Argument::Values& values) {
-        setOptionText(row, target, values.empty() ? row.bareValue : values.front());
+      argument.receive = [row](const Argument::Values& values) {
+        setOptionText(row, values.empty() ? row.bareValue : values.front());
       };
-    if (row.bareValue != nullptr) argument.takesNext = [&row](const std::string& next) { return takesNext(row, next); };
+    if (row.bareValue != nullptr) argument.takesNext = [row](const std::string& next) { return takesNext(row, next); };
     arguments.push_back(std::move(argument));
   }
 }
@@ -258,11 +256,12 @@ void validateOptions(const CommandLine& line) {
     refuseOptions(
         "--points -, --json, -o - and --picture - write to standard output, which only one of them can use; give "
         "--points a file, or drop the others");
-  const std::string& backend = line.session.backend;
-  if ((backend == "cpu" || backend == "reference") && solverNeedsDevice(line.computation.options.solver))
+  const BackendChoice backend = line.session.backend;
+  const SolverChoice solver = line.computation.options.solver;
+  if ((backend == BackendChoice::Cpu || backend == BackendChoice::Reference) && solverNeedsDevice(solver))
     refuseOptions(fmt::format(
         "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
-        line.computation.options.solver));
+        nameOf(kSolverNames, solver)));
   if (line.outputs.quiet && line.outputs.verbose)
     refuseOptions("--quiet and --verbose contradict each other; drop one");
 }
@@ -275,7 +274,7 @@ ArgumentParser parserOf(CommandLine& line) {
                                    .text = fmt::format("Meshes: .{}; - is standard input", joined(meshFormats(), " .")),
                                    .receive = [&line](const Argument::Values& values) { line.meshes = values; },
                                    .isList = true}};
-  for (const OptionTable& table : optionTables(line)) addArguments(table, arguments);
+  for (const OptionRows& rows : optionTables(line)) addArguments(rows, arguments);
   ArgumentParser parser("asdf-vk", kDescription, fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT),
                         std::move(arguments));
   parser.shortHelp = kHelp;
@@ -293,14 +292,14 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   }
   requireNoIgnoredOption(parser.givenNames(), line);
   GivenOptions given{.names = {}, .spelling = OptionSpelling::Flag};
-  for (const OptionTable& table : optionTables(line))
-    for (const OptionRow& row : table.rows)
+  for (const OptionRows& rows : optionTables(line))
+    for (const OptionRow& row : rows)
       if (const std::string flag = spelled(row, OptionSpelling::Flag); !flag.empty() && parser.isGiven(flag))
         given.names.insert(row.name);
   line.computation.compares = !line.others.former.empty();
   complete(line.computation, given);
   requireValid(line.session, given.spelling);
-  for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
+  for (const OptionRows& rows : optionTables(line)) requireNeeds(rows, given);
   if (Options& options = line.computation.options;
       line.outputs.verbose && (options.measuresThickness() || options.measuresGap()))
     options.thickness.findsNextWall = true;

@@ -27,16 +27,11 @@ struct CommandLine {
   std::optional<std::string> answer;  ///< Answer to --help or --version. If set, nothing is computed.
 };
 
-struct OptionTable {
-  OptionRows rows;
-  void* target;
-};
-
-/// All options of the program, in the order of the help.
-[[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
-[[nodiscard]] OptionRows readingRows();
-[[nodiscard]] OptionRows otherMeshRows();
-[[nodiscard]] OptionRows outputRows();
+/// All options of the program by table, in the order of the help. The line must outlive the rows.
+[[nodiscard]] std::vector<OptionRows> optionTables(CommandLine& line);
+[[nodiscard]] OptionRows readingRows(ReadOptions& reading);
+[[nodiscard]] OptionRows otherMeshRows(OtherMeshes& others);
+[[nodiscard]] OptionRows outputRows(Outputs& outputs);
 
 /// Makes the parser of the program. The options of the parser set `line`.
 [[nodiscard]] ArgumentParser parserOf(CommandLine& line);

@@ -9,16 +9,16 @@ namespace asdfvk {
 namespace {
 
 /// The values of the options, by the name of the row.
-Json valuesOf(OptionRows rows, const void* target) {
+Json valuesOf(const OptionRows& rows) {
   Json json = Json::object();
-  for (const OptionRow& row : rows) json[row.name] = toJson(valueOf(row, target));
+  for (const OptionRow& row : rows) json[row.name] = toJson(row.member.write());
   return json;
 }
 
-void setValues(OptionRows rows, void* target, const Json& json) {
+void setValues(const OptionRows& rows, const Json& json) {
   for (const OptionRow& row : rows) {
     const Json& value = json.at(row.name);
-    const auto set = [&](const OptionValue& v) { setOption(row, target, v, row.name, OptionSpelling::Flag); };
+    const auto set = [&](const OptionValue& v) { setOption(row, v, row.name, OptionSpelling::Flag); };
     if (value.is_boolean()) set(value.get<bool>());
     if (value.is_number_unsigned()) set(value.get<uint64_t>());
     if (value.is_number_float()) set(value.get<double>());
@@ -41,11 +41,11 @@ std::string optionsHash(const ComputationSettings& computation, const SessionSet
   return contentHash(identity.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-Json toJson(const MeshSettings& settings) {
-  return {{"computation", valuesOf(computationRows(), &settings.computation)},
-          {"session", valuesOf(sessionRows(), &settings.session)},
-          {"reading", valuesOf(readingRows(), &settings.reading)},
-          {"outputs", valuesOf(outputRows(), &settings.outputs)},
+Json toJson(MeshSettings settings) {
+  return {{"computation", valuesOf(computationRows(settings.computation))},
+          {"session", valuesOf(sessionRows(settings.session))},
+          {"reading", valuesOf(readingRows(settings.reading))},
+          {"outputs", valuesOf(outputRows(settings.outputs))},
           {"keepsScene", settings.computation.options.keepsScene},
           {"timeoutSeconds", settings.timeoutSeconds},
           {"makesFolders", settings.makesFolders},
@@ -54,10 +54,10 @@ Json toJson(const MeshSettings& settings) {
 
 MeshSettings settingsOf(const Json& json) {
   MeshSettings settings;
-  setValues(computationRows(), &settings.computation, json.at("computation"));
-  setValues(sessionRows(), &settings.session, json.at("session"));
-  setValues(readingRows(), &settings.reading, json.at("reading"));
-  setValues(outputRows(), &settings.outputs, json.at("outputs"));
+  setValues(computationRows(settings.computation), json.at("computation"));
+  setValues(sessionRows(settings.session), json.at("session"));
+  setValues(readingRows(settings.reading), json.at("reading"));
+  setValues(outputRows(settings.outputs), json.at("outputs"));
   settings.computation.options.keepsScene = json.at("keepsScene");
   settings.timeoutSeconds = json.at("timeoutSeconds");
   settings.makesFolders = json.at("makesFolders");

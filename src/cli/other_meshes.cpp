@@ -47,7 +47,7 @@ Mesh joinedWith(const Mesh& mesh, const std::string& name, const std::vector<Mes
 }  // namespace
 
 ComputedMesh computeAmong(Session& session, Mesh& mesh, const std::string& name, const OtherMeshes& others,
-                          const ReadOptions& reading, const Options& options, const RunControl& control) {
+                          const ReadOptions& reading, const CheckedOptions& options, const RunControl& control) {
   ComputedMesh computed;
   const Stopwatch watch;
   const bool isComparison = !others.former.empty();
@@ -61,9 +61,9 @@ ComputedMesh computeAmong(Session& session, Mesh& mesh, const std::string& name,
     std::fill_n(region.begin(), mesh.inputFaceCount(), uint8_t{1});
   }
   const double readSeconds = watch.seconds();
-  Scene scene(session, isComparison ? mesh : computed.joined, options.orientation, control.withoutProgress());
+  Scene scene(session, isComparison ? mesh : computed.joined, options->orientation, control.withoutProgress());
   std::optional<Scene> former;
-  if (isComparison) former.emplace(session, read.front(), options.orientation, control.withoutProgress());
+  if (isComparison) former.emplace(session, read.front(), options->orientation, control.withoutProgress());
   computed.result = former ? scene.compare(*former, options, {}, control) : scene.compute(options, region, control);
   StageSeconds& seconds = computed.result.report.stageSeconds;
   seconds[Stage::Read] += readSeconds;

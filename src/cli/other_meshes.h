@@ -29,8 +29,8 @@ struct ComputedMesh {
 /// the mesh. The mesh must outlive result.scene. Throws the errors of readMesh(), joinMeshes(), Scene::compute() and
 /// Scene::compare(). A stop request also ends the wait for a FIFO.
 [[nodiscard]] ComputedMesh computeAmong(Session& session, Mesh& mesh, const std::string& name,
-                                        const OtherMeshes& others, const ReadOptions& reading, const Options& options,
-                                        const RunControl& control);
+                                        const OtherMeshes& others, const ReadOptions& reading,
+                                        const CheckedOptions& options, const RunControl& control);
 
 /// Replaces the indices of faces that were not judged by those in their files, for texts. faceCount: input faces of the
 /// mesh. others: ComputedMesh::faceCounts.

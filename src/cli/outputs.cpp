@@ -16,6 +16,7 @@
 #include "batch/output_record.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
+#include "io/formats.h"
 
 namespace asdfvk {
 namespace {
@@ -152,8 +153,10 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
       continue;
     }
     const std::string format = writesPages(outputs) ? kPageFormat : plannedFormat(output, options);
-    if (outputs.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
-    if (outputs.coloursVertices && format != "ply") usageError("--vertex-colours is for PLY only; drop it");
+    const FileFormat* const row = formatOfExtension(format);
+    if (outputs.ascii && (row == nullptr || !row->hasText)) usageError("--ascii is for PLY only; drop it");
+    if (outputs.coloursVertices && (row == nullptr || !row->coloursByChoice))
+      usageError("--vertex-colours is for PLY only; drop it");
     if (output != "-") {
       if (const std::string named = formatNamedBy(output); !named.empty() && named != format)
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, outputs.format));
@@ -199,8 +202,7 @@ WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options) {
 std::span<const Field> writableFields(const WriteOptions& options, PerElement per, const std::string& output,
                                       std::span<const Field> fields) {
   if (per == PerElement::Faces) return fields;
-  const std::string format = resultFormatOf(output, options);
-  if (format != "csv" && format != "npy") return fields;
+  if (!formatOfExtension(resultFormatOf(output, options))->holdsOneLocation) return fields;
   const auto first = std::find_if(fields.begin(), fields.end(),
                                   [](const Field& field) { return field.location == FieldLocation::PerVertex; });
   return {first, fields.end()};

@@ -53,10 +53,6 @@ struct BatchOptions {
   [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
 };
 
-/// Reads a number of bytes, at least 1, such as "500M", "1.5g" or "4096". The letters mean powers of 1024. Returns
-/// nothing for other texts.
-[[nodiscard]] std::optional<uint64_t> parseByteCount(const std::string& text);
-
 /// Names of the fields to write: Outputs::fields, or by default the fields that the options compute.
 [[nodiscard]] std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options);
 

@@ -45,7 +45,7 @@ Json deviceOf(const DeviceFacts& device) {
 }
 
 Json defaultsOf(const DeviceReport& report) {
-  return {{"variant", variantOf(report.choice)}, {"solver", report.defaultSolver}};
+  return {{"variant", report.choice.variant()}, {"solver", report.defaultSolver}};
 }
 
 }  // namespace

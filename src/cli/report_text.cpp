@@ -43,10 +43,11 @@ std::string textReport(const MeshOutcome& outcome) {
 
 std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose) {
   std::vector<std::string> lines = session.deviceLines();
-  const bool isReplaced = options.backend == "auto" && session.backend() != "vulkan";
+  const bool isReplaced =
+      options.backend == BackendChoice::Automatic && session.backend() != nameOf(kBackendNames, BackendChoice::Vulkan);
   const bool isOtherPossible = options.device.empty() && session.runsOnCpu() && lines.size() > 1;
   if (!isVerbose && !isReplaced && !isOtherPossible) return {};
-  if (session.backend() == "vulkan" && session.runsOnCpu())
+  if (session.backend() == nameOf(kBackendNames, BackendChoice::Vulkan) && session.runsOnCpu())
     lines.front() += "; a CPU device: --backend cpu may be faster";
   std::string text;
   for (const std::string& line : lines) text += oneLine("asdf-vk: " + line) + "\n";

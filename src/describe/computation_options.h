@@ -14,6 +14,8 @@ struct ComputationSettings {
   bool failsIfVoids = false;    ///< Sealed voids determine the exit code. Implies Measure::Gap.
   bool failsIfContact = false;  ///< Bodies in contact determine the exit code. Implies Measure::Gap.
 
+  /// The options. Precondition: complete() was called.
+  [[nodiscard]] CheckedOptions checked() const { return {options, CheckedOptions::Trust::Checked}; }
   /// Whether the exit code depends on a measure.
   [[nodiscard]] bool isCheck() const {
     return failIfThinner || failIfThicker || failIfCloser || failsIfVoids || failsIfContact;
@@ -30,8 +32,12 @@ inline constexpr const char* kDeviceGroup = "Device";
 inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
 
 /// Rows are in the order in which options are set. Recipe and definition are first, because they set further options.
-[[nodiscard]] ASDFVK_API OptionRows computationRows();
-[[nodiscard]] ASDFVK_API OptionRows sessionRows();
+/// The settings must outlive the rows.
+[[nodiscard]] ASDFVK_API OptionRows computationRows(ComputationSettings& settings);
+[[nodiscard]] ASDFVK_API OptionRows sessionRows(SessionSettings& settings);
+
+/// withSpelledOptions() with the options of computations.
+[[nodiscard]] ASDFVK_API std::string withSpelledOptions(std::string_view message, OptionSpelling spelling);
 
 /// A message such as "--allow-sharp-edges was removed: ...; --count-edges counts them" for an option of earlier
 /// versions, else an empty text. name: the name in the spelling.
@@ -40,17 +46,14 @@ inline constexpr const char* kExperimentGroup = "Experiments (the defaults are b
 /// Applies what the given options imply; idempotent. Throws Error{OptionOutOfRange}, Error{UnknownName}, and
 /// Error{OptionConflict} if given options have no effect or contradict each other.
 ASDFVK_API void complete(ComputationSettings& computation, const GivenOptions& given);
-/// Like complete(), for callers of the library. Options that differ from the defaults count as given.
-[[nodiscard]] Options completed(const Options& options);
+// The constructor of CheckedOptions is complete() for callers of the library: options that differ from the defaults
+// count as given.
 
 /// Throws as complete() does.
 ASDFVK_API void requireValid(SessionSettings session, OptionSpelling spelling);
 
 /// The options that repeat the run. An option without effect has no value.
-[[nodiscard]] std::vector<std::pair<std::string, OptionValue>> reportedOptions(const ComputationSettings& computation,
-                                                                               const SessionSettings& session);
-
-/// The text of the option "seeds" for this number: "auto", "10%", "2000" or "all".
-[[nodiscard]] std::string toText(const SeedCount& seeds);
+[[nodiscard]] std::vector<std::pair<std::string, OptionValue>> reportedOptions(ComputationSettings computation,
+                                                                               SessionSettings session);
 
 }  // namespace asdfvk

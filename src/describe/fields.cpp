@@ -20,7 +20,6 @@ void requestDiameter(Options& options) { options.measure = united(options.measur
 
 void requestCentres(Options& options) { options.computesCentres = true; }
 
-// scripts/write-report-keys copies these rows to docs/formats.md.
 constexpr std::array kFields{
     FieldRow{.name = "sdf",
              .label = "shape diameter",

@@ -3,17 +3,24 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
-#include "describe/computation_options.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr const char* kAutomatic = "auto";
+/// End of the name in reports, and placeholder in the help.
+struct UnitTexts {
+  const char* ending;
+  const char* placeholder;
+};
+constexpr std::array kUnits{UnitTexts{"", ""}, UnitTexts{"Degrees", "DEGREES"}, UnitTexts{"Seconds", "SECONDS"}};
+
+const UnitTexts& textsOf(OptionUnit unit) { return kUnits[static_cast<size_t>(unit)]; }
 
 /// Returns "max_error" or "maxError" for "max-error".
 std::string inCase(std::string_view name, OptionSpelling spelling) {
@@ -30,79 +37,13 @@ std::string inCase(std::string_view name, OptionSpelling spelling) {
   return text;
 }
 
-bool isInRange(const OptionRange& range, double value) {
-  const bool isAbove = range.excludesMin ? value > range.min : value >= range.min;
-  return isAbove && (range.excludesMax ? value < range.max : value <= range.max) && std::isfinite(value);
-}
-
-/// Returns nothing if the value is not a number.
-std::optional<double> numberOf(const OptionValue& value) {
-  if (const auto* whole = std::get_if<uint64_t>(&value)) return static_cast<double>(*whole);
-  if (const auto* real = std::get_if<double>(&value)) return *real;
-  return std::nullopt;
-}
-
-uint64_t greatestWhole(const OptionRow& row, uint64_t ofType) {
-  return row.range.max < static_cast<double>(ofType) ? static_cast<uint64_t>(row.range.max) : ofType;
-}
-
-template <typename T>
-bool assignNumber(const OptionRow& row, const OptionValue& value, T& member) {
-  const auto* whole = std::get_if<uint64_t>(&value);
-  const uint64_t max = greatestWhole(row, std::numeric_limits<T>::max());
-  if (whole == nullptr || static_cast<double>(*whole) < row.range.min || *whole > max) return false;
-  member = static_cast<T>(*whole);
-  return true;
-}
-
-bool assignNumber(const OptionRow& row, const OptionValue& value, double& member) {
-  const std::optional<double> number = numberOf(value);
-  if (!number || !isInRange(row.range, *number)) return false;
-  member = *number;
-  return true;
-}
-
-bool hasName(const OptionRow& row, const std::string& name) {
-  const std::vector<std::string> names = namesOf(row);
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// Returns false for an invalid value.
-bool assign(const OptionRow& row, void* target, const OptionValue& value) {
-  if (row.read != nullptr) return row.read(target, value);
-  const auto set = [&](auto member) -> bool {
-    using T = decltype(member);
-    if constexpr (std::is_same_v<T, bool*>) {
-      const bool* const flag = std::get_if<bool>(&value);
-      if (flag != nullptr) *member = *flag;
-      return flag != nullptr;
-    } else if constexpr (std::is_same_v<T, std::string*>) {
-      const auto* text = std::get_if<std::string>(&value);
-      if (text == nullptr || !hasName(row, *text)) return false;
-      *member = row.emptyIsAuto && *text == kAutomatic ? "" : *text;
-      return true;
-    } else if constexpr (std::is_same_v<T, ChoiceMember>) {
-      const auto* text = std::get_if<std::string>(&value);
-      return text != nullptr && member.set(member.member, *text);
-    } else if constexpr (requires { member->value(); }) {
-      auto number = member->value_or(0);
-      if (!assignNumber(row, value, number)) return false;
-      *member = number;
-      return true;
-    } else {
-      return assignNumber(row, value, *member);
-    }
-  };
-  return std::visit(set, row.access.member(target));
-}
-
 /// Converts a text to the type of the option; keeps the text if the conversion fails.
 OptionValue typed(const OptionRow& row, const std::string& text) {
-  const OptionKind kind = row.access.kind;
+  const OptionKind kind = row.member.codec().kind;
   if (kind == OptionKind::Whole) {
     if (const auto whole = numberIn<uint64_t>(text)) return *whole;
   } else if (kind == OptionKind::Real) {
-    const bool hasUnit = std::string_view(row.placeholder) == "SECONDS" && text.ends_with('s');
+    const bool hasUnit = row.unit == OptionUnit::Seconds && text.ends_with('s');
     if (const auto real = numberIn<double>(std::string_view(text).substr(0, text.size() - (hasUnit ? 1 : 0))))
       return *real;
   }
@@ -111,7 +52,7 @@ OptionValue typed(const OptionRow& row, const std::string& text) {
 
 [[noreturn]] void fail(const OptionRow& row, const std::string& shown, OptionSpelling spelling) {
   const ErrorCode code = namesOf(row).empty() ? ErrorCode::OptionOutOfRange : ErrorCode::UnknownName;
-  const std::string wanted = withSpelledOptions(computationRows(), wantedText(row), spelling);
+  const std::string wanted = withSpelledOptions({}, wantedText(row), spelling);
   throw Error(code, fmt::format("{}: {} is not {}", spelled(row, spelling), shown, wanted),
               {{"option", spelled(row, spelling)}});
 }
@@ -139,21 +80,32 @@ bool hasWord(std::string_view name, std::string_view beginning) {
 
 }  // namespace
 
-const OptionRow* findOption(OptionRows rows, std::string_view name) {
+OptionRows withGroups(OptionRows rows) {
+  for (size_t i = 1; i < rows.size(); ++i)
+    if (rows[i].group == nullptr) rows[i].group = rows[i - 1].group;
+  return rows;
+}
+
+const OptionRow* findOption(const OptionRows& rows, std::string_view name) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const OptionRow& r) { return r.name == name; });
   return row == rows.end() ? nullptr : &*row;
 }
 
 std::string spelled(const OptionRow& row, OptionSpelling spelling) {
-  if (spelling == OptionSpelling::Flag) {
-    if (row.flags == nullptr) return std::string("--") + row.name;
-    const std::string_view flags = row.flags;
-    return std::string(flags.substr(std::min(flags.find("--"), flags.size())));
+  switch (spelling) {
+    case OptionSpelling::Flag: {
+      if (row.where == OptionPlace::Library) return {};
+      const std::string_view flags = row.flags == nullptr ? "" : row.flags;
+      return flags.empty() ? std::string("--") + row.name : std::string(flags.substr(flags.find("--")));
+    }
+    case OptionSpelling::SnakeCase:
+      return row.where == OptionPlace::Program ? "" : inCase(row.keyword != nullptr ? row.keyword : row.name, spelling);
+    case OptionSpelling::CamelCase:
+      return inCase(row.name, spelling) + textsOf(row.unit).ending;
+    case OptionSpelling::Name:
+      break;
   }
-  if (spelling == OptionSpelling::Name) return row.name;
-  if (spelling == OptionSpelling::SnakeCase) return inCase(row.keyword != nullptr ? row.keyword : row.name, spelling);
-  const std::string_view unit = row.placeholder;
-  return inCase(row.name, spelling) + (unit == "DEGREES" ? "Degrees" : unit == "SECONDS" ? "Seconds" : "");
+  return row.name;
 }
 
 std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling) {
@@ -166,24 +118,23 @@ std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling
                                                          : "=true");
   }
   if (spelling == OptionSpelling::Flag) return fmt::format("{} {}", name, value);
-  const bool isNumber = row.access.kind == OptionKind::Real || row.access.kind == OptionKind::Whole;
+  const OptionKind kind = row.member.codec().kind;
+  const bool isNumber = kind == OptionKind::Real || kind == OptionKind::Whole;
   return spelling == OptionSpelling::SnakeCase && !isNumber ? fmt::format("{}='{}'", name, value)
                                                             : fmt::format("{}={}", name, value);
 }
 
-bool isFlag(const OptionRow& row) { return row.access.kind == OptionKind::Flag; }
+bool isFlag(const OptionRow& row) { return row.member.codec().kind == OptionKind::Flag; }
 
 std::vector<std::string> namesOf(const OptionRow& row) {
-  std::vector<std::string> names;
-  if (row.valueNames != nullptr) names = splitAt(row.valueNames, '|');
-  if (row.moreNames != nullptr)
-    for (std::string& name : row.moreNames()) names.push_back(std::move(name));
-  if (row.access.kind != OptionKind::Choice) return names;
-  return splitAt(row.access.names(), '|');
+  const auto names = row.member.codec().names != nullptr ? row.member.codec().names : row.names;
+  return names == nullptr ? std::vector<std::string>() : names();
 }
 
 std::string placeholderOf(const OptionRow& row) {
-  return *row.placeholder != 0 ? row.placeholder : joined(namesOf(row), "|");
+  if (*row.placeholder != 0) return row.placeholder;
+  if (row.unit != OptionUnit::None) return textsOf(row.unit).placeholder;
+  return joined(namesOf(row), "|");
 }
 
 std::string rangeText(const OptionRow& row) {
@@ -199,11 +150,12 @@ std::string rangeText(const OptionRow& row) {
 
 std::string wantedText(const OptionRow& row) {
   if (row.wanted != nullptr) return row.wanted;
+  if (row.member.codec().wanted != nullptr) return row.member.codec().wanted;
   const auto withRange = [&](std::string text) {
     const std::string range = rangeText(row);
     return range.empty() ? text : text + " " + range;
   };
-  switch (row.access.kind) {
+  switch (row.member.codec().kind) {
     case OptionKind::Flag:
       return "True or False";
     case OptionKind::Real:
@@ -217,42 +169,19 @@ std::string wantedText(const OptionRow& row) {
   return names.empty() ? "a text" : "one of " + joined(names, "|");
 }
 
-void setOption(const OptionRow& row, void* target, const OptionValue& value, const std::string& shown,
-               OptionSpelling spelling) {
+void setOption(const OptionRow& row, const OptionValue& value, const std::string& shown, OptionSpelling spelling) {
   bool isRead = false;
   try {
-    isRead = assign(row, target, value);
+    isRead = row.member.read(value, row);
   } catch (const Error& error) {
     throw Error(error.code(), spelled(row, spelling) + ": " + error.what(), {{"option", spelled(row, spelling)}});
   }
   if (!isRead) fail(row, shown, spelling);
-  if (row.apply != nullptr) row.apply(target);
+  if (row.applied) row.applied();
 }
 
-void setOptionText(const OptionRow& row, void* target, const std::string& text, OptionSpelling spelling) {
-  setOption(row, target, typed(row, text), "'" + text + "'", spelling);
-}
-
-OptionValue valueOf(const OptionRow& row, const void* target) {
-  if (row.write != nullptr) return row.write(target);
-  const auto get = [](auto member) -> OptionValue {
-    using T = decltype(member);
-    if constexpr (std::is_same_v<T, ChoiceMember>) {
-      return std::string(member.get(member.member));
-    } else if constexpr (std::is_same_v<T, std::optional<double>*>) {
-      return *member ? OptionValue(**member) : OptionValue();
-    } else if constexpr (std::is_same_v<T, std::optional<uint32_t>*>) {
-      return *member ? OptionValue(uint64_t{**member}) : OptionValue();
-    } else if constexpr (std::is_same_v<T, uint32_t*>) {
-      return uint64_t{*member};
-    } else {
-      return *member;
-    }
-  };
-  const OptionValue value = std::visit(get, row.access.member(const_cast<void*>(target)));
-  const auto* text = std::get_if<std::string>(&value);
-  if (text == nullptr || !text->empty()) return value;
-  return row.emptyIsAuto ? OptionValue(std::string(kAutomatic)) : OptionValue();
+void setOptionText(const OptionRow& row, const std::string& text, OptionSpelling spelling) {
+  setOption(row, typed(row, text), "'" + text + "'", spelling);
 }
 
 std::string toText(const OptionValue& value) {
@@ -269,15 +198,15 @@ std::string toText(const OptionValue& value) {
       value);
 }
 
-std::string defaultText(const OptionRow& row, const void* defaults) {
-  return row.defaultText != nullptr ? row.defaultText : toText(valueOf(row, defaults));
+std::string defaultText(const OptionRow& row) {
+  return row.defaultText != nullptr ? row.defaultText : toText(row.member.write());
 }
 
-bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target) {
+bool isNeedMet(const OptionRow& row, const OptionRows& rows) {
   const std::string_view needs = row.needs;
   if (needs.empty()) return true;
   const size_t sign = std::min(needs.find('='), needs.size());
-  const auto valueAt = [&](std::string_view name) { return valueOf(*findOption(rows, name), target); };
+  const auto valueAt = [&](std::string_view name) { return findOption(rows, name)->member.write(); };
   if (sign == needs.size()) {
     const std::vector<std::string> names = splitAt(needs, '|');
     return std::any_of(names.begin(), names.end(),
@@ -288,7 +217,7 @@ bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target) {
   return std::find(wanted.begin(), wanted.end(), toText(value)) != wanted.end();
 }
 
-std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling) {
+std::string neededText(const OptionRow& row, const OptionRows& rows, OptionSpelling spelling) {
   const std::string_view needs = row.needs;
   if (needs.empty()) return "";
   const size_t sign = needs.find('=');
@@ -301,42 +230,43 @@ std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spe
   return joined(texts, " or ");
 }
 
-void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given) {
+void requireNeeds(const OptionRows& rows, const GivenOptions& given) {
   for (const OptionRow& row : rows) {
-    if (!given.has(row.name) || isNeedMet(row, rows, target)) continue;
+    if (!given.has(row.name) || isNeedMet(row, rows)) continue;
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("{} needs {}", spelled(row, given.spelling), neededText(row, rows, given.spelling)),
                 {{"option", spelled(row, given.spelling)}});
   }
 }
 
-void requireInRange(OptionRows rows, void* target, OptionSpelling spelling) {
+void requireInRange(const OptionRows& rows, OptionSpelling spelling) {
   for (const OptionRow& row : rows) {
-    const OptionKind kind = row.access.kind;
-    if (kind == OptionKind::Flag || kind == OptionKind::Choice) continue;
-    const OptionValue value = valueOf(row, target);
-    if (!std::holds_alternative<std::monostate>(value) && !assign(row, target, value))
-      fail(row, kind == OptionKind::Text ? "'" + toText(value) + "'" : toText(value), spelling);
+    const OptionValue value = row.member.write();
+    if (std::holds_alternative<std::monostate>(value) || row.member.read(value, row)) continue;
+    fail(row, std::holds_alternative<std::string>(value) ? "'" + toText(value) + "'" : toText(value), spelling);
   }
 }
 
-std::string withSpelledOptions(OptionRows rows, std::string_view message, OptionSpelling spelling) {
+std::string withSpelledOptions(const OptionRows& rows, std::string_view message, OptionSpelling spelling) {
   std::string text;
   while (!message.empty()) {
     const size_t begin = std::min(message.find('{'), message.size());
     text += message.substr(0, begin);
     if (begin == message.size()) break;
     const size_t end = message.find('}', begin);
-    const std::string_view name = message.substr(begin + 1, end - begin - 1);
-    const size_t sign = std::min(name.find('='), name.size());
-    const OptionRow& row = *findOption(rows, name.substr(0, sign));
-    text += sign == name.size() ? spelled(row, spelling) : spelled(row, name.substr(sign + 1), spelling);
+    const std::string_view option = message.substr(begin + 1, end - begin - 1);
+    const size_t sign = std::min(option.find('='), option.size());
+    const std::string name(option.substr(0, sign));
+    const OptionRow byName{.name = name.c_str(), .member = static_cast<std::string*>(nullptr)};
+    const OptionRow* const found = findOption(rows, name);
+    const OptionRow& row = found == nullptr ? byName : *found;
+    text += sign == option.size() ? spelled(row, spelling) : spelled(row, option.substr(sign + 1), spelling);
     message.remove_prefix(end + 1);
   }
   return text;
 }
 
-void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling) {
+void refuse(const OptionRows& rows, std::string_view message, OptionSpelling spelling) {
   const size_t begin = message.find('{') + 1;
   const OptionRow* const first = findOption(rows, message.substr(begin, message.find_first_of("=}") - begin));
   throw Error(ErrorCode::OptionConflict, withSpelledOptions(rows, message, spelling),

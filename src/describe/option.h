@@ -1,79 +1,26 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <functional>
 #include <limits>
-#include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "asdf_vk/api.h"
-#include "asdf_vk/choices.h"
+#include "describe/option_member.h"
 
 /// Flags, help, range checks, JSON, keywords of Python and documents are derived from rows, one per option.
 namespace asdfvk {
 
-/// std::monostate means no value.
-using OptionValue = std::variant<std::monostate, bool, uint64_t, double, std::string>;
-
 /// Spelling of option names in messages and reports: --cone-angle, coneAngleDegrees, cone_angle, cone-angle.
 enum class OptionSpelling { Flag, CamelCase, SnakeCase, Name };
 
-struct ChoiceMember {
-  void* member;
-  const char* (*get)(const void* member);
-  bool (*set)(void* member, std::string_view name);  ///< False for an unknown name.
-};
+/// Where an option exists. Library: in C and Python.
+enum class OptionPlace { Everywhere, Program, Library };
 
-/// The types of the members that options set.
-using OptionMember = std::variant<bool*, double*, uint32_t*, uint64_t*, std::string*, std::optional<double>*,
-                                  std::optional<uint32_t>*, ChoiceMember>;
-
-enum class OptionKind { Special, Flag, Real, Whole, Text, Choice };
-
-/// Access of a row to its member; see ASDFVK_MEMBER and ASDFVK_CHOICE.
-struct OptionAccess {
-  /// Special: there is no member; OptionRow::read and OptionRow::write are used instead.
-  OptionKind kind = OptionKind::Special;
-  OptionMember (*member)(void* target) = nullptr;
-  std::string (*names)() = nullptr;  ///< The names of a Choice, for example "paper|balanced|quality".
-};
-
-template <typename Member>
-[[nodiscard]] constexpr OptionKind kindOfMember() {
-  using T = std::remove_reference_t<Member>;
-  if (std::is_same_v<T, bool>) return OptionKind::Flag;
-  if (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) return OptionKind::Real;
-  return std::is_same_v<T, std::string> ? OptionKind::Text : OptionKind::Whole;
-}
-
-template <const auto& kNames, typename T>
-[[nodiscard]] ChoiceMember choiceMember(T& member) {
-  return {&member, [](const void* from) { return nameOf(kNames, *static_cast<const T*>(from)); },
-          [](void* to, std::string_view name) {
-            const auto* found = findChoice(kNames, name);
-            if (found != nullptr) *static_cast<T*>(to) = *found;
-            return found != nullptr;
-          }};
-}
-
-/// Makes the OptionRow::access of a member of Target. ASDFVK_CHOICE does so for a member with named values.
-#define ASDFVK_MEMBER(Target, path)                                            \
-  OptionAccess {                                                               \
-    kindOfMember<decltype((std::declval<Target&>().path))>(),                  \
-        [](void* t) -> OptionMember { return &static_cast<Target*>(t)->path; } \
-  }
-#define ASDFVK_CHOICE(Target, path, choices)                                                                          \
-  OptionAccess {                                                                                                      \
-    OptionKind::Choice, [](void* t) -> OptionMember { return choiceMember<choices>(static_cast<Target*>(t)->path); }, \
-        [] { return joined(choices); }                                                                                \
-  }
+/// The unit ends the name in reports: coneAngleDegrees.
+enum class OptionUnit { None, Degrees, Seconds };
 
 /// A range of whole numbers must include its bounds.
 struct OptionRange {
@@ -90,46 +37,38 @@ struct OptionRange {
 /// The values at points (Scene::valuesAt(), Scene::thicknessAt()) that an option changes.
 enum class AtPoints { None, Diameter, Thickness, Both };
 
-/// An option. target: the struct that the options of the table set, for example ComputationSettings.
+/// An option and the member that it sets. In all texts, options are in braces: {seeds}, {seeds=all}; see
+/// withSpelledOptions(). A text without these is the same for all front ends.
 struct OptionRow {
   const char* name;             ///< "max-error"
   const char* group = nullptr;  ///< Heading in the help; null: the group of the row before, see withGroups().
-  OptionAccess access = {};
+  OptionMember member;
   OptionRange range = {};
+  OptionUnit unit = OptionUnit::None;
   const char* text = "";  ///< Text of the help, without range, default and final full stop.
   const char* more = "";  ///< Further sentences for the man page and docs/options.md.
-  /// Stands for the value in the help. Empty if the option has no value or if its values have names.
+  /// Stands for the value in the help. Empty if the option has no value, a unit, or values with names.
   const char* placeholder = "";
   /// The option that this option needs, with the values that it may have, for example "measure=thickness|both"; or one
   /// of several options: "thinner-than|closer-than".
   const char* needs = "";
   AtPoints atPoints = AtPoints::None;
   const char* defaultText = nullptr;  ///< Shown instead of the default value.
-  const char* flags = nullptr;        ///< "-o,--output"; null: "--" and the name; empty: the program has no flag.
-  const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option; empty: see isOfProgram().
-  const char* keywordType = nullptr;  ///< Type of the keyword of Python; null: the type of the member.
-  const char* valueNames = nullptr;   ///< Allowed values of a string option: "auto|seed|ray".
-  bool emptyIsAuto = false;           ///< The name "auto" sets the member to an empty string.
-  std::vector<std::string> (*moreNames)() = nullptr;  ///< Returns further allowed values of a string option.
+  const char* flags = nullptr;        ///< Such as "-o,--output"; null: "--" and the name.
+  const char* keyword = nullptr;      ///< Keyword of Python; null: the name of the option.
+  OptionPlace where = OptionPlace::Everywhere;
+  std::vector<std::string> (*names)() = nullptr;  ///< Returns the allowed values if the codec has none.
   const char* bareValue = nullptr;  ///< Value of an option that is given without a value; null: a value is required.
-  /// Description of valid values for messages: "an error such as 1%". Options of the computation are in braces.
+  /// Description of valid values for messages, such as "an error such as 1%"; null: that of the codec.
   const char* wanted = nullptr;
-  bool isRepeatable = false;  ///< The program calls `read` for each occurrence of the option.
-  /// Returns false or throws for an invalid value.
-  bool (*read)(void* target, const OptionValue& value) = nullptr;
-  OptionValue (*write)(const void* target) = nullptr;
-  void (*apply)(void* target) = nullptr;  ///< Called after the option is set.
+  bool isRepeatable = false;           ///< The program reads each occurrence of the option.
+  std::function<void()> applied = {};  ///< Called after the option is set.
 };
 
-using OptionRows = std::span<const OptionRow>;
+using OptionRows = std::vector<OptionRow>;
 
 /// Sets OptionRow::group in rows where it is null.
-template <size_t N>
-[[nodiscard]] std::array<OptionRow, N> withGroups(std::array<OptionRow, N> rows) {
-  for (size_t i = 1; i < N; ++i)
-    if (rows[i].group == nullptr) rows[i].group = rows[i - 1].group;
-  return rows;
-}
+[[nodiscard]] OptionRows withGroups(OptionRows rows);
 
 /// An option of earlier versions.
 struct RemovedOption {
@@ -138,15 +77,14 @@ struct RemovedOption {
 };
 
 /// Null if there is no such row.
-[[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
+[[nodiscard]] ASDFVK_API const OptionRow* findOption(const OptionRows& rows, std::string_view name);
 
+/// Empty if the front end does not have the option.
 [[nodiscard]] ASDFVK_API std::string spelled(const OptionRow& row, OptionSpelling spelling);
 /// The option and its value, spelled for the front end: --segment cgal, segment=cgal, segment='cgal'.
 [[nodiscard]] std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
-/// Whether only the program has the option, not C and Python.
-[[nodiscard]] inline bool isOfProgram(const OptionRow& row) { return row.keyword != nullptr && *row.keyword == 0; }
 /// The allowed values; empty if the values have no names.
 [[nodiscard]] ASDFVK_API std::vector<std::string> namesOf(const OptionRow& row);
 /// The placeholder, or the names of the values with bars between them. Empty for a flag.
@@ -158,23 +96,21 @@ struct RemovedOption {
 
 /// Throws Error{OptionOutOfRange} and Error{UnknownName} with the detail "option" and a message such as "--rays: '0' is
 /// not a whole number from 1 to 1024".
-void setOptionText(const OptionRow& row, void* target, const std::string& text,
-                   OptionSpelling spelling = OptionSpelling::Flag);
+void setOptionText(const OptionRow& row, const std::string& text, OptionSpelling spelling = OptionSpelling::Flag);
 /// shown: the value in the message. Throws as setOptionText().
-ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue& value, const std::string& shown,
+ASDFVK_API void setOption(const OptionRow& row, const OptionValue& value, const std::string& shown,
                           OptionSpelling spelling);
 
-[[nodiscard]] ASDFVK_API OptionValue valueOf(const OptionRow& row, const void* target);
 /// The value as a text: "-" for no value, "on" or "off" for a flag.
-[[nodiscard]] std::string toText(const OptionValue& value);
+[[nodiscard]] ASDFVK_API std::string toText(const OptionValue& value);
 
-/// The default value for documents. defaults: a target with default values.
-[[nodiscard]] ASDFVK_API std::string defaultText(const OptionRow& row, const void* defaults);
+/// The default value for documents. Precondition: the member has its default value.
+[[nodiscard]] ASDFVK_API std::string defaultText(const OptionRow& row);
 
-[[nodiscard]] bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target);
+[[nodiscard]] bool isNeedMet(const OptionRow& row, const OptionRows& rows);
 
 /// The needed option with its value, for example "--segment cgal". Empty if the row needs no option.
-[[nodiscard]] ASDFVK_API std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling);
+[[nodiscard]] ASDFVK_API std::string neededText(const OptionRow& row, const OptionRows& rows, OptionSpelling spelling);
 
 /// The options that the caller has set, and their spelling in messages.
 struct GivenOptions {
@@ -186,18 +122,20 @@ struct GivenOptions {
 
 /// Throws Error{OptionConflict} if a given option has no effect, with a message such as "--clusters needs --segment
 /// cgal".
-void requireNeeds(OptionRows rows, const void* target, const GivenOptions& given);
+void requireNeeds(const OptionRows& rows, const GivenOptions& given);
 
-/// Throws Error{OptionOutOfRange} or Error{UnknownName} for a value out of range. target: a copy of the settings. To
-/// check a member, the function assigns the value of the member to the member.
-void requireInRange(OptionRows rows, void* target, OptionSpelling spelling);
+/// Throws Error{OptionOutOfRange} or Error{UnknownName} for a value out of range. To check a member, the function
+/// assigns the value of the member to the member.
+void requireInRange(const OptionRows& rows, OptionSpelling spelling);
 
 /// Returns the message with the options in braces, such as {seeds=all}, replaced by their spelling in the front end.
-[[nodiscard]] std::string withSpelledOptions(OptionRows rows, std::string_view message, OptionSpelling spelling);
+/// An option that is not in `rows` is spelled by its name.
+[[nodiscard]] ASDFVK_API std::string withSpelledOptions(const OptionRows& rows, std::string_view message,
+                                                        OptionSpelling spelling);
 
 /// Throws Error{OptionConflict} with the message withSpelledOptions(message). The detail "option" is the first option
 /// in braces.
-[[noreturn]] ASDFVK_API void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling);
+[[noreturn]] ASDFVK_API void refuse(const OptionRows& rows, std::string_view message, OptionSpelling spelling);
 
 /// Up to three names that are similar to `name`, for example "--seeds or --rng-seed" for "--seed". Similar names differ
 /// in few letters, or have a word that begins with `name`. May be empty.

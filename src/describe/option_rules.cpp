@@ -10,7 +10,8 @@ namespace {
 constexpr uint32_t kCgalRayCount = 25;  // The default of CGAL's sdf_values().
 
 [[noreturn]] void refuseOption(std::string_view message, OptionSpelling spelling) {
-  refuse(computationRows(), message, spelling);
+  ComputationSettings defaults;
+  refuse(computationRows(defaults), message, spelling);
 }
 
 /// A limit implies the measure that it limits: names are "thinner-than" and "fail-if-thinner".
@@ -93,7 +94,7 @@ void applyRecipe(Recipe recipe, Options& options) {
   options.interpolation = balanced.interpolation;
   switch (recipe) {
     case Recipe::Paper:
-      options.sampler = "random";
+      options.sampler = SamplerChoice::Random;
       options.interpolation.weights = ArcWeights::Distance;
       options.interpolation.guidance = Guidance::Curvature;
       break;
@@ -120,33 +121,33 @@ void complete(ComputationSettings& computation, const GivenOptions& given) {
   applySegmentation(options, given);
   if (options.rounds.areSet() && !options.seeds.isChosen) options.seeds = SeedCount::ofShare(kFirstRoundShare);
   ComputationSettings copy = computation;
-  requireInRange(computationRows(), &copy, given.spelling);
-  requireNeeds(computationRows(), &computation, given);
+  requireInRange(computationRows(copy), given.spelling);
+  requireNeeds(computationRows(computation), given);
   refuseContradictions(options, given);
 }
 
-Options completed(const Options& options) {
-  const ComputationSettings defaults;
-  ComputationSettings computation;
+CheckedOptions::CheckedOptions(const Options& options) {
+  ComputationSettings computation, defaults;
   computation.options = options;
+  const OptionRows rows = computationRows(computation), defaultRows = computationRows(defaults);
   GivenOptions given;
-  for (const OptionRow& row : computationRows())
-    if (valueOf(row, &computation) != valueOf(row, &defaults)) given.names.insert(row.name);
+  for (size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].member.write() != defaultRows[i].member.write()) given.names.insert(rows[i].name);
   complete(computation, given);
-  return computation.options;
+  options_ = computation.options;
 }
 
 void requireValid(SessionSettings session, OptionSpelling spelling) {
-  requireInRange(sessionRows(), &session, spelling);
-  if (session.backend != "cpu" && session.backend != "reference") return;
-  const auto refuseOnCpu = [&](const char* message) { refuse(sessionRows(), message, spelling); };
+  const OptionRows rows = sessionRows(session);
+  requireInRange(rows, spelling);
+  if (session.backend != BackendChoice::Cpu && session.backend != BackendChoice::Reference) return;
   if (session.requireGpu)
-    refuseOnCpu("{require-gpu} contradicts {backend=cpu} and reference, which run on the CPU; drop one");
+    refuse(rows, "{require-gpu} contradicts {backend=cpu} and reference, which run on the CPU; drop one", spelling);
   if (!session.device.empty())
-    refuseOnCpu("{device} chooses a Vulkan device, which {backend=cpu} and reference do not use; drop one");
-  const TraceVariant& variant = session.variant;
-  if (!(variant.kernel.empty() && variant.fetch.empty()))
-    refuseOnCpu("{kernel} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one");
+    refuse(rows, "{device} chooses a Vulkan device, which {backend=cpu} and reference do not use; drop one", spelling);
+  if (session.variant.kernel || session.variant.fetch)
+    refuse(rows, "{kernel} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one",
+           spelling);
 }
 
 }  // namespace asdfvk

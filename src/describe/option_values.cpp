@@ -28,7 +28,7 @@ std::string_view textIn(const OptionValue& value) {
 
 }  // namespace
 
-bool readLength(const OptionValue& value, std::optional<LengthLimit>& length) {
+bool LengthCodec::read(const OptionValue& value, const OptionRow&, std::optional<LengthLimit>& length) {
   std::string_view text = textIn(value);
   const LengthUnitRow* found = nullptr;
   for (const LengthUnitRow& known : kLengthUnits)
@@ -43,14 +43,13 @@ bool readLength(const OptionValue& value, std::optional<LengthLimit>& length) {
   return true;
 }
 
-OptionValue lengthValue(const std::optional<LengthLimit>& length) {
+OptionValue LengthCodec::write(const std::optional<LengthLimit>& length) {
   if (!length) return {};
   const LengthUnitRow* const row = findLengthUnit(length->unit);
   return row == nullptr ? OptionValue(length->value) : OptionValue(fmt::format("{}{}", length->value, row->name));
 }
 
-bool readSeeds(void* target, const OptionValue& value) {
-  SeedCount& seeds = optionsOf(target).seeds;
+bool SeedCountCodec::read(const OptionValue& value, const OptionRow&, SeedCount& seeds) {
   const std::string_view text = textIn(value);
   const auto* share = std::get_if<double>(&value);
   const auto* whole = std::get_if<uint64_t>(&value);
@@ -67,7 +66,7 @@ bool readSeeds(void* target, const OptionValue& value) {
   return text == "auto" || text == "all" || (count && *count > 0);
 }
 
-bool readMaxError(void* target, const OptionValue& value) {
+bool MaxErrorCodec::read(const OptionValue& value, const OptionRow&, RoundOptions& rounds) {
   constexpr std::string_view kRelative = "rel";
   std::string_view text = textIn(value);
   const bool isRelative = text.ends_with(kRelative);
@@ -81,20 +80,15 @@ bool readMaxError(void* target, const OptionValue& value) {
     throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("'{0}{2}' has no %; write {0}%{2} or {1:g}%{2}", text, 100 * *share, suffix));
   }
-  RoundOptions& rounds = optionsOf(target).rounds;
   (isRelative ? rounds.maxRelativeError : rounds.maxError) = *share;
   return true;
 }
 
-OptionValue writeMaxError(const void* target) {
-  const std::optional<double>& maxError = optionsOf(target).rounds.maxError;
-  return maxError ? OptionValue(*maxError) : OptionValue();
-}
+OptionValue MaxErrorCodec::write(const RoundOptions& rounds) { return RealCodec::write(rounds.maxError); }
 
 /// Reads "off", "auto" or rings x passes, such as "2x1".
-bool readSmoothing(void* target, const OptionValue& value) {
+bool SmoothingCodec::read(const OptionValue& value, const OptionRow&, SmoothingOptions& smoothing) {
   const std::string_view text = textIn(value);
-  SmoothingOptions& smoothing = optionsOf(target).smoothing;
   smoothing = {.isOn = text != "off", .window = {}};
   if (text == "off" || text == "auto") return true;
   const size_t cross = std::min(text.find('x'), text.size());
@@ -105,34 +99,37 @@ bool readSmoothing(void* target, const OptionValue& value) {
   return true;
 }
 
-OptionValue writeSmoothing(const void* target) {
-  const SmoothingOptions& smoothing = optionsOf(target).smoothing;
+OptionValue SmoothingCodec::write(const SmoothingOptions& smoothing) {
   if (!smoothing.isOn) return "off";
   if (!smoothing.window) return "auto";
   return fmt::format("{}x{}", smoothing.window->rings, smoothing.window->passes);
 }
 
-bool readCheck(void* target, const OptionValue& value) {
+bool FaceCountCodec::read(const OptionValue& value, const OptionRow&, std::optional<uint64_t>& count) {
   const auto* whole = std::get_if<uint64_t>(&value);
-  const auto count = textIn(value) == "all" ? kAllFaces
-                     : whole != nullptr     ? *whole
-                                            : numberIn<uint64_t>(textIn(value)).value_or(0);
-  if (count > 0) optionsOf(target).checkCount = count;
-  return count > 0;
+  const auto number = textIn(value) == "all" ? kAllFaces
+                      : whole != nullptr     ? *whole
+                                             : numberIn<uint64_t>(textIn(value)).value_or(0);
+  if (number > 0) count = number;
+  return number > 0;
 }
 
-OptionValue writeCheck(const void* target) {
-  const std::optional<uint64_t>& count = optionsOf(target).checkCount;
+OptionValue FaceCountCodec::write(const std::optional<uint64_t>& count) {
   if (!count) return {};
   return *count == kAllFaces ? OptionValue("all") : OptionValue(*count);
 }
 
-std::string toText(const SeedCount& seeds) {
+OptionValue SeedCountCodec::write(const SeedCount& seeds) {
   if (seeds.kind == SeedCount::Kind::Automatic) return "auto";
   if (seeds.kind == SeedCount::Kind::All) return "all";
   if (seeds.kind == SeedCount::Kind::Count) return fmt::format("{}", seeds.count);
   const std::string rounded = fmt::format("{:.6g}%", seeds.share * 100);
   return shareIn(rounded) == seeds.share ? rounded : fmt::format("{:.17g}%", seeds.share * 100);
+}
+
+bool DeviceCodec::read(const OptionValue& value, const OptionRow& row, std::string& selector) {
+  const auto* const number = std::get_if<uint64_t>(&value);
+  return TextCodec::read(number != nullptr ? std::to_string(*number) : value, row, selector);
 }
 
 }  // namespace asdfvk

@@ -1,52 +1,60 @@
 #pragma once
 
-#include <optional>
+#include "asdf_vk/options.h"
+#include "describe/option_member.h"
 
-#include "describe/computation_options.h"
-
-/// OptionRow::read and OptionRow::write of the options of a computation whose values are not plain numbers or names.
+/// Codecs of options whose values are not plain numbers or names.
 namespace asdfvk {
 
-[[nodiscard]] inline Options& optionsOf(void* target) { return static_cast<ComputationSettings*>(target)->options; }
-[[nodiscard]] inline const Options& optionsOf(const void* target) {
-  return static_cast<const ComputationSettings*>(target)->options;
-}
+struct SeedCountCodec {
+  static constexpr OptionKind kKind = OptionKind::Text;
+  static constexpr const char* kWanted =
+      "a share such as 10% (above 0%, at most 100%), a count of at least 1, all, or auto";
+  static constexpr const char* kPythonType = "int | float | str";
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, SeedCount& seeds);
+  [[nodiscard]] static OptionValue write(const SeedCount& seeds);
+};
 
-/// OptionRow::write of an option whose value is not reported.
-[[nodiscard]] inline OptionValue noValue(const void*) { return {}; }
+/// The error of RoundOptions::maxError, or with the ending "rel" of RoundOptions::maxRelativeError.
+struct MaxErrorCodec {
+  static constexpr OptionKind kKind = OptionKind::Text;
+  static constexpr const char* kWanted =
+      "an error above 0% and below 100%, such as 1% (of the range) or 5%rel (of the value)";
+  static constexpr const char* kPythonType = "float | str";
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, RoundOptions& rounds);
+  /// Writes RoundOptions::maxError only.
+  [[nodiscard]] static OptionValue write(const RoundOptions& rounds);
+};
 
-/// OptionRow::wanted of a length.
-inline constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
-[[nodiscard]] bool readLength(const OptionValue& value, std::optional<LengthLimit>& length);
-[[nodiscard]] OptionValue lengthValue(const std::optional<LengthLimit>& length);
+struct SmoothingCodec {
+  static constexpr OptionKind kKind = OptionKind::Text;
+  static constexpr const char* kWanted = "off, auto or RINGSxPASSES such as 2x1 (1 to 4 rings, 1 to 100 passes)";
+  static constexpr const char* kPythonType = "str | tuple[int, int]";
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, SmoothingOptions& smoothing);
+  [[nodiscard]] static OptionValue write(const SmoothingOptions& smoothing);
+};
 
-template <std::optional<LengthLimit> ThicknessOptions::*kLimit>
-[[nodiscard]] auto& limitOf(auto* target) {
-  return optionsOf(target).thickness.*kLimit;
-}
-template <std::optional<LengthLimit> ComputationSettings::*kLimit>
-[[nodiscard]] std::optional<LengthLimit>& limitOf(void* target) {
-  return static_cast<ComputationSettings*>(target)->*kLimit;
-}
-template <std::optional<LengthLimit> ComputationSettings::*kLimit>
-[[nodiscard]] const std::optional<LengthLimit>& limitOf(const void* target) {
-  return static_cast<const ComputationSettings*>(target)->*kLimit;
-}
-template <auto kLimit>
-[[nodiscard]] bool readLimit(void* target, const OptionValue& value) {
-  return readLength(value, limitOf<kLimit>(target));
-}
-template <auto kLimit>
-[[nodiscard]] OptionValue writeLimit(const void* target) {
-  return lengthValue(limitOf<kLimit>(target));
-}
+struct LengthCodec {
+  static constexpr OptionKind kKind = OptionKind::Text;
+  static constexpr const char* kWanted = "a number above 0, or one with a unit, such as 0.8mm";
+  static constexpr const char* kPythonType = "float | str";
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, std::optional<LengthLimit>& length);
+  [[nodiscard]] static OptionValue write(const std::optional<LengthLimit>& length);
+};
 
-[[nodiscard]] bool readSeeds(void* target, const OptionValue& value);
-[[nodiscard]] bool readMaxError(void* target, const OptionValue& value);
-[[nodiscard]] OptionValue writeMaxError(const void* target);
-[[nodiscard]] bool readSmoothing(void* target, const OptionValue& value);
-[[nodiscard]] OptionValue writeSmoothing(const void* target);
-[[nodiscard]] bool readCheck(void* target, const OptionValue& value);
-[[nodiscard]] OptionValue writeCheck(const void* target);
+/// A number of faces; the greatest number stands for all.
+struct FaceCountCodec {
+  static constexpr OptionKind kKind = OptionKind::Text;
+  static constexpr const char* kWanted = "a count of at least 1 or all";
+  static constexpr const char* kPythonType = "int | str";
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, std::optional<uint64_t>& count);
+  [[nodiscard]] static OptionValue write(const std::optional<uint64_t>& count);
+};
+
+/// A number or a part of a name.
+struct DeviceCodec : TextCodec {
+  static constexpr const char* kPythonType = "str | int";
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, std::string& selector);
+};
 
 }  // namespace asdfvk

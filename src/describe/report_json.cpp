@@ -9,11 +9,9 @@
 namespace asdfvk {
 
 void to_json(Json& json, const Vec3d& point) { json = arrayOf(point); }
-void to_json(Json& json, WarningCode code) { json = nameOf(code); }
-void to_json(Json& json, ThinKind kind) { json = nameOf(kind); }
-void to_json(Json& json, WallChange change) { json = nameOf(change); }
-void to_json(Json& json, ThicknessVerdict verdict) { json = nameOf(verdict); }
-void to_json(Json& json, UnjudgedCause cause) { json = nameOf(cause); }
+template <typename Enumeration>
+requires requires(Enumeration value) { choicesOf(value); }
+void to_json(Json& json, Enumeration value) { json = nameOf(choicesOf(value), value); }
 void to_json(Json& json, const StageSeconds& seconds) {
   for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = seconds.seconds[i];
 }

@@ -1,46 +1,104 @@
-// Written by scripts/write-report-keys from include/asdf_vk/thickness_report.h and include/asdf_vk/report.h.
-// clang-format off
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <string>
-#include <string_view>
-
+#include "asdf_vk/choices.h"
 #include "asdf_vk/report.h"
 
+/// Keys of the JSON report, which are the members of its dataclasses in Python, and names of its enumerators.
 namespace asdfvk {
 
-inline constexpr std::array kThinKindNames{"wall", "gap", "detail", "edge"};
-inline constexpr std::array kWallChangeNames{"new", "thinner", "kept", "gone"};
-inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
-inline constexpr std::array kUnjudgedCauseNames{"border", "branching", "woundAgainst", "inverted", "doubleSided",
-    "negativeVolumes", "coarseCoordinates"};
-inline constexpr std::array kStageNames{"read", "geometry", "graph", "bvh", "encode", "upload", "sample", "trace",
-    "thickness", "predict", "solve", "estimate", "smooth", "postprocess", "segment", "write"};
-inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "facesReversed",
-    "missingValues", "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged",
-    "rangeDominated", "thinShell", "partCountDiffers", "onlySmallComponents", "skippedContent", "negativeVolumes",
-    "coarseCoordinates", "uncertainParts", "coarseParts"};
+inline constexpr ChoiceNames<ThinKind, 4> kThinKindNames{
+    {{"wall", ThinKind::Wall}, {"gap", ThinKind::Gap}, {"detail", ThinKind::Detail}, {"edge", ThinKind::Edge}}};
 
-/// Calls visit(key, member) for each member; names: the keys, separated by ", ".
-template <typename Visit, typename... Members>
-void visitNamed(std::string_view names, const Visit& visit, const Members&... members) {
-  const auto next = [&names] {
-    const std::string name(names.substr(0, names.find(',')));
-    names.remove_prefix(std::min(name.size() + 2, names.size()));
-    return name;
-  };
-  (visit(next(), members), ...);
-}
+inline constexpr ChoiceNames<WallChange, 4> kWallChangeNames{{{"new", WallChange::New},
+                                                              {"thinner", WallChange::Thinner},
+                                                              {"kept", WallChange::Kept},
+                                                              {"gone", WallChange::Gone}}};
 
-// If a member is not named, the compiler reports an error.
-#define ASDFVK_KEYS(Struct, ...)                                             \
-  constexpr const char* structureName(const Struct&) { return #Struct; }     \
-  template <typename Visit>                                                  \
-  void visitKeys(const Struct& asdfvkValue, const Visit& asdfvkVisit) {      \
-    const auto& [__VA_ARGS__] = asdfvkValue;                                 \
-    visitNamed(#__VA_ARGS__, asdfvkVisit, __VA_ARGS__);                      \
+inline constexpr ChoiceNames<ThicknessVerdict, 3> kThicknessVerdictNames{{{"passed", ThicknessVerdict::Passed},
+                                                                          {"failed", ThicknessVerdict::Failed},
+                                                                          {"notJudged", ThicknessVerdict::NotJudged}}};
+
+inline constexpr ChoiceNames<UnjudgedCause, 7> kUnjudgedCauseNames{
+    {{"border", UnjudgedCause::Border},
+     {"branching", UnjudgedCause::Branching},
+     {"woundAgainst", UnjudgedCause::WoundAgainst},
+     {"inverted", UnjudgedCause::Inverted},
+     {"doubleSided", UnjudgedCause::DoubleSided},
+     {"negativeVolumes", UnjudgedCause::NegativeVolumes},
+     {"coarseCoordinates", UnjudgedCause::CoarseCoordinates}}};
+
+inline constexpr ChoiceNames<Stage, 16> kStageNames{{{"read", Stage::Read},
+                                                     {"geometry", Stage::Geometry},
+                                                     {"graph", Stage::Graph},
+                                                     {"bvh", Stage::Bvh},
+                                                     {"encode", Stage::Encode},
+                                                     {"upload", Stage::Upload},
+                                                     {"sample", Stage::Sample},
+                                                     {"trace", Stage::Trace},
+                                                     {"thickness", Stage::Thickness},
+                                                     {"predict", Stage::Predict},
+                                                     {"solve", Stage::Solve},
+                                                     {"estimate", Stage::Estimate},
+                                                     {"smooth", Stage::Smooth},
+                                                     {"postprocess", Stage::Postprocess},
+                                                     {"segment", Stage::Segment},
+                                                     {"write", Stage::Write}}};
+
+inline constexpr ChoiceNames<WarningCode, 19> kWarningCodeNames{
+    {{"meshDefect", WarningCode::MeshDefect},
+     {"invertedComponents", WarningCode::InvertedComponents},
+     {"componentsReversed", WarningCode::ComponentsReversed},
+     {"facesReversed", WarningCode::FacesReversed},
+     {"missingValues", WarningCode::MissingValues},
+     {"finishedOnCpu", WarningCode::FinishedOnCpu},
+     {"backendReplaced", WarningCode::BackendReplaced},
+     {"predictedOnCpu", WarningCode::PredictedOnCpu},
+     {"solvedOnCpu", WarningCode::SolvedOnCpu},
+     {"notConverged", WarningCode::NotConverged},
+     {"rangeDominated", WarningCode::RangeDominated},
+     {"thinShell", WarningCode::ThinShell},
+     {"partCountDiffers", WarningCode::PartCountDiffers},
+     {"onlySmallComponents", WarningCode::OnlySmallComponents},
+     {"skippedContent", WarningCode::SkippedContent},
+     {"negativeVolumes", WarningCode::NegativeVolumes},
+     {"coarseCoordinates", WarningCode::CoarseCoordinates},
+     {"uncertainParts", WarningCode::UncertainParts},
+     {"coarseParts", WarningCode::CoarseParts}}};
+
+// choicesOf(): the names. enumerationName(): the name of the type. TraceKernel and BvhFetch have a further name,
+// "auto".
+#define ASDFVK_NAMES(Enumeration, names)                                      \
+  constexpr const char* enumerationName(Enumeration) { return #Enumeration; } \
+  constexpr const auto& choicesOf(Enumeration) { return names; }
+ASDFVK_NAMES(ThinKind, kThinKindNames)
+ASDFVK_NAMES(WallChange, kWallChangeNames)
+ASDFVK_NAMES(ThicknessVerdict, kThicknessVerdictNames)
+ASDFVK_NAMES(UnjudgedCause, kUnjudgedCauseNames)
+ASDFVK_NAMES(Stage, kStageNames)
+ASDFVK_NAMES(WarningCode, kWarningCodeNames)
+ASDFVK_NAMES(TraceKernel, kKernels)
+ASDFVK_NAMES(BvhFetch, kFetches)
+#undef ASDFVK_NAMES
+
+// Applies the macro visit to each argument.
+#define ASDFVK_PARENTHESES ()
+#define ASDFVK_EXPAND(...) ASDFVK_EXPAND3(ASDFVK_EXPAND3(ASDFVK_EXPAND3(__VA_ARGS__)))
+#define ASDFVK_EXPAND3(...) ASDFVK_EXPAND2(ASDFVK_EXPAND2(ASDFVK_EXPAND2(__VA_ARGS__)))
+#define ASDFVK_EXPAND2(...) ASDFVK_EXPAND1(ASDFVK_EXPAND1(ASDFVK_EXPAND1(__VA_ARGS__)))
+#define ASDFVK_EXPAND1(...) __VA_ARGS__
+#define ASDFVK_EACH(visit, ...) __VA_OPT__(ASDFVK_EXPAND(ASDFVK_EACH_STEP(visit, __VA_ARGS__)))
+#define ASDFVK_EACH_STEP(visit, first, ...) \
+  visit(first) __VA_OPT__(ASDFVK_EACH_AGAIN ASDFVK_PARENTHESES(visit, __VA_ARGS__))
+#define ASDFVK_EACH_AGAIN() ASDFVK_EACH_STEP
+
+// visitKeys() calls visit(key, member) for each member. If a member is not named, the compiler reports an error.
+#define ASDFVK_VISIT(member) asdfvkVisit(#member, asdfvkValue.member);
+#define ASDFVK_KEYS(Struct, ...)                                         \
+  constexpr const char* structureName(const Struct&) { return #Struct; } \
+  template <typename Visit>                                              \
+  void visitKeys(const Struct& asdfvkValue, const Visit& asdfvkVisit) {  \
+    { [[maybe_unused]] const auto& [__VA_ARGS__] = asdfvkValue; }        \
+    ASDFVK_EACH(ASDFVK_VISIT, __VA_ARGS__)                               \
   }
 ASDFVK_KEYS(TraceVariant, kernel, fetch)
 ASDFVK_KEYS(SolverReport, name, iterations, relativeResidual, converged, finishedOnCpu)
@@ -78,5 +136,14 @@ ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, comp
             backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, solver, sdf, postprocess,
             segmentCount, parts, thickness, gap, comparison, voids, contacts, estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
+#undef ASDFVK_VISIT
+#undef ASDFVK_EACH
+#undef ASDFVK_EACH_STEP
+#undef ASDFVK_EACH_AGAIN
+#undef ASDFVK_EXPAND
+#undef ASDFVK_EXPAND1
+#undef ASDFVK_EXPAND2
+#undef ASDFVK_EXPAND3
+#undef ASDFVK_PARENTHESES
 
 }  // namespace asdfvk

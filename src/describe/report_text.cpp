@@ -137,7 +137,8 @@ std::string partRow(const PartsReport& parts) {
 
 std::string deviceRow(const Report& report) {
   if (!report.traceChoice) return report.device;
-  return fmt::format("{}; kernel {}, fetch {}", report.device, report.traceChoice->kernel, report.traceChoice->fetch);
+  return fmt::format("{}; kernel {}, fetch {}", report.device, nameOf(kKernels, report.traceChoice->kernel),
+                     nameOf(kFetches, report.traceChoice->fetch));
 }
 
 std::string solverRow(const SolverReport& solver) {
@@ -165,7 +166,7 @@ ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spe
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
     if (!showsTimes && (title == "time" || title == "rate")) continue;
-    if (title == "device" && report.backend != "vulkan") continue;  // The name of a CPU has the number of threads.
+    if (title == "device" && !report.traceChoice) continue;  // The name of a CPU has the number of threads.
     if (!title.empty()) isThinRow = std::find(kListed.begin(), kListed.end(), title) != kListed.end();
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;
@@ -282,7 +283,7 @@ std::string textWarning(const Warning& warning, OptionSpelling spelling) {
     remedy += spelling == OptionSpelling::Flag ? "; use the relative error (--max-error E%rel)"
                                                : "; use the relative error ({max-relative-error})";
   if (warning.code == WarningCode::NotConverged) remedy += "; raise {max-iterations} or {tolerance}";
-  return warning.message + withSpelledOptions(computationRows(), remedy, spelling);
+  return warning.message + withSpelledOptions(remedy, spelling);
 }
 
 ReportTexts reportTexts(const Report& report, bool showsTimes, OptionSpelling spelling) {

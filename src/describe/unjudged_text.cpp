@@ -59,7 +59,7 @@ std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
           faces, reason.amount);
       break;
   }
-  return withSpelledOptions(computationRows(), text, spelling);
+  return withSpelledOptions(text, spelling);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ ReportRows shortUnjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spell
   }
   if (!concernsWholeMesh(reason.cause))
     text += ", first " + placeText(reason.place, reason.face) + bodiesText(reason.bodies);
-  remedy = withSpelledOptions(computationRows(), remedy, spelling);
+  remedy = withSpelledOptions(remedy, spelling);
   if (text.size() + remedy.size() <= kShortTextSize) text += remedy;
   if (const std::string more = fmt::format("; {} more", unjudged.reasons.size() - 1);
       unjudged.reasons.size() > 1 && text.size() + more.size() <= kShortTextSize)

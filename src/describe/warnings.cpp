@@ -26,15 +26,15 @@ std::vector<ErrorDetail> detailsOf(const SolverReport& solver) {
 
 static_assert(kStageNames.size() == kStageCount);
 
-const char* nameOf(Stage stage) { return kStageNames[static_cast<size_t>(stage)]; }
-const char* nameOf(ThinKind kind) { return kThinKindNames[static_cast<size_t>(kind)]; }
-const char* nameOf(ThicknessVerdict verdict) { return kThicknessVerdictNames[static_cast<size_t>(verdict)]; }
-const char* nameOf(WallChange change) { return kWallChangeNames[static_cast<size_t>(change)]; }
-const char* nameOf(UnjudgedCause cause) { return kUnjudgedCauseNames[static_cast<size_t>(cause)]; }
+const char* nameOf(Stage stage) { return nameOf(kStageNames, stage); }
+const char* nameOf(ThinKind kind) { return nameOf(kThinKindNames, kind); }
+const char* nameOf(ThicknessVerdict verdict) { return nameOf(kThicknessVerdictNames, verdict); }
+const char* nameOf(WallChange change) { return nameOf(kWallChangeNames, change); }
+const char* nameOf(UnjudgedCause cause) { return nameOf(kUnjudgedCauseNames, cause); }
 bool concernsWholeMesh(UnjudgedCause cause) {
   return cause == UnjudgedCause::NegativeVolumes || cause == UnjudgedCause::CoarseCoordinates;
 }
-const char* nameOf(WarningCode code) { return kWarningCodeNames[static_cast<size_t>(code)]; }
+const char* nameOf(WarningCode code) { return nameOf(kWarningCodeNames, code); }
 
 std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
   std::vector<Warning> warnings;

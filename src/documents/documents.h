@@ -4,6 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "documents/report_model.h"
+
+/// The texts that follow from the rows of options, the report and its fields. asdfvk-write-documents writes them.
 namespace asdfvk {
 
 /// Returns a page of docs/man in which the marks (@VERSION@, ...) are replaced. help: the text of
@@ -13,5 +16,13 @@ namespace asdfvk {
 
 /// Returns docs/options.md with new rows of options between "<!-- options of GROUP -->" and "<!-- end -->".
 [[nodiscard]] std::string optionPage(std::string page);
+
+/// Returns docs/formats.md with new tables of the fields and of the keys of the report.
+[[nodiscard]] std::string formatPage(const std::string& page, const ReportModel& model);
+
+/// The module asdf_vk._keywords.
+[[nodiscard]] std::string keywordModule();
+/// The module asdf_vk._report.
+[[nodiscard]] std::string reportModule(const ReportModel& model);
 
 }  // namespace asdfvk

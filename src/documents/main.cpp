@@ -1,4 +1,5 @@
-// asdfvk-write-documents SOURCES          writes docs/options.md, which a test compares
+// asdfvk-write-documents SOURCES          writes docs/options.md, docs/formats.md, and python/asdf_vk/_keywords.py and
+//                                         _report.py; a test compares these files
 // asdfvk-write-documents SOURCES FOLDER   writes the man pages into FOLDER; run by the build, not installed
 #include <cstdio>
 #include <exception>
@@ -28,6 +29,16 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
   file.commit();
 }
 
+void writeSources(const std::filesystem::path& sources) {
+  const std::filesystem::path options = sources / "docs/options.md", formats = sources / "docs/formats.md",
+                              package = sources / "python/asdf_vk";
+  const ReportModel model = reportModel(sources);
+  writeText(options, optionPage(textOf(options)));
+  writeText(formats, formatPage(textOf(formats), model));
+  writeText(package / "_keywords.py", keywordModule());
+  writeText(package / "_report.py", reportModule(model));
+}
+
 void writePages(const std::filesystem::path& sources, const std::filesystem::path& folder) {
   std::vector<std::pair<int, std::string>> codes;
   for (const auto& [code, meaning] : kExitCodes) codes.emplace_back(static_cast<int>(code), meaning);
@@ -48,11 +59,10 @@ void writePages(const std::filesystem::path& sources, const std::filesystem::pat
 int main(int argc, char** argv) {
   if (argc != 2 && argc != 3) return 1;
   try {
-    const std::filesystem::path sources = argv[1], options = sources / "docs/options.md";
     if (argc == 2)
-      writeText(options, optionPage(textOf(options)));
+      writeSources(argv[1]);
     else
-      writePages(sources, argv[2]);
+      writePages(argv[1], argv[2]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "asdfvk-write-documents: %s\n", error.what());

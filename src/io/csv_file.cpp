@@ -42,6 +42,7 @@ void writeCsv(AtomicFile& file, const ResultView& result) {
 
 }  // namespace
 
-extern const FileFormat kCsvFormat{.name = "csv", .extensions = {"csv"}, .write = writeCsv, .writesDoubles = true};
+extern const FileFormat kCsvFormat{
+    .name = "csv", .extensions = {"csv"}, .write = writeCsv, .writesDoubles = true, .holdsOneLocation = true};
 
 }  // namespace asdfvk

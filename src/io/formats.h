@@ -73,7 +73,10 @@ struct FileFormat {
   /// Called if needsBeside(result) is true and the first file has a name. Null for a format of one file.
   void (*writeBeside)(AtomicFile& file, const ResultView& result) = nullptr;
   bool (*needsBeside)(const ResultView& result) = nullptr;
-  bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
+  bool writesDoubles = false;     ///< Real numbers of fields are double in the file, not float32.
+  bool hasText = false;           ///< WriteOptions::ascii is possible.
+  bool coloursByChoice = false;   ///< WriteOptions::coloursVertices is possible.
+  bool holdsOneLocation = false;  ///< A file has either face fields or vertex fields.
 };
 
 /// The path of the second file of a result, for example "horse.obj.mtl" for "horse.obj".

@@ -66,6 +66,6 @@ void writeNpy(AtomicFile& file, const ResultView& result) {
 
 }  // namespace
 
-extern const FileFormat kNpyFormat{.name = "npy", .extensions = {"npy"}, .write = writeNpy};
+extern const FileFormat kNpyFormat{.name = "npy", .extensions = {"npy"}, .write = writeNpy, .holdsOneLocation = true};
 
 }  // namespace asdfvk

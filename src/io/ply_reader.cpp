@@ -157,7 +157,12 @@ Mesh parsePly(const MeshSource& source) {
 
 }  // namespace
 
-extern const FileFormat kPlyFormat{
-    .name = "ply", .extensions = {"ply"}, .detect = detectPly, .parseMesh = parsePly, .write = writePly};
+extern const FileFormat kPlyFormat{.name = "ply",
+                                   .extensions = {"ply"},
+                                   .detect = detectPly,
+                                   .parseMesh = parsePly,
+                                   .write = writePly,
+                                   .hasText = true,
+                                   .coloursByChoice = true};
 
 }  // namespace asdfvk

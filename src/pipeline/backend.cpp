@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "trace/cone_tracer.h"
@@ -51,23 +52,29 @@ std::unique_ptr<Backend> makeOnCpu(const SessionOptions&) {
 
 /// make() throws Error of kind Device if the backend is not available.
 struct BackendRow {
-  const char* name;
+  BackendChoice choice;
   bool usesVulkan;
   std::unique_ptr<Backend> (*make)(const SessionOptions& options);
 };
 
-/// In the order in which "auto" tries them.
+/// In the order in which BackendChoice::Automatic tries them.
 constexpr std::array kBackends{
-    BackendRow{"vulkan", true, makeVulkanBackend},
-    BackendRow{"cpu", false, makeOnCpu<CpuBackend>},
-    BackendRow{"reference", false, makeOnCpu<ReferenceBackend>},
+    BackendRow{BackendChoice::Vulkan, true, makeVulkanBackend},
+    BackendRow{BackendChoice::Cpu, false, makeOnCpu<CpuBackend>},
+    BackendRow{BackendChoice::Reference, false, makeOnCpu<ReferenceBackend>},
 };
 
-constexpr std::string_view kAutomaticBackend = "auto";
+/// Precondition: not BackendChoice::Automatic.
+auto rowOf(BackendChoice choice) {
+  const auto row = std::find_if(kBackends.begin(), kBackends.end(),
+                                [&](const BackendRow& candidate) { return candidate.choice == choice; });
+  ASDFVK_CHECK(row != kBackends.end());
+  return row;
+}
 
 bool requestsVulkan(const SessionOptions& options) {
   const TraceVariant& variant = options.variant;
-  return options.requireGpu || !options.device.empty() || !variant.kernel.empty() || !variant.fetch.empty();
+  return options.requireGpu || !options.device.empty() || variant.kernel || variant.fetch;
 }
 
 NamedBackend open(const BackendRow& row, const SessionOptions& options) {
@@ -75,7 +82,7 @@ NamedBackend open(const BackendRow& row, const SessionOptions& options) {
     throw Error(options.requireGpu ? ErrorCode::GpuRequired : ErrorCode::NoDeviceForKernel,
                 options.requireGpu ? "a GPU was required and this backend runs on the CPU"
                                    : "a Vulkan device or kernel variant was requested and this backend has none");
-  NamedBackend named{row.name, row.make(options), {}};
+  NamedBackend named{row.choice, nameOf(kBackendNames, row.choice), row.make(options), {}};
   named.deviceLines = named.backend->deviceLines();
   return named;
 }
@@ -90,7 +97,7 @@ NamedBackend openFirst(std::span<const BackendRow> rows, const SessionOptions& o
       return named;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Device || requestsVulkan(options)) throw;
-      rejected.push_back(fmt::format("{}: not available: {}", row.name, error.what()));
+      rejected.push_back(fmt::format("{}: not available: {}", nameOf(kBackendNames, row.choice), error.what()));
     }
   }
   throw Error(ErrorCode::NoUsableDevice, "no backend is available");
@@ -98,36 +105,33 @@ NamedBackend openFirst(std::span<const BackendRow> rows, const SessionOptions& o
 
 }  // namespace
 
-BvhOptions bvhOptionsFor(const Backend& backend) {
-  return {.maxLeafTriangleCount = backend.device() == nullptr ? kMaxLeafTriangleCount : kMaxWideLeafTriangleCount};
+std::unique_ptr<DevicePredictor> Backend::makePredictor(const TraceScene&, const Cone&) {
+  ASDFVK_CHECK(!"a backend without a device has no predictor");
+  return nullptr;
+}
+
+std::unique_ptr<PoissonSolver> Backend::makeSolver(SolverChoice choice) const {
+  return asdfvk::makeSolver(choice, nullptr);
+}
+
+void Backend::requireSolver(SolverChoice choice) const {
+  if (choice != SolverChoice::Automatic) requireUsable(solverOf(choice), hasDevice());
 }
 
 NamedBackend openBackend(const SessionOptions& options) {
-  if (options.backend != kAutomaticBackend) {
-    const auto row = std::find_if(kBackends.begin(), kBackends.end(),
-                                  [&](const BackendRow& candidate) { return candidate.name == options.backend; });
-    if (row == kBackends.end())
-      throw Error(ErrorCode::UnknownName, fmt::format("no backend is called '{}'; the names are auto, {}",
-                                                      options.backend, joined(backendNames(), ", ")));
-    return open(*row, options);
-  }
-  return openFirst(kBackends, options);
+  if (options.backend == BackendChoice::Automatic) return openFirst(kBackends, options);
+  return open(*rowOf(options.backend), options);
 }
 
-std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::string_view failed) {
-  if (options.backend != kAutomaticBackend || requestsVulkan(options)) return std::nullopt;
-  const auto row = std::find_if(kBackends.begin(), kBackends.end(),
-                                [&](const BackendRow& candidate) { return candidate.name == failed; });
-  if (row == kBackends.end() || row + 1 == kBackends.end()) return std::nullopt;
-  return openFirst(std::span(row + 1, kBackends.end()), options);
+std::optional<NamedBackend> openNextBackend(const SessionOptions& options, BackendChoice failed) {
+  if (options.backend != BackendChoice::Automatic || requestsVulkan(options)) return std::nullopt;
+  const auto next = rowOf(failed) + 1;
+  if (next == kBackends.end()) return std::nullopt;
+  return openFirst(std::span(next, kBackends.end()), options);
 }
 
-bool solverNeedsDevice(const std::string& name) { return name != kAutomaticSolver && findSolver(name).needsDevice; }
-
-std::vector<std::string> backendNames() {
-  std::vector<std::string> names;
-  for (const BackendRow& row : kBackends) names.emplace_back(row.name);
-  return names;
+bool solverNeedsDevice(SolverChoice solver) {
+  return solver != SolverChoice::Automatic && solverOf(solver).needsDevice;
 }
 
 }  // namespace asdfvk

@@ -15,8 +15,6 @@
 
 namespace asdfvk {
 
-class Device;
-
 /// Outputs of a tracer besides the values.
 struct TracerNeeds {
   bool hits = false;  ///< The hits of the rays.
@@ -37,46 +35,47 @@ class Backend {
   [[nodiscard]] virtual bool isReference() const { return false; }
   /// Variant of the last tracer; before the first tracer, the default variant. Unset without Vulkan.
   [[nodiscard]] virtual std::optional<TraceVariant> traceVariant() const { return std::nullopt; }
-  /// The device for solvers that need one; null without Vulkan.
-  [[nodiscard]] virtual const Device* device() const { return nullptr; }
+  /// Options of the hierarchy for the tracers.
+  [[nodiscard]] virtual BvhOptions bvhOptions() const { return {.maxLeafTriangleCount = kMaxLeafTriangleCount}; }
 
   /// The scene and the cone must outlive the tracer.
   [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                                const TracerNeeds& needs) = 0;
-  /// Returns a predictor on the device, or null without Vulkan. The scene and the cone must outlive the predictor.
-  /// Throws Error of kind Device.
-  [[nodiscard]] virtual std::unique_ptr<DevicePredictor> makePredictor(const TraceScene&, const Cone&) {
-    return nullptr;
-  }
+  /// Whether makePredictor() and the solvers that need a device are available.
+  [[nodiscard]] virtual bool hasDevice() const { return false; }
+  /// Returns a predictor on the device. The scene and the cone must outlive the predictor. Throws Error of kind Device.
+  /// Precondition: hasDevice().
+  [[nodiscard]] virtual std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone);
+  /// The solver that SolverChoice::Automatic selects: that of the device if the device has enough storage buffers and
+  /// is not a CPU device. A CPU device needs more time for the same iterations than the solver of the CPU
+  /// (docs/speed.md).
+  [[nodiscard]] virtual const Solver& automaticSolver() const { return defaultSolver(false); }
+  /// Precondition: requireSolver(choice) does not throw.
+  [[nodiscard]] virtual std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const;
+  /// Throws Error{NoDeviceForKernel} if the solver needs a device and hasDevice() is false.
+  void requireSolver(SolverChoice choice) const;
   /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
   virtual void requireSilentValidation() const {}
 };
 
-/// Options of the hierarchy for tracers of the backend.
-[[nodiscard]] BvhOptions bvhOptionsFor(const Backend& backend);
-
 struct NamedBackend {
-  std::string name;
+  BackendChoice choice = BackendChoice::Automatic;
+  std::string name;  ///< Of kBackendNames.
   std::unique_ptr<Backend> backend;
-  /// Backend::deviceLines(), then the reasons why "auto" rejected other backends.
+  /// Backend::deviceLines(), then the reasons why BackendChoice::Automatic rejected other backends.
   std::vector<std::string> deviceLines;
 };
 
-/// Opens the backend that the options name; for "auto", the first backend that is available. Throws Error{UnknownName}
-/// and Error of kind Device.
+/// Opens the backend that the options name; for BackendChoice::Automatic, the first one that is available. Throws
+/// Error of kind Device.
 [[nodiscard]] NamedBackend openBackend(const SessionOptions& options);
 
-/// The first available backend after the one called `failed` in the order of "auto". None if the options name a backend
-/// or request a device or variant of Vulkan.
-[[nodiscard]] std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::string_view failed);
+/// The first available backend after the one called `failed` in the order of BackendChoice::Automatic. None if the
+/// options name a backend or request a device or variant of Vulkan.
+[[nodiscard]] std::optional<NamedBackend> openNextBackend(const SessionOptions& options, BackendChoice failed);
 
-/// The solver that kAutomaticSolver selects. It is the solver of the device if the device has enough storage buffers
-/// and is not a CPU device. A CPU device needs more time for the same iterations than the solver of the CPU
-/// (docs/speed.md).
-[[nodiscard]] const Solver& automaticSolver(const Backend& backend);
-
-/// Whether a solver of solverNames() needs a Vulkan device; false for "auto". Throws Error{UnknownName}.
-[[nodiscard]] bool solverNeedsDevice(const std::string& name);
+/// Whether a solver needs a Vulkan device; false for SolverChoice::Automatic.
+[[nodiscard]] bool solverNeedsDevice(SolverChoice solver);
 
 /// Throws Error of kind Device.
 [[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);

@@ -56,7 +56,7 @@ LabelledFaces segmentSdf(const MeshView& view, std::span<const double> values, c
   Options checked;
   checked.segmentation = Segmentation::Cgal;
   checked.cgalSegmentation = options;
-  (void)completed(checked);
+  (void)CheckedOptions(checked);
   control.checkpoint(0);
   Mesh storage;
   const TriangleMesh mesh = trianglesOf(view, storage);

@@ -243,15 +243,8 @@ Options withAllSeeds(Options options, const FaceDomain& domain) {
 
 }  // namespace
 
-Options completedFor(const SessionState& session, const Options& options) {
-  Options result = completed(options);
-  if (result.solver != kAutomaticSolver)
-    requireUsable(findSolver(result.solver), session.named.backend->device() != nullptr);
-  return result;
-}
-
-void computeOn(const ComputationInput& input, const Options& requested, StageClock& clock, const RunControl& control,
-               Result& result) {
+void computeOn(const ComputationInput& input, const CheckedOptions& requested, StageClock& clock,
+               const RunControl& control, Result& result) {
   Report& report = result.report;
   const auto& [session, sharedScene, part, tracers, former] = input;
   Backend& backend = *session.named.backend;
@@ -259,9 +252,8 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const FaceDomain domain = part != nullptr ? part->domain() : wholeMesh(prepared);
   const InputFaceSet region = part != nullptr ? part->inputFaces() : InputFaceSet();
   const bool isLast = tracers == nullptr;
-  // The backend may have changed.
-  if (session.named.backend->device() == nullptr) (void)completedFor(session, requested);
-  Options options = withAllSeeds(requested, domain);
+  backend.requireSolver(requested->solver);  // The backend may have changed.
+  Options options = withAllSeeds(*requested, domain);
   for (std::optional<LengthLimit>* const limit :
        {&options.thickness.thinnerThan, &options.thickness.thickerThan, &options.thickness.closerThan})
     convertToUnit(*limit, prepared.unit);
@@ -279,7 +271,7 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
                           options.measuresGap() || options.segmentation == Segmentation::Parts;
   if (options.measuresDiameter()) measureDiameter(result, computation, {*sharedScene, tracers, keepsNodes}, control);
   if (options.measuresThickness() || options.measuresGap()) {
-    sharedScene->requireHierarchy(bvhOptionsFor(backend), clock, control.withoutProgress());
+    sharedScene->requireHierarchy(backend.bvhOptions(), clock, control.withoutProgress());
     measureSurfaces(result, computation, *sharedScene, former,
                     options.measuresDiameter() ? control.withoutProgress() : control);
   }

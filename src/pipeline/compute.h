@@ -22,14 +22,9 @@ struct ComputationInput {
   const JudgedSurface* former = nullptr;  ///< The surface of a former version for a comparison; null: none.
 };
 
-/// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. options: the
-/// result of completedFor(). The clock writes to result.report.stageSeconds. Throws the errors of Session::compute().
-void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
-               Result& result);
-
-/// The options together with the settings that they imply. Throws the errors of completed()
-/// (describe/computation_options.h), and Error{NoDeviceForKernel} if the solver needs a device and the session has
-/// none.
-[[nodiscard]] Options completedFor(const SessionState& session, const Options& options);
+/// The computation behind Session::compute() and Scene::compute(), from the seeds to the report. The clock writes to
+/// result.report.stageSeconds. Throws the errors of Session::compute().
+void computeOn(const ComputationInput& input, const CheckedOptions& options, StageClock& clock,
+               const RunControl& control, Result& result);
 
 }  // namespace asdfvk

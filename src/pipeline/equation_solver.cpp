@@ -13,12 +13,12 @@ EquationSolver::EquationSolver(const Options& options, const Backend& backend, S
       backend_(backend),
       solvers_(solvers),
       warnings_(warnings),
-      isReplaceable_(options.solver == kAutomaticSolver),
-      name_(isReplaceable_ ? automaticSolver(backend).name : options.solver) {}
+      isReplaceable_(options.solver == SolverChoice::Automatic),
+      choice_(isReplaceable_ ? backend.automaticSolver().choice : options.solver) {}
 
 SolverReport EquationSolver::solve(const DualGraph& graph, std::span<const double> weights, GraphProblem problem,
                                    std::vector<double>& values, const RunControl& control) {
-  if (!isReplaceable_ || !findSolver(name_).needsDevice)
+  if (!isReplaceable_ || !solverOf(choice_).needsDevice)
     return solveWithChosen(graph, weights, std::move(problem), values, control);
   try {
     // Passes a copy of the problem, because the CPU receives the problem if the device fails.
@@ -28,7 +28,7 @@ SolverReport EquationSolver::solve(const DualGraph& graph, std::span<const doubl
     warnings_.push_back(solvedOnCpu(error));
   }
   onGraph_.reset();
-  name_ = defaultSolver(false).name;
+  choice_ = defaultSolver(false).choice;
   return solveWithChosen(graph, weights, std::move(problem), values, control);
 }
 
@@ -36,12 +36,12 @@ SolverReport EquationSolver::solveWithChosen(const DualGraph& graph, std::span<c
                                              GraphProblem problem, std::vector<double>& values,
                                              const RunControl& control) {
   if (!onGraph_) {
-    std::unique_ptr<PoissonSolver>& solver = solvers_[name_];
-    if (!solver) solver = makeSolver(name_, backend_.device());
+    std::unique_ptr<PoissonSolver>& solver = solvers_[choice_];
+    if (!solver) solver = backend_.makeSolver(choice_);
     onGraph_ = solver->onGraph(graph, weights);
   }
   SolverReport report = onGraph_->solve(std::move(problem), options_, values, control);
-  report.name = name_;
+  report.name = nameOf(kSolverNames, choice_);
   return report;
 }
 

@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "asdf_vk/options.h"
@@ -13,11 +12,12 @@
 
 namespace asdfvk {
 
-/// The solvers of a session by name, created at first use.
-using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
+/// The solvers of a session, created at first use.
+using Solvers = std::map<SolverChoice, std::unique_ptr<PoissonSolver>>;
 
-/// The solver of one computation: the one that the options name. With kAutomaticSolver it is automaticSolver(); if the
-/// device fails, the solver of the CPU replaces it, and a warning contains the reason.
+/// The solver of one computation: the one that the options name. With SolverChoice::Automatic it is
+/// Backend::automaticSolver(); if the device fails, the solver of the CPU replaces it, and a warning contains the
+/// reason.
 class EquationSolver {
  public:
   /// The arguments must outlive this object.
@@ -36,7 +36,7 @@ class EquationSolver {
   Solvers& solvers_;
   std::vector<Warning>& warnings_;
   bool isReplaceable_;
-  std::string name_;
+  SolverChoice choice_;
   std::unique_ptr<GraphSolver> onGraph_;  ///< Created at first use.
 };
 

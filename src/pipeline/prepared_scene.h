@@ -26,7 +26,7 @@ struct PreparedScene {
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
 
-  /// Builds the hierarchy, unless it has nodes. options: see bvhOptionsFor(). Precondition: no tracer refers to a
+  /// Builds the hierarchy, unless it has nodes. options: see Backend::bvhOptions(). Precondition: no tracer refers to a
   /// hierarchy without nodes, and no other thread reads the hierarchy.
   void requireHierarchy(const BvhOptions& options, StageClock& clock, const RunControl& control) {
     if (!bvh.nodes.empty()) return;

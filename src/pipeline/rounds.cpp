@@ -191,7 +191,7 @@ void runRound(RoundTools& tools, const RaySource& source, uint64_t count, Rounds
   const SeedShares shares = options.estimatesError && leavesNodes
                                 ? shareSeeds(count, seeds.heldOutWeights.size(), predicts)
                                 : SeedShares{.sampled = count};
-  const bool refines = samplerOf(options).refine && predicts && isFirst && leavesNodes;
+  const bool refines = samplerOf(options.sampler).refine && predicts && isFirst && leavesNodes;
   const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
   const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
   result.errors.reset();

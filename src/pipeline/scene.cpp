@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "core/length_unit.h"
 #include "core/parallel.h"
 #include "core/vec3.h"
@@ -114,7 +115,7 @@ struct Scene::State {
   State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
       : session(theSession), orientation(theOrientation) {
     StageClock clock(preparation, control.stageBegan);
-    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control, bvhOptionsFor(*session.named.backend));
+    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control, session.named.backend->bvhOptions());
   }
 
   /// Tracers of the backend that the session has now.
@@ -145,12 +146,12 @@ struct Scene::State {
   }
 
   /// former: see ComputationInput.
-  Result compute(const Options& given, std::span<const uint8_t> region, const JudgedSurface* former,
+  Result compute(const CheckedOptions& options, std::span<const uint8_t> region, const JudgedSurface* former,
                  const RunControl& control) {
-    requireNoConflict(given, orientation, !region.empty());
-    const Options options = completedFor(session, given);
+    requireNoConflict(*options, orientation, !region.empty());
+    session.named.backend->requireSolver(options->solver);
     control.checkpoint(0);
-    return session.compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
+    return session.compute(!solverNeedsDevice(options->solver), control, [&](const RunControl& rest) {
       Result result;
       StageClock clock(result.report.stageSeconds, rest.stageBegan);
       const std::optional<Region> part = [&] {
@@ -179,21 +180,31 @@ Scene::~Scene() = default;
 
 const StageSeconds& Scene::preparationSeconds() const { return state_->preparation; }
 
-Result Scene::compute(const Options& given, std::span<const uint8_t> region, const RunControl& control) {
-  return state_->compute(given, region, nullptr, control);
+Result Scene::compute(const Options& options, std::span<const uint8_t> region, const RunControl& control) {
+  return compute(CheckedOptions(options), region, control);
+}
+
+Result Scene::compute(const CheckedOptions& options, std::span<const uint8_t> region, const RunControl& control) {
+  return state_->compute(options, region, nullptr, control);
 }
 
 Result Scene::compare(const Scene& former, const Options& given, std::span<const uint8_t> region,
                       const RunControl& control) {
-  (void)commonUnit(state_->scene->prepared.unit, former.state_->scene->prepared.unit);
   Options options = given;
   options.measure = united(options.measure, Measure::Thickness);
+  return compare(former, CheckedOptions(options), region, control);
+}
+
+Result Scene::compare(const Scene& former, const CheckedOptions& options, std::span<const uint8_t> region,
+                      const RunControl& control) {
+  ASDFVK_CHECK(options->measuresThickness());
+  (void)commonUnit(state_->scene->prepared.unit, former.state_->scene->prepared.unit);
   return state_->compute(options, region, &former.state_->judgedSurface(control), control);
 }
 
 std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<const double> normals,
                                     const ConeOptions& cone, const RunControl& control) {
-  (void)completed({.cone = cone});
+  (void)CheckedOptions({.cone = cone});
   requirePoints(points, normals);
   control.checkpoint(0);
   return state_->session.compute(true, control, [&](const RunControl& rest) {
@@ -208,7 +219,7 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
 
 std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span<const double> normals,
                                        const ThicknessOptions& thickness, const RunControl& control) {
-  (void)completed({.measure = Measure::Thickness, .thickness = thickness});
+  (void)CheckedOptions({.measure = Measure::Thickness, .thickness = thickness});
   requirePoints(points, normals);
   std::vector<Vec3d> unitNormals(normals.size() / 3);
   for (size_t i = 0; i < unitNormals.size(); ++i) unitNormals[i] = unitVector(vectorAt(normals, i));

@@ -45,12 +45,6 @@ SeedChoice earlierChoice(const Seeds& seeds) {
 
 }  // namespace
 
-const Sampler& samplerOf(const Options& options) {
-  const Sampler* const sampler = findSampler(options.sampler);
-  ASDFVK_CHECK(sampler != nullptr);
-  return *sampler;
-}
-
 uint64_t resolveSeedCount(const Options& options, uint64_t traceableFaceCount) {
   const SeedCount& request = options.seeds;
   if (traceableFaceCount == 0 || request.kind == SeedCount::Kind::All) return traceableFaceCount;
@@ -86,7 +80,7 @@ SeedChoice chooseSeeds(const FaceDomain& domain, ArcAngles& arcAngles, const Opt
   const SeedDomain candidates{domain.graph, domain.geometry, arcAngles,
                               earlier.heldOut.empty() ? domain.traceable : std::span(std::as_const(notHeldOut)),
                               stopOnly};
-  const Sampler& sampler = samplerOf(options);
+  const Sampler& sampler = samplerOf(options.sampler);
   SeedChoice choice;
   if (sampler.isUniform) {
     // All seeds are sampled at random, so that any of them can be held out. The seeds are then the same with and

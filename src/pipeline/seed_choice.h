@@ -24,7 +24,6 @@ struct SeedChoice {
 };
 
 /// The sampler of completed options.
-[[nodiscard]] const Sampler& samplerOf(const Options& options);
 
 /// Numbers of further seeds of each kind, for a computation that estimates the error.
 struct SeedShares {

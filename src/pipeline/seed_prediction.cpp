@@ -10,9 +10,9 @@ namespace asdfvk {
 /// A CPU device needs more time than the CPU for the same predictions (bench/experiments.md). The number of storage
 /// buffers is not tested, because the prediction needs fewer than any solver.
 bool SeedPrediction::predictsOnDevice() const {
-  const std::string& solver = computation_.options.solver;
-  return computation_.keepsHits() && computation_.backend.device() != nullptr && !hasFailed_ &&
-         (solver == kAutomaticSolver ? !computation_.backend.runsOnCpu() : findSolver(solver).needsDevice);
+  const SolverChoice solver = computation_.options.solver;
+  return computation_.keepsHits() && computation_.backend.hasDevice() && !hasFailed_ &&
+         (solver == SolverChoice::Automatic ? !computation_.backend.runsOnCpu() : solverOf(solver).needsDevice);
 }
 
 /// Returns null if the CPU predicts.
@@ -35,7 +35,7 @@ void SeedPrediction::continueOnCpu(const Error& failure) {
   // With a named solver a failure of the device is an error. A limit is not a failure: naming a solver does not request
   // that the device predicts.
   if (failure.kind() != ErrorKind::Device ||
-      (computation_.options.solver != kAutomaticSolver && failure.code() != ErrorCode::DeviceLimit))
+      (computation_.options.solver != SolverChoice::Automatic && failure.code() != ErrorCode::DeviceLimit))
     throw;
   hasFailed_ = true;
   computation_.warnings.push_back(predictedOnCpu(failure));

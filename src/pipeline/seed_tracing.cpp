@@ -8,7 +8,7 @@ namespace asdfvk {
 
 SeedTracing::SeedTracing(const Computation& computation, const RaySource& source, const RunControl& control)
     : computation_(computation), released_(source.keepsNodes ? nullptr : &source.scene.bvh) {
-  source.scene.requireHierarchy(bvhOptionsFor(computation.backend), computation.clock, control);
+  source.scene.requireHierarchy(computation.backend.bvhOptions(), computation.clock, control);
   const ConeOptions& cone = computation.options.cone;
   const TracerNeeds needs{.hits = computation.keepsHits()};
   tracer_ = source.kept != nullptr

@@ -16,12 +16,16 @@ const std::vector<std::string>& Session::deviceLines() const { return state_->na
 const std::string& Session::backend() const { return state_->named.name; }
 bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
-Result Session::compute(const MeshView& mesh, const Options& given, const RunControl& control) {
-  const Options options = completedFor(*state_, given);  // Invalid options fail before the mesh is prepared.
-  return state_->compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
+Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
+  return compute(mesh, CheckedOptions(options), control);
+}
+
+Result Session::compute(const MeshView& mesh, const CheckedOptions& options, const RunControl& control) {
+  state_->named.backend->requireSolver(options->solver);  // Fails before the mesh is prepared.
+  return state_->compute(!solverNeedsDevice(options->solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);
-    const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options.orientation, clock, rest));
+    const auto scene = std::make_shared<PreparedScene>(prepareMesh(mesh, options->orientation, clock, rest));
     computeOn({*state_, scene, nullptr, nullptr}, options, clock, rest, result);
     return result;
   });

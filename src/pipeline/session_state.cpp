@@ -21,7 +21,7 @@ bool isFailureOfDevice(ErrorCode code) {
 
 bool SessionState::replaceBackend(const Error& failure) {
   if (!isFailureOfDevice(failure.code())) return false;
-  std::optional<NamedBackend> next = openNextBackend(options_, named.name);
+  std::optional<NamedBackend> next = openNextBackend(options_, named.choice);
   if (!next) return false;
   warnings_.push_back(backendReplaced(named.name, next->name, failure));
   next->deviceLines.push_back(fmt::format("{}: failed: {}", named.name, failure.what()));

@@ -5,8 +5,6 @@
 
 namespace asdfvk {
 
-const Solver& automaticSolver(const Backend&) { return defaultSolver(false); }
-
 std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions&) { throw Error(ErrorCode::NoUsableDevice, kNoVulkan); }
 
 std::vector<DeviceInfo> listDevices(std::string* reason, bool) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 
 namespace asdfvk {
 namespace {
@@ -12,21 +13,21 @@ namespace {
 /// The first solver that needs a device is the default on a device, the first solver that needs none is the default on
 /// the CPU.
 constexpr std::array kSolvers{
-    Solver{.name = "cg", .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanCgSolver},
-    Solver{.name = "jacobi", .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanJacobiSolver},
-    Solver{.name = "cpu", .needsDevice = false, .storageBufferCount = 0, .make = makeCpuCgSolver},
-    Solver{.name = "eigen", .needsDevice = false, .storageBufferCount = 0, .make = makeEigenSolver},
+    Solver{.choice = SolverChoice::Cg, .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanCgSolver},
+    Solver{
+        .choice = SolverChoice::Jacobi, .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanJacobiSolver},
+    Solver{.choice = SolverChoice::Cpu, .needsDevice = false, .storageBufferCount = 0, .make = makeCpuCgSolver},
+    Solver{.choice = SolverChoice::Eigen, .needsDevice = false, .storageBufferCount = 0, .make = makeEigenSolver},
 };
 
 }  // namespace
 
 std::span<const Solver> solverTable() { return kSolvers; }
 
-const Solver& findSolver(std::string_view name) {
+const Solver& solverOf(SolverChoice choice) {
   const auto found =
-      std::find_if(kSolvers.begin(), kSolvers.end(), [&](const Solver& solver) { return solver.name == name; });
-  if (found == kSolvers.end())
-    throw Error(ErrorCode::UnknownName, fmt::format("no solver is called '{}'", name), {{"name", std::string(name)}});
+      std::find_if(kSolvers.begin(), kSolvers.end(), [&](const Solver& solver) { return solver.choice == choice; });
+  ASDFVK_CHECK(found != kSolvers.end());
   return *found;
 }
 
@@ -38,11 +39,11 @@ const Solver& defaultSolver(bool needsDevice) {
 void requireUsable(const Solver& solver, bool hasDevice) {
   if (solver.needsDevice && !hasDevice)
     throw Error(ErrorCode::NoDeviceForKernel,
-                fmt::format("the solver {} runs on a Vulkan device and this backend has none", solver.name));
+                fmt::format("the solver {} runs on a Vulkan device and this backend has none", nameOf(solver)));
 }
 
-std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device) {
-  const Solver& solver = findSolver(name);
+std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice, const Device* device) {
+  const Solver& solver = solverOf(choice);
   requireUsable(solver, device != nullptr);
   return solver.make(device);
 }

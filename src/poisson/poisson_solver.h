@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include "asdf_vk/options.h"
+#include "asdf_vk/choices.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
 #include "mesh/dual_graph.h"
@@ -82,22 +81,23 @@ using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 [[nodiscard]] MakeSolver makeCpuCgSolver, makeEigenSolver;
 
 struct Solver {
-  const char* name;
+  SolverChoice choice;
   bool needsDevice;
   uint32_t storageBufferCount;  ///< Number of storage buffers that a kernel binds. Vulkan guarantees four.
   MakeSolver* make;
 };
 
-inline constexpr const char* kAutomaticSolver = "auto";  ///< Stands for defaultSolver(); not a row of the table.
+[[nodiscard]] inline const char* nameOf(const Solver& solver) { return nameOf(kSolverNames, solver.choice); }
 
+/// Without SolverChoice::Automatic, which stands for defaultSolver().
 [[nodiscard]] std::span<const Solver> solverTable();
-/// Throws Error{UnknownName}.
-[[nodiscard]] const Solver& findSolver(std::string_view name);
+/// Precondition: not SolverChoice::Automatic.
+[[nodiscard]] const Solver& solverOf(SolverChoice choice);
 /// The default solver on a device if needsDevice, else the default solver on the CPU.
 [[nodiscard]] const Solver& defaultSolver(bool needsDevice);
 /// Throws Error{NoDeviceForKernel} if the solver needs a device and there is none.
 void requireUsable(const Solver& solver, bool hasDevice);
-/// device: may be null. Throws Error{UnknownName} and the error of requireUsable().
-[[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device);
+/// device: may be null. Throws the error of requireUsable().
+[[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice, const Device* device);
 
 }  // namespace asdfvk

@@ -16,9 +16,11 @@ std::vector<uint32_t> remainingCandidates(const SeedDomain& domain, std::span<co
   return selectInParallel(domain.candidates, [&](uint32_t face) { return !isChosen[face]; });
 }
 
-const Sampler* findSampler(std::string_view name) {
-  const auto found = std::find_if(kSamplers.begin(), kSamplers.end(), [&](const Sampler& s) { return s.name == name; });
-  return found == kSamplers.end() ? nullptr : &*found;
+const Sampler& samplerOf(SamplerChoice choice) {
+  const auto found =
+      std::find_if(kSamplers.begin(), kSamplers.end(), [&](const Sampler& s) { return s.choice == choice; });
+  ASDFVK_CHECK(found != kSamplers.end());
+  return *found;
 }
 
 }  // namespace asdfvk

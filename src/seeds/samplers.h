@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "asdf_vk/options.h"
 #include "asdf_vk/run_control.h"
 #include "core/vec3.h"
 #include "mesh/arc_angles.h"
@@ -13,7 +13,7 @@
 #include "mesh/face_geometry.h"
 
 /// Samplers: selection of seeds, the faces that cast rays. A new sampler requires a file with its function. This header
-/// needs the declaration of the function and a row of kSamplers.
+/// needs the declaration of the function and a row of kSamplers; SamplerChoice and kSamplerNames name the sampler.
 namespace asdfvk {
 
 /// The faces to select from. The members must outlive this object.
@@ -81,7 +81,7 @@ inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
 [[nodiscard]] uint32_t normalBinOf(const Vec3d& normal);
 
 struct Sampler {
-  const char* name;
+  SamplerChoice choice;
   SampleSeeds* sample;
   /// Null except for adaptive samplers. In an adaptive sampler, `sample` selects half of the seeds and `refine` selects
   /// the other half. The second half is denser where the prediction from the first half has a large error indicator.
@@ -91,14 +91,13 @@ struct Sampler {
 };
 
 inline constexpr auto kSamplers = std::to_array<Sampler>({
-    {.name = "random", .sample = randomSeeds, .isUniform = true},
-    {.name = "blue-noise", .sample = blueNoiseSeeds},
-    {.name = "farthest-point", .sample = farthestPointSeeds},
-    {.name = "normal-space", .sample = normalSpaceSeeds},
-    {.name = "adaptive", .sample = blueNoiseSeeds, .refine = weightedBlueNoiseSeeds},
+    {.choice = SamplerChoice::Random, .sample = randomSeeds, .isUniform = true},
+    {.choice = SamplerChoice::BlueNoise, .sample = blueNoiseSeeds},
+    {.choice = SamplerChoice::FarthestPoint, .sample = farthestPointSeeds},
+    {.choice = SamplerChoice::NormalSpace, .sample = normalSpaceSeeds},
+    {.choice = SamplerChoice::Adaptive, .sample = blueNoiseSeeds, .refine = weightedBlueNoiseSeeds},
 });
 
-/// Null for an unknown name.
-[[nodiscard]] const Sampler* findSampler(std::string_view name);
+[[nodiscard]] const Sampler& samplerOf(SamplerChoice choice);
 
 }  // namespace asdfvk

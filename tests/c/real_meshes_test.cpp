@@ -13,7 +13,7 @@ TEST_CASE("files of real meshes have the values of the library") {
   const auto folder = realMeshFolder();
   if (!folder) return;
   const Owned<asdf_vk_session> own = sessionOfC("cpu");
-  Session session({.backend = "cpu"});
+  Session session({.backend = BackendChoice::Cpu});
   for (const char* name : {"horse-10k.off", "fandisk.off", "elephant.obj"}) {
     CAPTURE(name);
     const std::string path = (*folder / "models" / name).string();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/scene.h"
 #include "c/c_objects.h"
 #include "core/json.h"
@@ -43,9 +44,10 @@ TEST_CASE("a comparison is that of the library, and needs scenes of one session"
 TEST_CASE("values, labels and the report are those of the library, with the backends cpu and vulkan") {
   const Mesh mesh = makeAnimal(4000).mesh;
   (void)vulkanSession();  // Turns the validation layers on.
-  for (const char* backend : {"cpu", "vulkan"}) {
+  for (const BackendChoice choice : {BackendChoice::Cpu, BackendChoice::Vulkan}) {
+    const char* const backend = nameOf(kBackendNames, choice);
     CAPTURE(backend);
-    Session session({.backend = backend});
+    Session session({.backend = choice});
     Options options;
     options.seeds = SeedCount::ofShare(0.2);
     options.segmentation = Segmentation::Parts;
@@ -139,7 +141,7 @@ TEST_CASE("values at points; the orientation is that of each call") {
                              nullptr, nullptr);
   };
   requireDone(valuesAt({{"orient", "auto"}}));
-  Session own({.backend = "cpu"});
+  Session own({.backend = BackendChoice::Cpu});
   CHECK(haveSameBits(values, Scene(own, sphere, Orientation::Auto).valuesAt(points, normals)));
   requireDone(valuesAt({{"orient", "auto"}, {"measure", "thickness"}}));
   CHECK(values[0] == doctest::Approx(2).epsilon(0.01));

@@ -4,6 +4,7 @@
 #include "asdf_vk/error.h"
 #include "cli/options.h"
 #include "describe/computation_options.h"
+#include "describe/option_values.h"
 
 using namespace asdfvk;
 
@@ -17,7 +18,7 @@ TEST_CASE("a limit has the unit of the mesh or its own") {
     const ComputationSettings computation = lineOf(text);
     CHECK(computation.options.thickness.thinnerThan->value == 0.8);
     CHECK(computation.options.thickness.thinnerThan->unit == LengthUnit::Millimetre);
-    CHECK(std::get<std::string>(valueOf(*findOption(computationRows(), "fail-if-thinner"), &computation)) == "0.8mm");
+    CHECK(LengthCodec::write(computation.failIfThinner) == OptionValue("0.8mm"));
   }
   CHECK(lineOf("3m").options.thickness.thinnerThan->unit == LengthUnit::Metre);
   for (const char* const text : {"0.8km", "mm", "-1mm", "0mm", "0.8 m m", "nan", "infmm"}) {

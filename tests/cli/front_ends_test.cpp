@@ -35,10 +35,26 @@ std::string withoutSpelling(std::string text) {
 
 std::string textOf(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-bool isOfSession(const std::string& name) { return findOption(sessionRows(), name) != nullptr; }
+/// The options of computations and of sessions, and the members that they set.
+struct SetOptions {
+  ComputationSettings computation;
+  SessionSettings session;
+  OptionRows ofComputation = computationRows(computation), ofSession = sessionRows(session);
+
+  SetOptions() = default;
+  SetOptions(const SetOptions&) = delete;
+  SetOptions& operator=(const SetOptions&) = delete;
+};
+
+const SetOptions& defaultOptions() {
+  static const SetOptions defaults;
+  return defaults;
+}
+
+bool isOfSession(const std::string& name) { return findOption(defaultOptions().ofSession, name) != nullptr; }
 
 const OptionRow& rowOf(const std::string& name) {
-  return *findOption(isOfSession(name) ? sessionRows() : computationRows(), name);
+  return *findOption(isOfSession(name) ? defaultOptions().ofSession : defaultOptions().ofComputation, name);
 }
 
 std::vector<std::string> argumentsOf(const Json& options) {
@@ -51,33 +67,23 @@ std::vector<std::string> argumentsOf(const Json& options) {
 }
 
 /// Sets a member as a caller of the library does: out of its range, too. False where its type has no such value.
-bool setMember(const OptionRow& row, void* target, const Json& value) {
-  if (row.access.member == nullptr || row.access.kind == OptionKind::Choice) {
-    try {
-      setOptionText(row, target, textOf(value));
-    } catch (const Error&) {
-      return false;
-    }
-    return true;
-  }
+bool setMember(OptionRow row, const Json& value) {
+  row.range = {};
   if (value.is_number() && value.get<double>() < 0) return false;
-  const auto set = [&](auto member) {
-    using T = decltype(member);
-    if constexpr (std::is_same_v<T, std::optional<double>*>) {
-      *member = value.get<double>();
-    } else if constexpr (std::is_same_v<T, std::optional<uint32_t>*>) {
-      *member = value.get<uint32_t>();
-    } else if constexpr (!std::is_same_v<T, ChoiceMember>) {
-      *member = value.get<std::remove_pointer_t<T>>();
-    }
-    return true;
-  };
-  return std::visit(set, row.access.member(target));
+  try {
+    if (value.is_boolean())
+      setOption(row, value.get<bool>(), "", OptionSpelling::CamelCase);
+    else
+      setOptionText(row, textOf(value));
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
 }
 
 std::string refusalOfLibrary(const ComputationSettings& computation, const SessionSettings& session) {
   try {
-    (void)completed(computation.options);
+    (void)CheckedOptions(computation.options);
     requireValid(session, OptionSpelling::CamelCase);
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::Usage);
@@ -114,8 +120,11 @@ TEST_CASE("the command line and C refuse the same options with the same sentence
   std::ifstream in(ASDFVK_TEST_DIR "/describe/option_cases.json");
   for (const Json& example : Json::parse(in)) {
     const Json& options = example.at("options");
-    const auto isForProgram = [&](const OptionRow& row) { return isOfProgram(row) && options.contains(row.name); };
-    if (const OptionRows rows = computationRows(); std::any_of(rows.begin(), rows.end(), isForProgram)) continue;
+    const auto isForProgram = [&](const OptionRow& row) {
+      return row.where == OptionPlace::Program && options.contains(row.name);
+    };
+    const OptionRows& rows = defaultOptions().ofComputation;
+    if (std::any_of(rows.begin(), rows.end(), isForProgram)) continue;
     CAPTURE(options.dump());
     CHECK_EQ(withoutSpelling(refusalInC(scene.get(), options)),
              withoutSpelling(example.at("refusal").get<std::string>()));
@@ -156,28 +165,25 @@ TEST_CASE("the command line and the library refuse the same options with the sam
     const Json& options = example.at("options");
     CAPTURE(options.dump());
     CHECK_EQ(refusal(argumentsOf(options)), example.at("refusal").get<std::string>());
-    ComputationSettings computation;
-    SessionSettings session;
+    SetOptions set;
     bool isSet = options.value("measure", "") != "sdf";
-    for (const auto& [rows, target] :
-         {std::pair<OptionRows, void*>{computationRows(), &computation}, {sessionRows(), &session}})
-      for (const OptionRow& row : rows) {
+    for (const OptionRows* const rows : {&set.ofComputation, &set.ofSession})
+      for (const OptionRow& row : *rows) {
         if (!options.contains(row.name)) continue;
         names.insert(row.name);
-        isSet = isSet && !ofNames.contains(row.name) && setMember(row, target, options.at(row.name));
-        if (isSet && row.apply != nullptr) row.apply(target);
+        isSet = isSet && !ofNames.contains(row.name) && setMember(row, options.at(row.name));
       }
     if (!isSet) continue;
-    CHECK_EQ(withoutSpelling(refusalOfLibrary(computation, session)),
+    CHECK_EQ(withoutSpelling(refusalOfLibrary(set.computation, set.session)),
              withoutSpelling(example.at("refusal").get<std::string>()));
     ++comparedCount;
   }
   CHECK(comparedCount >= 30);
-  for (const OptionRow& row : computationRows())
-    if (row.access.kind != OptionKind::Flag && std::string_view(row.name) != "max-relative-error")
+  for (const OptionRow& row : defaultOptions().ofComputation)
+    if (!isFlag(row) && std::string_view(row.name) != "max-relative-error")
       CHECK_MESSAGE(names.contains(row.name), row.name);
-  for (const OptionRow& row : sessionRows())
-    if (!isOfProgram(row)) CHECK_MESSAGE(names.contains(row.name), row.name);
+  for (const OptionRow& row : defaultOptions().ofSession)
+    if (row.where != OptionPlace::Program) CHECK_MESSAGE(names.contains(row.name), row.name);
 }
 
 TEST_CASE("the library implies what the command line implies") {
@@ -186,7 +192,7 @@ TEST_CASE("the library implies what the command line implies") {
     return parseCommandLine(arguments).computation;
   };
   const auto isSame = [](const Options& options, const ComputationSettings& line) {
-    const ComputationSettings own{.recipe = line.recipe, .options = completed(options), .failIfThinner = {}};
+    const ComputationSettings own{.recipe = line.recipe, .options = *CheckedOptions(options), .failIfThinner = {}};
     for (const auto& ofLibrary : reportedOptions(own, {}))
       for (const auto& ofLine : reportedOptions(line, {}))
         if (ofLibrary.first == ofLine.first) CHECK_MESSAGE(ofLibrary.second == ofLine.second, ofLibrary.first);
@@ -202,7 +208,7 @@ TEST_CASE("the library implies what the command line implies") {
   isSame(ofCgal, lineOf({"--definition", "cgal"}));
   ofCgal.rounds.maxError = 0.01;
   isSame(ofCgal, lineOf({"--definition", "cgal", "--max-error", "1%"}));
-  CHECK_EQ(completed(ofCgal).seeds.share, kFirstRoundShare);
+  CHECK_EQ(CheckedOptions(ofCgal)->seeds.share, kFirstRoundShare);
 }
 
 TEST_CASE("the options of a report repeat the run") {
@@ -220,14 +226,14 @@ TEST_CASE("the options of a report repeat the run") {
     const Json reported = optionValues(line.computation, line.session);
     ComputationSettings again;
     GivenOptions given;
-    for (const OptionRow& row : computationRows()) {
+    for (const OptionRow& row : computationRows(again)) {
       const Json& value = reported.at(spelled(row, OptionSpelling::CamelCase));
       if (value.is_null()) continue;
       given.names.insert(row.name);
       if (value.is_boolean())
-        setOption(row, &again, value.get<bool>(), "", OptionSpelling::CamelCase);
+        setOption(row, value.get<bool>(), "", OptionSpelling::CamelCase);
       else
-        setOptionText(row, &again, textOf(value));
+        setOptionText(row, textOf(value));
     }
     if (!again.options.thickness.thinnerThan) given.names.erase("count-edges");
     complete(again, given);

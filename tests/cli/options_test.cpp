@@ -45,7 +45,7 @@ const std::vector<OptionCase>& optionCases() {
        }},
       {{"--recipe", "quality"}, [](const Line& l) { return l.computation.recipe == Recipe::Quality; }},
       {{"--sampler", "farthest-point"},
-       [](const Line& l) { return l.computation.options.sampler == "farthest-point"; }},
+       [](const Line& l) { return l.computation.options.sampler == SamplerChoice::FarthestPoint; }},
       {{"--max-error", "1.5%"}, [](const Line& l) { return l.computation.options.rounds.maxError == 0.015; }},
       {{"--max-error", "5%rel"},
        [](const Line& l) {
@@ -128,7 +128,7 @@ const std::vector<OptionCase>& optionCases() {
       {{"--max-faces", "1000"}, [](const Line& l) { return l.reading.maxFaces == 1000; }},
       {{"--jobs", "3"}, [](const Line& l) { return l.batch.jobCount == 3; }},
       {{"--open"}, [](const Line& l) { return l.outputs.opensPage; }},
-      {{"--solver", "jacobi"}, [](const Line& l) { return l.computation.options.solver == "jacobi"; }},
+      {{"--solver", "jacobi"}, [](const Line& l) { return l.computation.options.solver == SolverChoice::Jacobi; }},
       {{"--tolerance", "1e-3"}, [](const Line& l) { return l.computation.options.solverOptions.tolerance == 1e-3; }},
       {{"--max-iterations", "77"},
        [](const Line& l) { return l.computation.options.solverOptions.maxIterations == 77; }},
@@ -163,12 +163,12 @@ const std::vector<OptionCase>& optionCases() {
        }},
       {{"--picture-up", "-x", "--picture", "b.png"},
        [](const Line& l) { return l.outputs.pictureView.up == Up::MinusX; }},
-      {{"--backend", "reference"}, [](const Line& l) { return l.session.backend == "reference"; }},
+      {{"--backend", "reference"}, [](const Line& l) { return l.session.backend == BackendChoice::Reference; }},
       {{"--device", "llvmpipe"}, [](const Line& l) { return l.session.device == "llvmpipe"; }},
       {{"--require-gpu"}, [](const Line& l) { return l.session.requireGpu; }},
       {{"--threads", "3"}, [](const Line& l) { return l.session.threadCount == 3; }},
-      {{"--kernel", "packet"}, [](const Line& l) { return l.session.variant.kernel == "packet"; }},
-      {{"--fetch", "storage"}, [](const Line& l) { return l.session.variant.fetch == "storage"; }},
+      {{"--kernel", "packet"}, [](const Line& l) { return l.session.variant.kernel == TraceKernel::Packet; }},
+      {{"--fetch", "storage"}, [](const Line& l) { return l.session.variant.fetch == BvhFetch::Storage; }},
   };
   return cases;
 }

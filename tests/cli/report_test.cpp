@@ -46,7 +46,7 @@ TEST_CASE("the full report begins with the short one, and has seeds, device, sol
   const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
-  report.traceChoice = TraceVariant{"ray", "storage"};
+  report.traceChoice = TraceVariant{TraceKernel::Ray, BvhFetch::Storage};
   report.sdf.percentile1 = 0.6;
   report.sdf.percentile99 = 2.25;
   report.regionFaceCount = report.faceCount;
@@ -343,14 +343,15 @@ TEST_CASE("the report on a device as JSON has the device, the defaults and each 
   device.apiVersion = (1u << 22) | (3u << 12) | 230;
   device.subgroupSize = 64;
   report.choice = defaultTraceChoice(device);
-  report.tracers = {{.backend = "vulkan",
-                     .variant = TraceVariant{"ray", "storage"},
-                     .isDefault = true,
-                     .comparedCount = 64,
-                     .passed = true,
-                     .raysPerSecond = 2e9},
-                    {.backend = "vulkan", .variant = TraceVariant{"ray", "texel"}, .refusal = "too few texels"},
-                    {.backend = "cpu", .differingCount = 7}};
+  report.tracers = {
+      {.backend = "vulkan",
+       .variant = TraceVariant{TraceKernel::Ray, BvhFetch::Storage},
+       .isDefault = true,
+       .comparedCount = 64,
+       .passed = true,
+       .raysPerSecond = 2e9},
+      {.backend = "vulkan", .variant = TraceVariant{TraceKernel::Ray, BvhFetch::Texel}, .refusal = "too few texels"},
+      {.backend = "cpu", .differingCount = 7}};
   report.solvers = {{.name = "cg", .failure = "the device was lost"}};
   const nlohmann::json json = nlohmann::json::parse(jsonDeviceReport(report));
   CHECK_FALSE(json.at("passed").get<bool>());

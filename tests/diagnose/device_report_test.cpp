@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <string>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/error.h"
 #include "support/require_failure.h"
 
@@ -21,11 +22,14 @@ DeviceReport goodReport() {
   DeviceReport report;
   report.device.emplace();
   report.tracers = {{.backend = "vulkan",
-                     .variant = TraceVariant{"seed", "texel"},
+                     .variant = TraceVariant{TraceKernel::Seed, BvhFetch::Texel},
                      .isDefault = true,
                      .passed = true,
                      .raysPerSecond = 10},
-                    {.backend = "vulkan", .variant = TraceVariant{"ray", "texel"}, .passed = true, .raysPerSecond = 20},
+                    {.backend = "vulkan",
+                     .variant = TraceVariant{TraceKernel::Ray, BvhFetch::Texel},
+                     .passed = true,
+                     .raysPerSecond = 20},
                     {.backend = "cpu", .passed = true, .raysPerSecond = 30}};
   report.solvers = {{.name = "cg", .passed = true}};
   return report;
@@ -71,7 +75,7 @@ TEST_CASE("each variant and solver of the device gives the values of the CPU" * 
     MESSAGE("skipped: no Vulkan device");
     return;
   }
-  const DeviceReport report = reportDevice({.backend = "vulkan"}, {}, kShortest);
+  const DeviceReport report = reportDevice({.backend = BackendChoice::Vulkan}, {}, kShortest);
   REQUIRE(report.device);
   CHECK(report.passed());
   CHECK_FALSE(report.failure);
@@ -80,9 +84,10 @@ TEST_CASE("each variant and solver of the device gives the values of the CPU" * 
   for (const TracerReport& tracer : report.tracers) {
     CAPTURE(tracer.failure);
     REQUIRE(tracer.variant);
-    CAPTURE(tracer.variant->kernel);
-    CAPTURE(tracer.variant->fetch);
-    variants.insert(tracer.variant->kernel + tracer.variant->fetch);
+    const std::string variant =
+        std::string(nameOf(kKernels, tracer.variant->kernel)) + nameOf(kFetches, tracer.variant->fetch);
+    CAPTURE(variant);
+    variants.insert(variant);
     CHECK(tracer.backend == "vulkan");
     if (!tracer.refusal.empty()) continue;
     CHECK(tracer.passed);
@@ -107,7 +112,7 @@ TEST_CASE("each variant and solver of the device gives the values of the CPU" * 
 }
 
 TEST_CASE("without Vulkan the report is of the requested backend, and a stop request ends it") {
-  const DeviceReport report = reportDevice({.backend = "reference"}, {}, kShortest);
+  const DeviceReport report = reportDevice({.backend = BackendChoice::Reference}, {}, kShortest);
   CHECK_FALSE(report.device);
   CHECK(report.passed());
   REQUIRE(report.tracers.size() == 1);
@@ -115,12 +120,13 @@ TEST_CASE("without Vulkan the report is of the requested backend, and a stop req
   CHECK_FALSE(report.tracers[0].variant);
   CHECK(report.solvers.empty());
 
-  test::requireFailure([] { return reportDevice({.backend = "vulkan", .device = "no such device"}, {}, kShortest); },
-                       ErrorCode::NoUsableDevice, "no such device");
+  test::requireFailure(
+      [] { return reportDevice({.backend = BackendChoice::Vulkan, .device = "no such device"}, {}, kShortest); },
+      ErrorCode::NoUsableDevice, "no such device");
   std::stop_source source;
   source.request_stop();
   RunControl control;
   control.stop = source.get_token();
-  test::requireFailure([&] { return reportDevice({.backend = "reference"}, control, kShortest); },
+  test::requireFailure([&] { return reportDevice({.backend = BackendChoice::Reference}, control, kShortest); },
                        ErrorCode::Cancelled);
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -72,10 +73,34 @@ TEST_CASE("options in the pages of docs/man exist") {
   for (const std::string& name : allMatches(page, "[ \n](--[a-z-]+)")) CHECK_MESSAGE(known.contains(name), name);
 }
 
-TEST_CASE("docs/options.md has the rows of the options; asdfvk-write-documents SOURCES writes them") {
-  const std::string page = contentOf("docs/options.md");
+TEST_CASE("the written files are up to date; asdfvk-write-documents SOURCES writes them") {
+  const ReportModel model = reportModel(kSources);
+  const std::string page = contentOf("docs/options.md"), formats = contentOf("docs/formats.md");
   CHECK(optionPage(page) == page);
+  CHECK(formatPage(formats, model) == formats);
+  CHECK(keywordModule() == contentOf("python/asdf_vk/_keywords.py"));
+  CHECK(reportModule(model) == contentOf("python/asdf_vk/_report.py"));
   CHECK(page.find("| `--wall-angle DEGREES` | 120 | above 90 and at most 180 |") != std::string::npos);
+}
+
+TEST_CASE(
+    "the model of the report has each structure once, after those of its members, with the comments of the header") {
+  const ReportModel model = reportModel(kSources);
+  CHECK_EQ(model.structures.back().name, "Report");
+  std::set<std::string> known;
+  for (const ReportEnumeration& row : model.enumerations) CHECK(known.insert(row.name).second);
+  for (const ReportStructure& structure : model.structures) {
+    CAPTURE(structure.name);
+    CHECK_FALSE(structure.comment.empty());
+    for (const ReportMember& member : structure.members) CHECK((member.inner.empty() || known.contains(member.inner)));
+    CHECK(known.insert(structure.name).second);
+  }
+  const std::vector<ReportMember>& members = model.structures.back().members;
+  const auto seeds =
+      std::find_if(members.begin(), members.end(), [](const auto& row) { return row.name == "seedCount"; });
+  REQUIRE(seeds != members.end());
+  CHECK_EQ(seeds->comment, "Triangles that cast rays.");
+  CHECK_EQ(seeds->pythonType, "int");
 }
 
 /// Standard output and error of a shell command, and its exit code.

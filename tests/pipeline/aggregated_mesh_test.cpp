@@ -102,14 +102,14 @@ TEST_CASE("the values of a fine mesh do not depend on the solver, and pooling us
   options.interpolation.pooling = 0.75;
   options.estimatesError = false;  // Held-out faces are chosen by predictions, whose last bits differ on a device.
   const Result onCpu = cpuSession().compute(mesh, options);
-  options.solver = "cg";
+  options.solver = SolverChoice::Cg;
   const Result onDevice = test::vulkanSession().compute(mesh, options);
   CHECK(onDevice.report.solver.name == "cg");
   CHECK(onDevice.seed() == onCpu.seed());
   CHECK(averageError(onDevice.sdf(), onCpu.sdf()) < 1e-5);
   options.estimatesError = true;
   const Result withEstimate = test::vulkanSession().compute(mesh, options);
-  options.solver = "cpu";
+  options.solver = SolverChoice::Cpu;
   const double bound = withEstimate.report.runsOnCpu ? 2e-4 : 1e-3;
   CHECK(averageError(withEstimate.sdf(), cpuSession().compute(mesh, options).sdf()) < bound);
 }

@@ -77,6 +77,7 @@ struct WrongPredictions : ChangedPush<PredictionPush> {
   WrongPredictions() : ChangedPush([](PredictionPush& push) { push.maxNormalCosine = -2; }) {}
 };
 
+constexpr BackendChoice kNext = BackendChoice::Cpu;
 const std::string kNextBackend = "cpu";
 
 /// Two meshes with their values on the device, and on the backend that comes after it.
@@ -85,7 +86,7 @@ struct Expected {
   std::vector<double> onDevice[2], replaced[2];
 
   Expected() {
-    Session device, next({.backend = kNextBackend});
+    Session device, next({.backend = kNext});
     for (const int i : {0, 1}) {
       onDevice[i] = device.compute(meshes[i], test::tenthOfFaces()).sdf();
       replaced[i] = next.compute(meshes[i], test::tenthOfFaces()).sdf();
@@ -136,7 +137,7 @@ void checkReplaced(Session& session, const Mesh& mesh, const Result& result, Err
   CHECK(warning->details[0].value == "vulkan");
   CHECK(warning->details[1].value == nameOf(code));
   CHECK(session.deviceLines().back().starts_with("vulkan: failed: "));
-  Session expected({.backend = kNextBackend});
+  Session expected({.backend = kNext});
   CHECK(test::haveSameBits(result.sdf(), expected.compute(mesh, test::tenthOfFaces()).sdf()));
 }
 
@@ -186,7 +187,7 @@ TEST_CASE("a mesh that exceeds the memory of the device leaves the device to lat
       check(scene.compute(test::tenthOfFaces()), true, expected.replaced[0]);
     }
     Options options = test::tenthOfFaces();
-    options.solver = "cg";
+    options.solver = SolverChoice::Cg;
     check(session.compute(expected.meshes[1], options), false, expected.onDevice[1]);
     check(scene.compute(test::tenthOfFaces()), false, expected.onDevice[0]);
   }
@@ -205,7 +206,7 @@ TEST_CASE("where one allocation fails, a buffer is in other memory and nothing e
 TEST_CASE("a device with wrong values is refused at its first use") {
   const Mesh mesh = makeTorus(1000).mesh;
   {
-    Session session, requested({.backend = "vulkan"});
+    Session session, requested({.backend = BackendChoice::Vulkan});
     const WrongDevice wrong;
     checkReplaced(session, mesh, session.compute(mesh, test::tenthOfFaces()), ErrorCode::NoUsableDevice);
     requireFailure([&] { (void)requested.compute(mesh, test::tenthOfFaces()); }, ErrorCode::NoUsableDevice,
@@ -218,7 +219,7 @@ TEST_CASE("a device with wrong values is refused at its first use") {
 
 TEST_CASE("each kernel is checked at its first use, whatever the mesh") {
   const Mesh cube = shapes::cube(), sheet = shapes::grid(4);  // The sheet has no values that could be wrong.
-  Session session({.backend = "vulkan"});
+  Session session({.backend = BackendChoice::Vulkan});
   (void)session.compute(cube);
   const WrongDevice wrong;
   Options options = test::tenthOfFaces();
@@ -230,7 +231,7 @@ TEST_CASE("each kernel is checked at its first use, whatever the mesh") {
 
 TEST_CASE("a device is not wrong because of the first mesh") {
   const Mesh cube = shapes::doubledCube();  // Rays begin in a face, and hit two at once.
-  Session first({.backend = "vulkan"}), second({.backend = "vulkan"});
+  Session first({.backend = BackendChoice::Vulkan}), second({.backend = BackendChoice::Vulkan});
   const Result alone = first.compute(cube, test::allSeeds());
   (void)second.compute(makeTorus(1000).mesh, test::allSeeds());
   CHECK(test::haveSameBits(second.compute(cube, test::allSeeds()).sdf(), alone.sdf()));
@@ -247,15 +248,15 @@ TEST_CASE("the CPU predicts where the device predicts wrong values") {
   const Warning* warning = findWarning(result.report, WarningCode::PredictedOnCpu);
   REQUIRE(warning != nullptr);
   CHECK(warning->message.find("computes wrong predictions: 768 of 768 faces of a generated mesh") != std::string::npos);
-  options.solver = "cg";
+  options.solver = SolverChoice::Cg;
   requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::NoUsableDevice, "wrong predictions");
 }
 
 TEST_CASE("a requested backend, device, variant or solver of the device is not replaced") {
   const FakeDevice fake(kGpu);
   const Mesh mesh = makeTorus(1000).mesh;
-  for (const SessionOptions& options : {SessionOptions{.backend = "vulkan"}, SessionOptions{.device = "0"},
-                                        SessionOptions{.variant = {.kernel = "ray"}}}) {
+  for (const SessionOptions& options : {SessionOptions{.backend = BackendChoice::Vulkan}, SessionOptions{.device = "0"},
+                                        SessionOptions{.variant = {.kernel = TraceKernel::Ray}}}) {
     Session session(options);
     {
       const FullDevice full;
@@ -272,7 +273,7 @@ TEST_CASE("a requested backend, device, variant or solver of the device is not r
   }
   Session session;
   Options options = test::tenthOfFaces();
-  options.solver = "cg";
+  options.solver = SolverChoice::Cg;
   const LostDevice lost(1);
   requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::DeviceLost);
 }
@@ -280,7 +281,7 @@ TEST_CASE("a requested backend, device, variant or solver of the device is not r
 TEST_CASE("a scene continues with the backend that replaces a lost device") {
   const FakeDevice fake(kGpu);
   const Mesh mesh = makeTorus(1000).mesh;
-  Session session, expectedSession({.backend = kNextBackend});
+  Session session, expectedSession({.backend = kNext});
   Scene scene(session, mesh), other(session, mesh), expected(expectedSession, mesh);
   (void)scene.compute(test::tenthOfFaces());
   (void)other.compute(test::tenthOfFaces());

@@ -26,14 +26,18 @@ class GpuBackend final : public Backend {
 
   explicit GpuBackend(Predictor predictor) : predictor_(predictor) {
     SessionOptions options;
-    options.backend = "vulkan";
+    options.backend = BackendChoice::Vulkan;
     vulkan_ = makeVulkanBackend(options);
   }
 
   [[nodiscard]] std::string deviceName() const override { return vulkan_->deviceName(); }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return vulkan_->deviceLines(); }
   [[nodiscard]] bool runsOnCpu() const override { return false; }
-  [[nodiscard]] const Device* device() const override { return vulkan_->device(); }
+  [[nodiscard]] bool hasDevice() const override { return true; }
+  [[nodiscard]] const Solver& automaticSolver() const override { return defaultSolver(true); }
+  [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const override {
+    return vulkan_->makeSolver(choice);
+  }
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        const TracerNeeds& needs) override {
     return vulkan_->makeTracer(scene, cone, needs);
@@ -72,7 +76,7 @@ struct DeviceOutcome {
   int predictorCount = 0;
 };
 
-DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver) {
+DeviceOutcome runWith(GpuBackend::Predictor predictor, SolverChoice solver) {
   DeviceOutcome outcome;
   Options options = test::tenthOfFaces();
   options.solver = solver;
@@ -98,13 +102,13 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver
 
 TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one warning") {
   using enum GpuBackend::Predictor;
-  const DeviceOutcome device = runWith(Works, "auto"), cpu = runWith(Works, "eigen");
+  const DeviceOutcome device = runWith(Works, SolverChoice::Automatic), cpu = runWith(Works, SolverChoice::Eigen);
   CHECK(device.warnings.empty());
   CHECK(device.predictorCount == 1);
   CHECK(cpu.predictorCount == 0);
-  CHECK(test::haveSameBits(device.values, runWith(Works, "cg").values));
+  CHECK(test::haveSameBits(device.values, runWith(Works, SolverChoice::Cg).values));
   for (const GpuBackend::Predictor predictor : {IsMissing, Fails}) {
-    const DeviceOutcome outcome = runWith(predictor, "auto");
+    const DeviceOutcome outcome = runWith(predictor, SolverChoice::Automatic);
     REQUIRE(outcome.warnings.size() == 1);
     CHECK(outcome.warnings[0].code == WarningCode::PredictedOnCpu);
     CHECK(outcome.predictorCount == 1);
@@ -120,5 +124,6 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
 }
 
 TEST_CASE("with a named solver of the device a prediction that fails there is an error") {
-  test::requireFailure([] { (void)runWith(GpuBackend::Predictor::Fails, "cg"); }, ErrorCode::DeviceLost, "was lost");
+  test::requireFailure([] { (void)runWith(GpuBackend::Predictor::Fails, SolverChoice::Cg); }, ErrorCode::DeviceLost,
+                       "was lost");
 }

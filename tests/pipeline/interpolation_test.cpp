@@ -9,7 +9,7 @@
 #include "generate/shapes.h"
 #include "mesh/dual_graph.h"
 #include "pipeline/average_error.h"
-#include "pipeline/backend.h"
+#include "pipeline/vulkan/vulkan_backend.h"
 #include "smooth/bilateral.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
@@ -34,11 +34,11 @@ Options with(Guidance guidance) {
 TEST_CASE("each sampler with each guidance gives every face of a closed mesh a value") {
   const Mesh mesh = makeHand(1200).mesh;
   for (const Guidance guidance : {Guidance::None, Guidance::Curvature, Guidance::Prediction})
-    for (const std::string& sampler : samplerNames()) {
+    for (const auto& sampler : kSamplerNames) {
       CAPTURE(static_cast<int>(guidance));
-      CAPTURE(sampler);
+      CAPTURE(sampler.first);
       Options options = with(guidance);
-      options.sampler = sampler;
+      options.sampler = sampler.second;
       const Result result = compute(mesh, options);
       CHECK(result.report.noValueCount == 0);
       CHECK(result.report.solver.converged);
@@ -112,12 +112,12 @@ TEST_CASE("guidance by curvature changes the values") {
 TEST_CASE("values are within those of the seeds of their component, whatever the guidance and the solver") {
   const Mesh first = makeHand(1200).mesh, second = makeSphere(500, 20).mesh;
   const Mesh mesh = shapes::joined(first, second, {50, 0, 0});
-  const auto checkWithin = [&](Session& session, const char* solver, Guidance guidance) {
-    CAPTURE(solver);
+  const auto checkWithin = [&](Session& session, SolverChoice solver, Guidance guidance) {
+    CAPTURE(nameOf(kSolverNames, solver));
     CAPTURE(static_cast<int>(guidance));
     Options options = with(guidance);
     options.interpolation.weights = ArcWeights::Distance;
-    options.sampler = "random";
+    options.sampler = SamplerChoice::Random;
     options.seeds = SeedCount::ofShare(0.02);
     options.solver = solver;
     const Result result = session.compute(mesh, options);
@@ -140,10 +140,11 @@ TEST_CASE("values are within those of the seeds of their component, whatever the
     CHECK(result.report.clampedCount == limitedCount);
     if (guidance == Guidance::Curvature) CHECK(limitedCount > 10);
   };
-  const bool hasSolvers = test::hasBuffersForSolvers(*openBackend({.backend = "vulkan"}).backend->device());
+  const bool hasSolvers =
+      test::hasBuffersForSolvers(*vulkanDeviceOf(*openBackend({.backend = BackendChoice::Vulkan}).backend));
   for (const Guidance guidance : {Guidance::None, Guidance::Curvature}) {
-    for (const char* solver : {"cpu", "eigen"}) checkWithin(referenceSession(), solver, guidance);
-    if (hasSolvers) checkWithin(test::vulkanSession(), "cg", guidance);
+    for (const SolverChoice solver : {SolverChoice::Cpu, SolverChoice::Eigen}) checkWithin(referenceSession(), solver, guidance);
+    if (hasSolvers) checkWithin(test::vulkanSession(), SolverChoice::Cg, guidance);
   }
 }
 
@@ -215,9 +216,9 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         o.rounds.maxError = 0.5;
       },
       ErrorCode::OptionConflict, "with seeds=all every face is a seed");
-  requireFailure([](Options& o) { o.sampler = "spiral"; }, ErrorCode::UnknownName,
-                 "sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
-  requireFailure([](Options& o) { o.solver = "gauss"; }, ErrorCode::UnknownName, "'gauss'");
+  requireFailure([](Options& o) { o.sampler = static_cast<SamplerChoice>(99); }, ErrorCode::UnknownName,
+                 "sampler: '' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
+  requireFailure([](Options& o) { o.solver = static_cast<SolverChoice>(99); }, ErrorCode::UnknownName, "solver: ''");
   requireFailure(
       [](Options& o) { o.smoothing = {.isOn = true, .window = SmoothingOptions::Window{.rings = 5, .passes = 1}}; },
       ErrorCode::OptionOutOfRange, "");

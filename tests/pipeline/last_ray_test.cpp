@@ -91,14 +91,14 @@ struct Outcome {
 
 Outcome run(Options options, bool keepsNodes = false) {
   Outcome outcome;
-  options.solver = "recording";
+  options.solver = SolverChoice::Cpu;
   const Mesh mesh = makeTorus(4000).mesh;
   PreparedScene prepared(prepareMesh(mesh, Orientation::Keep));
   const TraceScene scene = prepared.view();
   const Cone cone = makeCone(options.cone);
   RecordingBackend backend(outcome.events);
   Solvers solvers;
-  solvers["recording"] = std::make_unique<RecordingSolver>(outcome.events);
+  solvers[SolverChoice::Cpu] = std::make_unique<RecordingSolver>(outcome.events);
   StageSeconds seconds;
   StageClock clock(seconds);
   std::vector<Warning> warnings;
@@ -121,7 +121,7 @@ TEST_CASE("the tracer is released once, after the last ray and before all soluti
     CAPTURE(isAdaptive);
     Options options;
     options.seeds = SeedCount::ofShare(0.1);
-    if (isAdaptive) options.sampler = "adaptive";
+    if (isAdaptive) options.sampler = SamplerChoice::Adaptive;
     const Outcome outcome = run(options);
     CHECK(outcome.roundCount == (isAdaptive ? 2u : 1u));
     CHECK(outcome.count(Event::Release) == 1);

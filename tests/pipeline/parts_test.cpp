@@ -32,7 +32,7 @@ Options withParts(double seedShare = 1) {
 }
 
 Session& fastSession() {
-  static Session session({.backend = "cpu"});
+  static Session session({.backend = BackendChoice::Cpu});
   return session;
 }
 

@@ -71,7 +71,7 @@ TEST_CASE("every eighth mesh of the Princeton benchmark: Vulkan agrees with the 
 }
 
 TEST_CASE("real meshes: the CPU tracer agrees with the reference") {
-  Session session({.backend = "cpu"});
+  Session session({.backend = BackendChoice::Cpu});
   for (const char* folder : {"models", "open", "defects"})
     for (const fs::path& path : realMeshes(folder)) checkParity(path, session);
 }
@@ -132,7 +132,7 @@ void checkPoints(const fs::path& path, Session& session) {
 
 TEST_CASE("real models: points at barycentres have the values of the faces") {
   std::vector<Session*> sessions{&test::vulkanSession(), &test::referenceSession()};
-  Session cpu({.backend = "cpu"});
+  Session cpu({.backend = BackendChoice::Cpu});
   sessions.push_back(&cpu);
   for (const fs::path& path : realMeshes("models"))
     for (Session* session : sessions) checkPoints(path, *session);

@@ -36,7 +36,7 @@ double errorBy(Recipe recipe, const Mesh& mesh, const std::vector<double>& truth
 
 TEST_CASE("paper is the method of the paper") {
   const Options options = optionsOf(Recipe::Paper);
-  CHECK(options.sampler == "random");
+  CHECK(options.sampler == SamplerChoice::Random);
   CHECK(options.interpolation.weights == ArcWeights::Distance);
   CHECK(options.interpolation.guidance == Guidance::Curvature);
   CHECK(options.interpolation.pooling == 0);
@@ -45,7 +45,7 @@ TEST_CASE("paper is the method of the paper") {
 
 TEST_CASE("balanced is the default") {
   const Options options = optionsOf(Recipe::Balanced), defaults;
-  CHECK(options.sampler == "blue-noise");
+  CHECK(options.sampler == SamplerChoice::BlueNoise);
   CHECK(options.interpolation.weights == ArcWeights::Feature);
   CHECK(options.interpolation.guidance == Guidance::Prediction);
   CHECK(options.interpolation.pooling == 0);
@@ -57,7 +57,7 @@ TEST_CASE("balanced is the default") {
 
 TEST_CASE("quality is balanced with hashed cones and pooled values") {
   const Options options = optionsOf(Recipe::Quality);
-  CHECK(options.sampler == "blue-noise");
+  CHECK(options.sampler == SamplerChoice::BlueNoise);
   CHECK(options.interpolation.weights == ArcWeights::Feature);
   CHECK(options.interpolation.guidance == Guidance::Prediction);
   CHECK(options.interpolation.pooling > 0);
@@ -71,7 +71,7 @@ TEST_CASE("a recipe replaces another one and changes no other option") {
     options.randomSeed = 77;
     options.cone.rayCount = 12;
     options.cone.openingAngleDegrees = 100;
-    options.solver = "eigen";
+    options.solver = SolverChoice::Eigen;
     options.solverOptions.tolerance = 1e-7;
     options.estimatesError = false;
     options.rounds.maxError = 0.5;
@@ -89,7 +89,7 @@ TEST_CASE("a recipe replaces another one and changes no other option") {
     CHECK(options.randomSeed == 77);
     CHECK(options.cone.rayCount == 12);
     CHECK(options.cone.openingAngleDegrees == 100);
-    CHECK(options.solver == "eigen");
+    CHECK(options.solver == SolverChoice::Eigen);
     CHECK(options.solverOptions.tolerance == 1e-7);
     CHECK_FALSE(options.estimatesError);
     CHECK(options.rounds.maxError == 0.5);
@@ -125,7 +125,7 @@ TEST_CASE("the equation needs no more iterations than stored") {
   for (const auto& stored : {std::pair("animal", 14u), std::pair("hand", 15u), std::pair("tree", 13u)}) {
     CAPTURE(std::string(stored.first));
     Options options;
-    options.solver = "cpu";
+    options.solver = SolverChoice::Cpu;
     const Mesh mesh = generateShape(stored.first, 20'000).mesh;
     const SolverReport report = referenceSession().compute(mesh, options).report.solver;
     CHECK(report.converged);

@@ -106,12 +106,12 @@ TEST_CASE("a first round that is good enough is the only one") {
 
 TEST_CASE("a further round keeps all seeds of the rounds before, whatever the sampler") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  for (const std::string& sampler : samplerNames()) {
-    CAPTURE(sampler);
+  for (const auto& sampler : kSamplerNames) {
+    CAPTURE(sampler.first);
     Options options = roundsUntil(0.9);
-    options.sampler = sampler;
+    options.sampler = sampler.second;
     const Result first = computeRounds(mesh, options);
-    CHECK(first.report.roundCount == (sampler == "adaptive" ? 2u : 1u));
+    CHECK(first.report.roundCount == (sampler.second == SamplerChoice::Adaptive ? 2u : 1u));
     for (const double maxError : {0.02, 0.012}) {
       options.rounds.maxError = maxError;
       const Result further = computeRounds(mesh, options);
@@ -135,8 +135,8 @@ TEST_CASE("an error that is out of reach makes every face a seed, and there is n
 
 TEST_CASE("seeds that a round gave to components without one are not chosen again") {
   const Mesh mesh = manySpheres();
-  for (const std::string sampler : {"random", "blue-noise", "adaptive"}) {
-    CAPTURE(sampler);
+  for (const SamplerChoice sampler : {SamplerChoice::Random, SamplerChoice::BlueNoise, SamplerChoice::Adaptive}) {
+    CAPTURE(nameOf(kSamplerNames, sampler));
     for (const double maxError : {0.005, 1e-9}) {
       Options options = roundsUntil(maxError);
       options.seeds = SeedCount::ofShare(0.005);
@@ -158,7 +158,7 @@ TEST_CASE("the adaptive sampler casts as many rays in two rounds, and its error 
   const Mesh mesh = makeHand(4000).mesh;
   const std::vector<double> truth = test::tracedEverywhere(mesh);
   Options adaptive = test::tenthOfFaces();
-  adaptive.sampler = "adaptive";
+  adaptive.sampler = SamplerChoice::Adaptive;
   const Result blueNoise = computeRounds(mesh, test::tenthOfFaces()), twoPasses = computeRounds(mesh, adaptive);
   CHECK(twoPasses.report.roundCount == 2);
   CHECK(twoPasses.report.seedCount == blueNoise.report.seedCount);
@@ -174,7 +174,7 @@ TEST_CASE("adaptive seeds are as many as requested where no estimate is requeste
   Options options = test::tenthOfFaces();
   options.estimatesError = false;
   const uint64_t requested = computeRounds(mesh, options).report.seedCount;
-  options.sampler = "adaptive";
+  options.sampler = SamplerChoice::Adaptive;
   const Result result = computeRounds(mesh, options);
   CHECK_FALSE(result.report.estimatedError.has_value());
   CHECK(result.report.roundCount == 2);
@@ -185,9 +185,9 @@ TEST_CASE("adaptive seeds are as many as requested where no estimate is requeste
 TEST_CASE("seeds too few to hold any out give no estimate, and those that are enough do") {
   const Mesh mesh = makeAnimal(2500).mesh;
   Options options = test::tenthOfFaces();
-  for (const std::string sampler : {"blue-noise", "adaptive"})
+  for (const SamplerChoice sampler : {SamplerChoice::BlueNoise, SamplerChoice::Adaptive})
     for (const uint64_t count : {1, 2, 3, 9, 40}) {
-      CAPTURE(sampler);
+      CAPTURE(nameOf(kSamplerNames, sampler));
       CAPTURE(count);
       options.sampler = sampler;
       options.seeds = SeedCount::ofCount(count);

@@ -223,10 +223,10 @@ TEST_CASE("a share of a region is seeds in it, and the rest of it is interpolate
   const auto inside = static_cast<uint64_t>(std::count(region.begin(), region.end(), 1));
   Scene scene(referenceSession(), mesh);
   const std::vector<double> exact = scene.compute(allSeeds()).sdf();
-  for (const std::string& sampler : samplerNames()) {
-    CAPTURE(sampler);
+  for (const auto& sampler : kSamplerNames) {
+    CAPTURE(sampler.first);
     Options options = test::tenthOfFaces();
-    options.sampler = sampler;
+    options.sampler = sampler.second;
     const Result result = scene.compute(options, region);
     CHECK(result.report.seedCount >= (inside + 5) / 10);
     CHECK(result.report.seedCount <= (inside + 5) / 10 + 2);
@@ -364,7 +364,7 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
 TEST_CASE("hundreds of scenes leave no memory behind" * doctest::test_suite("slow")) {
   const Mesh mesh = shapes::sphere(1);
   const std::vector<double> point{1, 0, 0};
-  for (const char* backend : {"reference", "cpu"}) {
+  for (const BackendChoice backend : {BackendChoice::Reference, BackendChoice::Cpu}) {
     Session session({.backend = backend});
     const auto runScenes = [&](int count) {
       for (int i = 0; i < count; ++i) {
@@ -376,7 +376,7 @@ TEST_CASE("hundreds of scenes leave no memory behind" * doctest::test_suite("slo
     runScenes(100);
     const double before = residentBytes();
     runScenes(400);
-    CAPTURE(backend);
+    CAPTURE(nameOf(kBackendNames, backend));
     CHECK(residentBytes() - before < 4e6);
   }
 }

@@ -130,10 +130,10 @@ TEST_CASE("extreme seeds are the faces with the greatest predictions that are no
 TEST_CASE("each sampler gives the requested numbers of seeds and held-out faces, all different, in every round") {
   const Sample sample(makeAnimal(2500).mesh);
   const PreparedMesh& mesh = sample.prepared;
-  for (const std::string& sampler : samplerNames()) {
-    CAPTURE(sampler);
+  for (const auto& sampler : kSamplerNames) {
+    CAPTURE(sampler.first);
     Options options;
-    options.sampler = sampler;
+    options.sampler = sampler.second;
     SeedChoice chosen;
     for (const uint64_t count : {100u, 40u, 300u}) {
       const SeedChoice choice = choose(mesh, options, shares(count, count / 4), chosen, {});
@@ -151,10 +151,10 @@ TEST_CASE("each sampler gives the requested numbers of seeds and held-out faces,
 TEST_CASE("all remaining faces can be chosen") {
   const Sample sample(makeTorus(400).mesh);
   const PreparedMesh& mesh = sample.prepared;
-  for (const std::string& sampler : samplerNames()) {
-    CAPTURE(sampler);
+  for (const auto& sampler : kSamplerNames) {
+    CAPTURE(sampler.first);
     Options options;
-    options.sampler = sampler;
+    options.sampler = sampler.second;
     const SeedChoice first = choose(mesh, options, shares(100, 25), {}, {});
     const uint64_t left = mesh.traceableFaces.size() - 100;
     const SeedChoice rest = choose(mesh, options, shares(left, 0), first, {});
@@ -166,7 +166,7 @@ TEST_CASE("random seeds do not depend on how many of them are held out") {
   const Sample sample(makeTorus(1000).mesh);
   const PreparedMesh& mesh = sample.prepared;
   Options options;
-  options.sampler = "random";
+  options.sampler = SamplerChoice::Random;
   const SeedChoice without = choose(mesh, options, shares(120, 0), {}, {});
   const SeedChoice with = choose(mesh, options, shares(120, 30), {}, {});
   CHECK(without.heldOut.empty());
@@ -208,7 +208,7 @@ TEST_CASE("an adaptive choice is denser where the density is great") {
   for (uint32_t face = 0; face < 2000; ++face)
     if (isUp(face)) density[face] = 1;
   Options options;
-  options.sampler = "adaptive";
+  options.sampler = SamplerChoice::Adaptive;
   const SeedChoice first = choose(mesh, options, shares(50, 12), {}, {});
   const SeedChoice second = choose(mesh, options, shares(100, 0), first, density);
   CHECK(isAscendingWithoutRepeats(allOf(joined(first, second))));

@@ -133,7 +133,7 @@ TEST_CASE("components are segments of their own, on every backend the same ones"
     CHECK(result.report.segmentCount == 3);
   };
   check(referenceSession());
-  Session cpu({.backend = "cpu"});
+  Session cpu({.backend = BackendChoice::Cpu});
   check(cpu);
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
-#include "pipeline/backend.h"
+#include "pipeline/vulkan/vulkan_backend.h"
 #include "support/bits.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
@@ -33,22 +33,24 @@ std::vector<Task> makeTasks(bool usesDeviceSolvers) {
   tasks.push_back({plate, {}});
   applyDefinition(Definition::Cgal, tasks.back().options);
   if (usesDeviceSolvers)
-    for (const char* solver : {"cg", "jacobi"}) {
+    for (const SolverChoice solver : {SolverChoice::Cg, SolverChoice::Jacobi}) {
       tasks.push_back({shapes::torus(2, 0.5, 30, 20), {}});
       tasks.back().options.solver = solver;
     }
   return tasks;
 }
 
-bool hasSolversOnDevice() { return test::hasBuffersForSolvers(*openBackend({.backend = "vulkan"}).backend->device()); }
+bool hasSolversOnDevice() {
+  return test::hasBuffersForSolvers(*vulkanDeviceOf(*openBackend({.backend = BackendChoice::Vulkan}).backend));
+}
 
 }  // namespace
 
 TEST_CASE("results do not depend on what the session computed before") {
-  for (const std::string backend : {"vulkan", "cpu"}) {
-    CAPTURE(backend);
+  for (const BackendChoice backend : {BackendChoice::Vulkan, BackendChoice::Cpu}) {
+    CAPTURE(nameOf(kBackendNames, backend));
     Session forwards({.backend = backend}), backwards({.backend = backend});
-    const std::vector<Task> tasks = makeTasks(backend == "vulkan" && hasSolversOnDevice());
+    const std::vector<Task> tasks = makeTasks(backend == BackendChoice::Vulkan && hasSolversOnDevice());
     std::vector<std::vector<double>> values;
     for (const Task& task : tasks) values.push_back(forwards.compute(task.mesh, task.options).sdf());
     for (size_t i = tasks.size(); i-- > 0;) {

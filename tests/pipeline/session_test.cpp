@@ -9,8 +9,8 @@
 #include "asdf_vk/session.h"
 #include "core/stopwatch.h"
 #include "generate/shapes.h"
-#include "pipeline/backend.h"
 #include "pipeline/prepared_mesh.h"
+#include "pipeline/vulkan/vulkan_backend.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
@@ -28,7 +28,8 @@ namespace {
 
 /// Whether the solvers on the device run there.
 bool hasDeviceSolvers() {
-  static const bool has = test::hasBuffersForSolvers(*openBackend({.backend = "vulkan"}).backend->device());
+  static const bool has =
+      test::hasBuffersForSolvers(*vulkanDeviceOf(*openBackend({.backend = BackendChoice::Vulkan}).backend));
   return has;
 }
 
@@ -73,7 +74,7 @@ TEST_CASE("without guidance interpolated values stay within the range of the see
 
 TEST_CASE("two runs give the same bits") {
   const Mesh mesh = makeTorus(2000).mesh;
-  for (const std::string solver : {"eigen", hasDeviceSolvers() ? "cg" : "cpu"}) {
+  for (const SolverChoice solver : {SolverChoice::Eigen, hasDeviceSolvers() ? SolverChoice::Cg : SolverChoice::Cpu}) {
     Options options = test::tenthOfFaces();
     options.solver = solver;
     CHECK(vulkanSession().compute(mesh, options).sdf() == vulkanSession().compute(mesh, options).sdf());
@@ -128,14 +129,14 @@ TEST_CASE("options out of range are errors, also where nothing uses them") {
   requireRefusal("maxError: 1 is not an error", [](Options& options) { options.rounds.maxError = 1; });
   Options options = test::tenthOfFaces();
   options.seeds = SeedCount::all();
-  options.solver = "gauss";
-  requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::UnknownName, "gauss");
+  options.solver = static_cast<SolverChoice>(99);
+  requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::UnknownName, "solver");
 }
 
 TEST_CASE("the reference has no solver on a device") {
   const Mesh mesh = makeSphere(80).mesh;
   Options options = test::tenthOfFaces();
-  options.solver = "cg";
+  options.solver = SolverChoice::Cg;
   requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::NoDeviceForKernel,
                  "the solver cg runs on a Vulkan device");
 }
@@ -145,9 +146,9 @@ TEST_CASE("all solvers give the same values") {
   const Mesh mesh = makeTorus(3000).mesh;
   Options options = test::tenthOfFaces();
   options.solverOptions.tolerance = 1e-6;
-  options.solver = "eigen";
+  options.solver = SolverChoice::Eigen;
   const std::vector<double> eigen = vulkanSession().compute(mesh, options).sdf();
-  for (const std::string solver : {"cg", "jacobi"}) {
+  for (const SolverChoice solver : {SolverChoice::Cg, SolverChoice::Jacobi}) {
     options.solver = solver;
     CHECK(largestRelativeDifference(vulkanSession().compute(mesh, options).sdf(), eigen) < 1e-3);
   }
@@ -157,7 +158,7 @@ TEST_CASE("a warning reports that the CPU finished where float32 of the device d
   if (!hasDeviceSolvers()) return;
   const Mesh mesh = makeTorus(1000).mesh;
   Options options = test::tenthOfFaces();
-  options.solver = "cg";
+  options.solver = SolverChoice::Cg;
   const auto finishedOnCpu = [&] {
     const Report report = vulkanSession().compute(mesh, options).report;
     const bool isWarned = findWarning(report, WarningCode::FinishedOnCpu) != nullptr;
@@ -220,7 +221,7 @@ TEST_CASE("progress goes from 0 to 1 and never back") {
 
 TEST_CASE("stages that ran have a time, others have 0, and no time is counted twice") {
   std::vector<Session*> sessions{&referenceSession(), &vulkanSession()};
-  Session cpu({.backend = "cpu"});
+  Session cpu({.backend = BackendChoice::Cpu});
   sessions.push_back(&cpu);
   const Mesh mesh = makeTorus(3000).mesh;
   for (Session* session : sessions) {
@@ -245,7 +246,7 @@ TEST_CASE("stages that ran have a time, others have 0, and no time is counted tw
 }
 
 TEST_CASE("the CPU tracer gives the values of the reference, and the check treats it as independent") {
-  Session session({.backend = "cpu"});
+  Session session({.backend = BackendChoice::Cpu});
   const Mesh mesh = makeTorus(4000).mesh;
   Options options = allSeeds();
   options.checkCount = 4000;
@@ -256,7 +257,7 @@ TEST_CASE("the CPU tracer gives the values of the reference, and the check treat
   CHECK(report.check->independent);
   CHECK(report.check->tracedCount > 3000);
   CHECK(report.check->passed == true);
-  options.solver = "cg";
+  options.solver = SolverChoice::Cg;
   options.seeds = {};
   requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::NoDeviceForKernel, "the solver cg");
 }

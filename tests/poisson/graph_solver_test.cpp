@@ -97,12 +97,13 @@ void checkValues(const std::vector<double>& values, const std::vector<double>& e
 TEST_CASE("solvers of a device have the solution of the CPU on one matrix for different constraints") {
   const test::ValidatedDevice device;
   if (!test::hasBuffersForSolvers(*device)) return;
-  for (const std::string name : {"cg", "jacobi"}) {
-    CAPTURE(name);
-    const std::unique_ptr<PoissonSolver> solver = makeSolver(name, &*device);
+  for (const SolverChoice choice : {SolverChoice::Cg, SolverChoice::Jacobi}) {
+    CAPTURE(nameOf(kSolverNames, choice));
+    const std::unique_ptr<PoissonSolver> solver = makeSolver(choice, &*device);
     forEachSetting([&](const Setting& setting) {
       // Where weights differ by many decades, Jacobi iterations do not converge in any practical number.
-      if (name == "jacobi" && (!setting.problem.isManifold || setting.kind != ArcWeights::Distance)) return;
+      if (choice == SolverChoice::Jacobi && (!setting.problem.isManifold || setting.kind != ArcWeights::Distance))
+        return;
       const DualGraph& graph = setting.problem.graph;
       const std::vector<uint32_t> componentOf = searchComponents(graph);
       const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(graph, setting.weights);
@@ -111,7 +112,7 @@ TEST_CASE("solvers of a device have the solution of the CPU on one matrix for di
         for (const uint64_t randomSeed : {1u, 1u, 2u, 2u, 1u}) {
           const GraphCase given = randomCase(graph, componentOf, randomSeed, divergence);
           // Below kMinDeviceTolerance the CPU finishes.
-          const double precise = name == "cg" ? 1e-10 : 1e-7;
+          const double precise = choice == SolverChoice::Cg ? 1e-10 : 1e-7;
           const SolverOptions options{.tolerance = randomSeed == 2 ? precise : 2e-6, .maxIterations = 100'000};
           std::vector<double> values;
           const SolverReport report = onGraph->solve(given.problem(), options, values, {});
@@ -142,7 +143,7 @@ TEST_CASE("a solver on a graph finishes on the CPU where float32 does not reach 
   const SampleProblem sample("torus", torus(40, 20));
   const UnsetVector<double> weights = distanceWeights(sample.graph, sample.geometry);
   const GraphCase given = randomCase(sample.graph, searchComponents(sample.graph), 3, {true, true});
-  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
+  const std::unique_ptr<PoissonSolver> solver = makeSolver(SolverChoice::Cg, &*device);
   const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(sample.graph, weights);
   std::vector<double> values = given.constraints;
   const SolverReport unreachable =
@@ -161,7 +162,7 @@ TEST_CASE("on a device, too, constraints of 0 give 0, and faces without a path t
   if (!test::hasBuffersForSolvers(*device)) return;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 0, 0}, {6, 0, 0}, {9, 9, 9}}, {{0, 1}, {1, 2}, {3, 4}});
   const UnsetVector<double> weights = distanceWeights(hand.graph, hand.geometry);
-  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
+  const std::unique_ptr<PoissonSolver> solver = makeSolver(SolverChoice::Cg, &*device);
   const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(hand.graph, weights);
   GraphCase given{.constraints = {0, kNoValue, 0, kNoValue, kNoValue, kNoValue},
                   .firstGuess = std::vector<double>(6, 4.0),
@@ -274,7 +275,7 @@ TEST_CASE("the relative result of a solver on a graph does not depend on the uni
   const SampleProblem sample("torus", torus(40, 20));
   const UnsetVector<double> weights = distanceWeights(sample.graph, sample.geometry);
   const GraphCase given = randomCase(sample.graph, searchComponents(sample.graph), 3, {true, false});
-  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
+  const std::unique_ptr<PoissonSolver> solver = makeSolver(SolverChoice::Cg, &*device);
   const std::vector<double> expected = valuesOnCpu(sample.graph, weights, given);
   for (const double unitOfValues : {1e-310, 1e-290, 1e-12, 1.0, 1e290})
     for (const double unitOfWeights : {1e-290, 1.0, 1e290}) {
@@ -305,7 +306,7 @@ TEST_CASE("a component of small values is solved beside one of large values") {
                         .firstGuess = {2, 2, 2, 0.002, 0.0021, 0.002},
                         .guide = {1, 2, 3, kNoValue, kNoValue, kNoValue},
                         .componentOf = {0, 0, 0, 1, 1, 1}};
-  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
+  const std::unique_ptr<PoissonSolver> solver = makeSolver(SolverChoice::Cg, &*device);
   std::vector<double> values = given.constraints;
   CHECK(solver->onGraph(hand.graph, weights)->solve(given.problem(), {.tolerance = 1e-6}, values, {}).converged);
   CHECK(values[1] == doctest::Approx(2));
@@ -320,7 +321,7 @@ TEST_CASE("a graph beyond a limit of the device is refused") {
   const Device device(instance.physicalDevices().front(), facts);
   const SampleProblem sample("torus", torus(40, 20));
   const UnsetVector<double> weights = distanceWeights(sample.graph, sample.geometry);
-  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &device);
+  const std::unique_ptr<PoissonSolver> solver = makeSolver(SolverChoice::Cg, &device);
   test::requireFailure([&] { (void)solver->onGraph(sample.graph, weights); }, ErrorCode::EquationLimit,
                        "1600 unknowns");
 }

@@ -123,7 +123,7 @@ TEST_CASE("solvers on the CPU give the same bits on any number of threads") {
     for (const size_t threadCount : {1, 2, 3}) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
       std::vector<double>& solution = solutions[threadCount - 1];
-      const std::unique_ptr<PoissonSolver> made = makeSolver(solver.name, nullptr);
+      const std::unique_ptr<PoissonSolver> made = makeSolver(solver.choice, nullptr);
       const std::unique_ptr<GraphSolver> onGraph = made->onGraph(equation.graph, equation.weights);
       CHECK(onGraph->solve(equation.problem(), {}, solution, {}).converged);
     }

@@ -237,28 +237,27 @@ TEST_CASE("solvers of a device that allows the least number of storage buffers a
   facts.maxStorageBuffersPerStage = 4;
   const Device device(physical, facts);
   for (const Solver& solver : solverTable()) {
-    CAPTURE(solver.name);
+    CAPTURE(nameOf(solver));
     if (!solver.needsDevice)
-      CHECK_NOTHROW((void)makeSolver(solver.name, &device));
+      CHECK_NOTHROW((void)makeSolver(solver.choice, &device));
     else
-      test::requireFailure([&] { (void)makeSolver(solver.name, &device); }, ErrorCode::DeviceLimit, "has 4");
+      test::requireFailure([&] { (void)makeSolver(solver.choice, &device); }, ErrorCode::DeviceLimit, "has 4");
   }
 }
 
 TEST_CASE("the table of solvers has a default for a device and one for the CPU") {
   CHECK(defaultSolver(true).needsDevice);
   CHECK_FALSE(defaultSolver(false).needsDevice);
-  const auto codeOf = [](std::string_view name) {
+  const auto codeOf = [](SolverChoice choice) {
     try {
-      (void)makeSolver(name, nullptr);
+      (void)makeSolver(choice, nullptr);
     } catch (const Error& error) {
       return error.code();
     }
     return ErrorCode::Cancelled;
   };
   for (const Solver& solver : solverTable()) {
-    CHECK(&findSolver(solver.name) == &solver);
-    CHECK((codeOf(solver.name) == ErrorCode::NoDeviceForKernel) == solver.needsDevice);
+    CHECK(&solverOf(solver.choice) == &solver);
+    CHECK((codeOf(solver.choice) == ErrorCode::NoDeviceForKernel) == solver.needsDevice);
   }
-  CHECK(codeOf("fastest") == ErrorCode::UnknownName);
 }

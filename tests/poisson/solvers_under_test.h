@@ -30,8 +30,8 @@ class SolversUnderTest {
     const bool hasBuffers = test::hasBuffersForSolvers(*device_);
     for (const Solver& solver : solverTable()) {
       if (solver.needsDevice && !hasBuffers) continue;
-      const auto found = minTolerances.find(solver.name);
-      solvers_.push_back({solver.name, makeSolver(solver.name, &*device_),
+      const auto found = minTolerances.find(nameOf(solver));
+      solvers_.push_back({nameOf(solver), makeSolver(solver.choice, &*device_),
                           found == minTolerances.end() ? 1e-7 : found->second, solver.needsDevice});
     }
   }

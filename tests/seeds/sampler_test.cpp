@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/run_control.h"
 #include "core/check.h"
 #include "seeds/samplers.h"
@@ -32,7 +33,7 @@ std::vector<uint32_t> sampleByDensity(const SeedDomain& domain, uint64_t count, 
 template <typename Body>
 void forEachSampler(const Body& body) {
   for (const Sampler& sampler : kSamplers) {
-    CAPTURE(sampler.name);
+    CAPTURE(nameOf(kSamplerNames, sampler.choice));
     body(sampler.sample);
   }
   body(sampleByDensity);
@@ -168,13 +169,12 @@ TEST_CASE("an existing face outside of the mesh fails a check") {
       [&](auto sample) { CHECK_THROWS_AS(static_cast<void>(sample(one.domain(), 1, Seeds{2}, 1)), CheckFailure); });
 }
 
-TEST_CASE("samplers are found by their names, which are unique") {
-  std::set<std::string> names;
-  for (const Sampler& sampler : kSamplers) {
-    CHECK(findSampler(sampler.name) == &sampler);
-    names.insert(sampler.name);
+TEST_CASE("each name has a sampler, and no two have the same one") {
+  std::set<const Sampler*> samplers;
+  for (const auto& named : kSamplerNames) {
+    const Sampler& sampler = samplerOf(named.second);
+    CHECK(sampler.choice == named.second);
+    samplers.insert(&sampler);
   }
-  CHECK(names.size() == kSamplers.size());
-  CHECK(findSampler("") == nullptr);
-  CHECK(findSampler("random ") == nullptr);
+  CHECK(samplers.size() == kSamplers.size());
 }

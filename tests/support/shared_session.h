@@ -25,7 +25,7 @@ inline Session& keptSession(const SessionOptions& options) {
 inline Session& vulkanSession() {
   static Session& session = []() -> Session& {
     ::setenv("ASDF_VK_VALIDATION", "1", 1);
-    Session& opened = keptSession({.backend = "vulkan"});
+    Session& opened = keptSession({.backend = BackendChoice::Vulkan});
     requireRequestedDevice(opened.deviceLines().front());
     return opened;
   }();
@@ -33,14 +33,14 @@ inline Session& vulkanSession() {
 }
 
 inline Session& referenceSession() {
-  static Session& session = keptSession({.backend = "reference"});
+  static Session& session = keptSession({.backend = BackendChoice::Reference});
   return session;
 }
 
 /// A session of each backend of this build.
 inline std::vector<Session*> allSessions() {
   std::vector<Session*> sessions{&vulkanSession(), &referenceSession()};
-  static Session& session = keptSession({.backend = "cpu"});
+  static Session& session = keptSession({.backend = BackendChoice::Cpu});
   sessions.push_back(&session);
   return sessions;
 }

@@ -11,6 +11,7 @@
 #include "mesh/arc_angles.h"
 #include "pipeline/backend.h"
 #include "pipeline/generated_mesh.h"
+#include "pipeline/vulkan/vulkan_backend.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 #include "trace/tracer_check.h"
@@ -79,11 +80,13 @@ void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test,
 }
 
 void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
-  for (const auto& [kernelName, kernel] : kKernels) {
-    for (const auto& [fetchName, fetch] : kFetches) {
+  for (const TraceKernel kernel : {TraceKernel::Seed, TraceKernel::Ray, TraceKernel::Packet}) {
+    for (const BvhFetch fetch : {BvhFetch::Texel, BvhFetch::Storage}) {
       control.checkpoint(0);
       const VulkanTraceChoice choice{kernel, fetch};
-      TracerReport tracer{.backend = "vulkan", .variant = variantOf(choice), .isDefault = choice == report.choice};
+      TracerReport tracer{.backend = nameOf(kBackendNames, BackendChoice::Vulkan),
+                          .variant = choice.variant(),
+                          .isDefault = choice == report.choice};
       runTest(tracer, [&] {
         const VulkanConeKernel compiled(
             device, {.rayCount = report.rayCount, .choice = choice, .definition = test.cone.definition});
@@ -137,14 +140,14 @@ void testSolvers(DeviceReport& report, const Device& device, const TestTorus& te
   const auto unknownCount = static_cast<uint32_t>(std::count_if(
       equation.constraints.begin(), equation.constraints.end(), [](double value) { return std::isnan(value); }));
   std::vector<double> expected, values;
-  const std::unique_ptr<PoissonSolver> onCpu = makeSolver(defaultSolver(false).name, nullptr);
+  const std::unique_ptr<PoissonSolver> onCpu = makeSolver(defaultSolver(false).choice, nullptr);
   equation.solveWith(*onCpu->onGraph(equation.graph, equation.weights), expected, {});
   const auto [min, max] = std::minmax_element(expected.begin(), expected.end());
   const double range = *max - *min;
   for (const Solver& solver : solverTable()) {
     if (!solver.needsDevice) continue;
     control.checkpoint(0);
-    SolverCheckReport check{.name = solver.name, .unknownCount = unknownCount};
+    SolverCheckReport check{.name = nameOf(solver), .unknownCount = unknownCount};
     runTest(check, [&] {
       const std::unique_ptr<PoissonSolver> made = solver.make(&device);
       const std::unique_ptr<GraphSolver> onGraph = made->onGraph(equation.graph, equation.weights);
@@ -167,7 +170,7 @@ void testSolvers(DeviceReport& report, const Device& device, const TestTorus& te
 }  // namespace
 
 DeviceReport reportDevice(const SessionOptions& options, const RunControl& control, double secondsPerRun) {
-  const bool isAutomatic = options.backend == "auto";
+  const bool isAutomatic = options.backend == BackendChoice::Automatic;
   SessionOptions requested = options;
   requested.variant = {};
   const TestTorus test(secondsPerRun);
@@ -176,11 +179,11 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
   report.rayCount = static_cast<uint32_t>(test.cone.directions.size());
 
   std::optional<NamedBackend> vulkan;
-  if (isAutomatic) requested.backend = "vulkan";
+  if (isAutomatic) requested.backend = BackendChoice::Vulkan;
   try {
     NamedBackend opened = openBackend(requested);
     report.deviceLines = opened.deviceLines;
-    if (opened.backend->device() == nullptr) {
+    if (vulkanDeviceOf(*opened.backend) == nullptr) {
       testOther(report, opened.name, test, control, [&]() -> Backend& { return *opened.backend; });
     } else {
       vulkan = std::move(opened);
@@ -190,10 +193,10 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
     report.failure = error;
   }
   if (vulkan) {
-    const Device& device = *vulkan->backend->device();
+    const Device& device = *vulkanDeviceOf(*vulkan->backend);
     report.device = device.facts();
     report.choice = traceChoiceFor(device.facts(), {}, test.scene.bvh);
-    report.defaultSolver = automaticSolver(*vulkan->backend).name;
+    report.defaultSolver = nameOf(vulkan->backend->automaticSolver());
     testVariants(report, device, test, control);
     testSolvers(report, device, test, control);
     try {
@@ -204,9 +207,9 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
   }
   if (isAutomatic && !options.requireGpu) {
     NamedBackend cpu;
-    testOther(report, "cpu", test, control, [&]() -> Backend& {
+    testOther(report, nameOf(kBackendNames, BackendChoice::Cpu), test, control, [&]() -> Backend& {
       SessionOptions cpuOptions;
-      cpuOptions.backend = "cpu";
+      cpuOptions.backend = BackendChoice::Cpu;
       cpu = openBackend(cpuOptions);
       return *cpu.backend;
     });

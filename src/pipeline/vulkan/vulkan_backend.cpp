@@ -1,3 +1,5 @@
+#include "pipeline/vulkan/vulkan_backend.h"
+
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -9,7 +11,6 @@
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "pipeline/backend.h"
 #include "pipeline/vulkan/kernel_check.h"
 #include "predict/vulkan/vulkan_prediction.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
@@ -50,7 +51,7 @@ class LavapipeThreads {
 class VulkanBackend final : public Backend {
  public:
   explicit VulkanBackend(const SessionOptions& options)
-      : request_(traceRequestOf(options.variant)),
+      : request_(options.variant),
         instance_(InstanceOptions{.validation = validationRequestedByEnvironment()}),
         opened_(openDevice(instance_, {.selector = options.device, .requireGpu = options.requireGpu})),
         choice_(traceChoiceFor(facts(), request_)) {}
@@ -60,8 +61,10 @@ class VulkanBackend final : public Backend {
   }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
   [[nodiscard]] bool runsOnCpu() const override { return facts().kind == DeviceKind::Cpu; }
-  [[nodiscard]] std::optional<TraceVariant> traceVariant() const override { return variantOf(choice_); }
-  [[nodiscard]] const Device* device() const override { return opened_.device.get(); }
+  [[nodiscard]] std::optional<TraceVariant> traceVariant() const override { return choice_.variant(); }
+  [[nodiscard]] BvhOptions bvhOptions() const override { return {.maxLeafTriangleCount = kMaxWideLeafTriangleCount}; }
+  [[nodiscard]] bool hasDevice() const override { return true; }
+  [[nodiscard]] const Device& device() const { return *opened_.device; }
 
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        const TracerNeeds& needs) override {
@@ -88,6 +91,15 @@ class VulkanBackend final : public Backend {
     return makeVulkanPredictor(*kernels, scene, cone);
   }
 
+  [[nodiscard]] const Solver& automaticSolver() const override {
+    const Solver& onDevice = defaultSolver(true);
+    return !runsOnCpu() && facts().maxStorageBuffersPerStage >= onDevice.storageBufferCount ? onDevice
+                                                                                            : defaultSolver(false);
+  }
+  [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const override {
+    return asdfvk::makeSolver(choice, opened_.device.get());
+  }
+
   void requireSilentValidation() const override {
     if (!instance_.validationLog()) return;
     const std::vector<std::string> messages = instance_.validationLog()->messages();
@@ -108,7 +120,7 @@ class VulkanBackend final : public Backend {
   }
 
   // Members are destroyed in reverse order: each member depends on the members before it.
-  VulkanTraceRequest request_;
+  TraceVariant request_;
   Instance instance_;
   OpenedDevice opened_;
   VulkanTraceChoice choice_;
@@ -118,11 +130,9 @@ class VulkanBackend final : public Backend {
 
 }  // namespace
 
-const Solver& automaticSolver(const Backend& backend) {
-  const Solver& onDevice = defaultSolver(true);
-  const bool usesDevice = backend.device() != nullptr && !backend.runsOnCpu() &&
-                          backend.device()->facts().maxStorageBuffersPerStage >= onDevice.storageBufferCount;
-  return usesDevice ? onDevice : defaultSolver(false);
+const Device* vulkanDeviceOf(const Backend& backend) {
+  const auto* const vulkan = dynamic_cast<const VulkanBackend*>(&backend);
+  return vulkan == nullptr ? nullptr : &vulkan->device();
 }
 
 std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options) {

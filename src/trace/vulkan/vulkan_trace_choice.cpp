@@ -1,24 +1,13 @@
 #include "trace/vulkan/vulkan_trace_choice.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
-#include "asdf_vk/error.h"
 #include "bvh/device_bvh.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxSmallSubgroup = 16;
-
-/// Empty for an empty name and for "auto".
-template <typename T, size_t N>
-std::optional<T> requestedChoice(const ChoiceNames<T, N>& names, const std::string& name) {
-  if (name.empty() || name == "auto") return std::nullopt;
-  if (const T* const choice = findChoice(names, name)) return *choice;
-  throw Error(ErrorCode::UnknownName, fmt::format("no kernel variant is called '{}'", name));
-}
 
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
@@ -33,12 +22,12 @@ VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
   return {hasLargeSubgroups ? TraceKernel::Ray : TraceKernel::Seed, BvhFetch::Storage};
 }
 
-VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
+VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const TraceVariant& request) {
   const VulkanTraceChoice best = defaultTraceChoice(device);
   return {request.kernel.value_or(best.kernel), request.fetch.value_or(best.fetch)};
 }
 
-VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request, const Bvh& bvh) {
+VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const TraceVariant& request, const Bvh& bvh) {
   VulkanTraceChoice choice = traceChoiceFor(device, request);
   const uint64_t blockCount = maxBlockCount(bvh);
   const auto fits = [&](BvhFetch fetch) {
@@ -48,14 +37,6 @@ VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceReq
   const BvhFetch other = choice.fetch == BvhFetch::Texel ? BvhFetch::Storage : BvhFetch::Texel;
   if (!request.fetch && !fits(choice.fetch) && fits(other)) choice.fetch = other;
   return choice;
-}
-
-VulkanTraceRequest traceRequestOf(const TraceVariant& variant) {
-  return {requestedChoice(kKernels, variant.kernel), requestedChoice(kFetches, variant.fetch)};
-}
-
-TraceVariant variantOf(const VulkanTraceChoice& choice) {
-  return {nameOf(kKernels, choice.kernel), nameOf(kFetches, choice.fetch)};
 }
 
 VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel) {
