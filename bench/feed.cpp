@@ -18,6 +18,7 @@
 #include "generate/generated_shape.h"
 #include "pipeline/compute.h"
 #include "predict/vulkan/vulkan_prediction.h"
+#include "seeds/random_permutation.h"
 #include "seeds/samplers.h"
 #include "spirv/constant_lengths.comp.h"
 #include "spirv/trace_rays.comp.h"

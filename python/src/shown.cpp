@@ -20,6 +20,7 @@
 #include "describe/fields.h"
 #include "interruptible.h"
 #include "page/page.h"
+#include "page/result_page.h"
 #include "pipeline/prepared_scene.h"
 #include "render/png.h"
 #include "render/result_picture.h"

@@ -1,6 +1,7 @@
+#include "c/options.h"
+
 #include <fmt/core.h>
 
-#include "c/objects.h"
 #include "core/text.h"
 
 namespace asdfvk::c {

@@ -1,6 +1,7 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
 #include "c/objects.h"
+#include "c/options.h"
 #include "core/length_unit.h"
 #include "core/text.h"
 #include "pipeline/prepared_mesh.h"

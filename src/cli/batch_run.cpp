@@ -19,6 +19,7 @@
 #include "cli/report.h"
 #include "core/atomic_file.h"
 #include "core/parallel.h"
+#include "page/result_page.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 

@@ -11,7 +11,7 @@
 #include "asdf_vk/error.h"
 #include "batch/content_hash.h"
 #include "core/stopwatch.h"
-#include "io/inspected_mesh.h"
+#include "io/files.h"
 
 namespace asdfvk {
 namespace {

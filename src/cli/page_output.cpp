@@ -8,6 +8,7 @@
 
 #include "asdf_vk/choices.h"
 #include "core/text.h"
+#include "page/result_page.h"
 #include "render/result_picture.h"
 
 namespace asdfvk {

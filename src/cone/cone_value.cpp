@@ -1,10 +1,11 @@
+#include "cone/cone_value.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "cone/cone.h"
 #include "core/check.h"
 #include "core/simd.h"
 #include "mesh/mesh.h"

@@ -6,7 +6,7 @@
 
 #include "core/median.h"
 #include "core/parallel.h"
-#include "seeds/samplers.h"
+#include "seeds/random_permutation.h"
 
 namespace asdfvk {
 namespace {

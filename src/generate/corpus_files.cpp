@@ -111,13 +111,6 @@ size_t writeCorpusFiles(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::vector<KnownPart> corpusParts() {
-  std::vector<KnownPart> all;
-  for (const auto& make : {wallParts, edgeParts, gapParts, voidParts, thickParts, soundParts, dangerousParts})
-    for (KnownPart& part : make()) all.push_back(std::move(part));
-  return all;
-}
-
 size_t writeCorpus(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code error;

@@ -1,4 +1,4 @@
-#include "asdf_vk/files.h"
+#include "io/files.h"
 
 #include <fmt/core.h>
 
@@ -12,9 +12,7 @@
 #include "io/files_beside.h"
 #include "io/foreign_formats.h"
 #include "io/formats.h"
-#include "io/grouped_files.h"
 #include "io/input_failure.h"
-#include "io/inspected_mesh.h"
 #include "io/mesh_content.h"
 #include "io/stored_fields.h"
 

@@ -4,6 +4,8 @@
 // COLOR_0 with the colour of the material. Blender ignores the colours of materials if COLOR_0 exists. The fields are
 // attributes _NAME in float32, 0 for no value. If triangles are not in the order of input faces, the attribute _FACE
 // has the input face; this attribute is exact up to 16,777,216.
+#include "io/glb_writer.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>

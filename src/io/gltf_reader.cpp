@@ -15,6 +15,7 @@
 #include "io/assembled_mesh.h"
 #include "io/corner_welder.h"
 #include "io/formats.h"
+#include "io/glb_writer.h"
 #include "io/gltf_file.h"
 #include "io/gltf_primitive.h"
 #include "io/input_failure.h"
@@ -270,8 +271,6 @@ Match detectGltf(std::span<const char> bytes) {
 Mesh parseGltf(const MeshSource& source) { return GltfReader(source).read(); }
 
 }  // namespace
-
-void writeGlb(AtomicFile& file, const ResultView& result);
 
 extern const FileFormat kGlbFormat{
     .name = "glb", .extensions = {"glb", "gltf"}, .detect = detectGltf, .parseMesh = parseGltf, .write = writeGlb};

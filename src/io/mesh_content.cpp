@@ -2,7 +2,7 @@
 
 #include "io/gzip_file.h"
 #include "io/input_failure.h"
-#include "io/stl_file.h"
+#include "io/stl_binary.h"
 #include "io/utf16_text.h"
 
 namespace asdfvk {

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
+#include "io/obj_writer.h"
 #include "io/object_names.h"
 #include "io/text_scanner.h"
 #include "mesh/input_faces.h"
@@ -182,11 +183,6 @@ Match detectObj(std::span<const char> bytes) {
 Mesh parseObj(const MeshSource& source) { return ObjReader(source.bytes).read(); }
 
 }  // namespace
-
-// Defined in obj_writer.cpp.
-void writeObj(AtomicFile& file, const ResultView& result);
-void writeObjMaterials(AtomicFile& file, const ResultView& result);
-bool hasObjMaterials(const ResultView& result);
 
 extern const FileFormat kObjFormat{.name = "obj",
                                    .extensions = {"obj"},

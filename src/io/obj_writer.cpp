@@ -1,5 +1,7 @@
 // Wavefront OBJ: vertices with colours, and the faces in file order. Each part has a material (usemtl), which a second
 // file defines. OBJ cannot store the values of fields.
+#include "io/obj_writer.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -10,9 +10,6 @@
 
 namespace asdfvk {
 
-class AtomicFile;
-class ResultView;
-
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
@@ -61,7 +58,5 @@ struct PlyHeader {
 
 /// Throws Error{UnreadableInput} with the line. Names are views into `bytes`.
 [[nodiscard]] PlyHeader parsePlyHeader(std::span<const char> bytes);
-
-void writePly(AtomicFile& file, const ResultView& result);
 
 }  // namespace asdfvk

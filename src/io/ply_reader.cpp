@@ -14,6 +14,7 @@
 #include "io/input_failure.h"
 #include "io/ply_header.h"
 #include "io/ply_source.h"
+#include "io/ply_writer.h"
 #include "mesh/input_faces.h"
 
 namespace asdfvk {

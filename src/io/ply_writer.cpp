@@ -1,6 +1,8 @@
 // PLY: vertices with their fields, then faces with the list `uchar int vertex_indices` (`int int` above 255 corners)
 // and their fields. The main field is `float quality`; the colour of the shown field is `uchar red green blue alpha`.
 // The other fields follow by name as float, uchar or uint.
+#include "io/ply_writer.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,7 +18,6 @@
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
-#include "io/ply_header.h"
 #include "io/result_colours.h"
 #include "io/stored_fields.h"
 

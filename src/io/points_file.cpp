@@ -1,5 +1,7 @@
 // Writes skeleton points as binary PLY, or as trees in SWC, the text format of neurons (Cannon et al. 1998). The PLY
 // has the element `vertex` with double x y z and float radius; with segments, also uint part.
+#include "io/points_file.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include "core/atomic_file.h"
 #include "core/buckets.h"
 #include "core/text.h"
-#include "io/grouped_files.h"
 #include "mesh/spanning_tree.h"
 
 namespace asdfvk {

@@ -2,6 +2,8 @@
 // is any text up to the end of its line. Each solid is an object. Comments, lines of colours, further lines of a name
 // and a repeated line `solid` are ignored and reported. The words `facet normal` always begin a face, also within a
 // name, so that no face is taken for a part of a name.
+#include "io/stl_ascii.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +15,7 @@
 #include "core/text.h"
 #include "io/input_failure.h"
 #include "io/object_names.h"
-#include "io/stl_file.h"
+#include "io/stl_reader.h"
 #include "io/text_scanner.h"
 
 namespace asdfvk {

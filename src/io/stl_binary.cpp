@@ -2,6 +2,8 @@
 // wrong one, append bytes, or insert data after each face. Such a file is read if its faces are beyond doubt
 // (areFacesBeyondDoubt()) and no other reading of the file is possible. A file that is too short for its face count is
 // truncated and always refused.
+#include "io/stl_binary.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 #include "core/text.h"
 #include "core/vec3.h"
 #include "io/input_failure.h"
-#include "io/stl_file.h"
+#include "io/stl_reader.h"
 
 namespace asdfvk {
 namespace {

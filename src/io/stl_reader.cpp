@@ -1,11 +1,14 @@
 // STL, in ASCII (stl_ascii.cpp) or binary (stl_binary.cpp). The reader ignores normals and attribute bytes: the order
 // of the corners decides which side is outside.
+#include "io/stl_reader.h"
+
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
 #include "io/formats.h"
-#include "io/stl_file.h"
+#include "io/stl_ascii.h"
+#include "io/stl_binary.h"
 #include "mesh/input_faces.h"
 
 namespace asdfvk {

@@ -88,12 +88,6 @@ void requireIndices(const MeshView& view) {
 
 }  // namespace
 
-void requireAtMost(uint64_t limit, uint64_t count, const char* plural) {
-  if (count > limit)
-    throw Error(ErrorCode::MeshTooLarge,
-                fmt::format("the mesh has {} {}; at most {} are supported", count, plural, limit));
-}
-
 void requireValidArrays(const MeshView& view) {
   requireMultipleOf3(view.doubles().size() + view.floats().size(), "vertex positions");
   if (view.firstCorner().empty()) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -12,18 +11,16 @@
 #include <vector>
 
 #include "asdf_vk/field.h"
-#include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
 #include "describe/report_text.h"
 #include "describe/shown_places.h"
 #include "mesh/mesh.h"
 #include "page/page_arrays.h"
+#include "page/segment_list.h"
 
 namespace asdfvk {
 
 class AtomicFile;
-class AtomicFiles;
-struct View;
 
 using FieldSpan = std::span<const std::reference_wrapper<const Field>>;
 
@@ -31,14 +28,6 @@ using FieldSpan = std::span<const std::reference_wrapper<const Field>>;
 struct PageThinPlaces {
   ShownPlaces shown;
   ThinSurface surface;
-};
-
-struct PageSegment {
-  uint32_t label = 0;
-  uint64_t faceCount = 0;  ///< Number of triangles.
-  double area = 0;
-  double median = kNoValue;  ///< Median of the values of the triangles; NaN without values.
-  Vec3d centre;              ///< Area-weighted mean of the barycentres.
 };
 
 /// Texts and lists that a page shows of a result. Texts are UTF-8; all characters are allowed.
@@ -77,24 +66,5 @@ class Page {
   std::vector<PageTexts> texts_;
   PageArrays arrays_;
 };
-
-/// Adds a result with its thin places, segments, view and a small picture. texts: name, label and report. fields: the
-/// fields to show, beginning with the field of the picture. Preconditions: the result has a scene; there is a field.
-/// Throws Error{Cancelled}.
-void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
-               const RunControl& control);
-
-/// A page without results, with the name and version of this program as generator.
-[[nodiscard]] Page emptyPage();
-
-/// Writes the page atomically. Throws Error{OutputNotWritable}.
-void writePage(const std::filesystem::path& path, const Page& page);
-/// The file appears when the caller commits the group.
-void writePage(AtomicFiles& files, const std::filesystem::path& path, const Page& page);
-
-/// Returns the segments, ascending by label. areas, barycentres: #F. labels, values: #I. Leaves out kNoSegment.
-[[nodiscard]] std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const double> areas,
-                                                    std::span<const Vec3d> barycentres,
-                                                    std::span<const uint32_t> labels, std::span<const double> values);
 
 }  // namespace asdfvk

@@ -1,10 +1,12 @@
+#include "page/segment_list.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "asdf_vk/session.h"
 #include "core/check.h"
 #include "core/median.h"
-#include "page/page.h"
 
 namespace asdfvk {
 

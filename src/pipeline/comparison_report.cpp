@@ -1,9 +1,11 @@
+#include "pipeline/comparison_report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "core/disjoint_sets.h"
-#include "pipeline/comparison.h"
+#include "pipeline/thickness_report.h"
 
 namespace asdfvk {
 namespace {

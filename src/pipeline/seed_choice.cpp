@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "estimate/held_out.h"
+#include "seeds/random_permutation.h"
 
 namespace asdfvk {
 namespace {

@@ -9,7 +9,8 @@
 #include "describe/report_text.h"
 #include "pipeline/body_names.h"
 #include "pipeline/comparison.h"
-#include "pipeline/thickness.h"
+#include "pipeline/comparison_report.h"
+#include "pipeline/thickness_report.h"
 
 namespace asdfvk {
 namespace {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
-#include "pipeline/body_names.h"
 #include "pipeline/computation.h"
 #include "pipeline/judged_surface.h"
 #include "trace/greatest_section.h"
@@ -43,16 +42,7 @@ struct FaceThickness {
 [[nodiscard]] FaceThickness findThinPlaces(const Computation& computation, const JudgedSurface& surface,
                                            const RunControl& control);
 
-/// Area of the computed faces.
-[[nodiscard]] double computedArea(const Computation& computation);
-
 /// For each input face the least value of its triangles; NaN if none has a value. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
-
-/// Percentiles and, with a limit, the verdict and the thin regions. thin: receives the thin parts, with indices of
-/// regions from firstRegion on.
-[[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const JudgedSurface& surface,
-                                                const FaceThickness& thickness, const BodyNames& names,
-                                                uint32_t firstRegion, ThinSurface& thin);
 
 }  // namespace asdfvk

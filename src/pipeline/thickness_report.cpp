@@ -1,3 +1,5 @@
+#include "pipeline/thickness_report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +9,6 @@
 
 #include "core/check.h"
 #include "core/weighted_sample.h"
-#include "pipeline/thickness.h"
 #include "pipeline/value_report.h"
 #include "trace/wall_rule.h"
 

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <utility>
 
 #include "poisson/poisson_solver.h"
@@ -44,17 +43,6 @@ class CpuSolver final : public PoissonSolver {
 };
 
 }  // namespace
-
-PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, GraphProblem problem) {
-  std::vector<double> divergence = std::move(problem.divergence);
-  if (!problem.guide.empty()) {
-    std::vector<double> whole = divergenceOf(graph, weights, problem.guide);
-    for (size_t face = 0; face < divergence.size(); ++face)
-      if (std::isfinite(divergence[face])) whole[face] += divergence[face];
-    divergence = std::move(whole);
-  }
-  return buildPoissonSystem(graph, weights, problem.constraints, divergence, problem.componentOf, problem.firstGuess);
-}
 
 std::unique_ptr<PoissonSolver> makeCpuCgSolver(const Device*) { return std::make_unique<CpuSolver>(solveByCpuCg); }
 

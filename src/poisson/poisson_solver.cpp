@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
@@ -21,6 +24,17 @@ constexpr std::array kSolvers{
 };
 
 }  // namespace
+
+PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, GraphProblem problem) {
+  std::vector<double> divergence = std::move(problem.divergence);
+  if (!problem.guide.empty()) {
+    std::vector<double> whole = divergenceOf(graph, weights, problem.guide);
+    for (size_t face = 0; face < divergence.size(); ++face)
+      if (std::isfinite(divergence[face])) whole[face] += divergence[face];
+    divergence = std::move(whole);
+  }
+  return buildPoissonSystem(graph, weights, problem.constraints, divergence, problem.componentOf, problem.firstGuess);
+}
 
 std::span<const Solver> solverTable() { return kSolvers; }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "cone/cone_value.h"
 #include "core/lane_vec3.h"
 #include "core/prefetch.h"
 

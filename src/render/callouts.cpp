@@ -1,9 +1,10 @@
+#include "render/callouts.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "render/drawing.h"
 #include "render/sample_rows.h"
-#include "render/thin_places.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {

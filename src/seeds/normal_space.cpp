@@ -1,3 +1,5 @@
+#include "seeds/normal_space.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

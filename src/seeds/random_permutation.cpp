@@ -1,3 +1,5 @@
+#include "seeds/random_permutation.h"
+
 #include <algorithm>
 
 #include "core/random.h"

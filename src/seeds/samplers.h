@@ -7,7 +7,6 @@
 
 #include "asdf_vk/options.h"
 #include "asdf_vk/run_control.h"
-#include "core/vec3.h"
 #include "mesh/arc_angles.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
@@ -43,9 +42,6 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 /// ASDF paper, section 4.2: every n-th face of a random permutation of the candidates. In the paper n is an integer;
 /// here seed i is entry floor(i * size / count) of the permutation, so that every count is possible.
 [[nodiscard]] SampleSeeds randomSeeds;
-/// A random permutation of any set of faces, each listed once.
-[[nodiscard]] std::vector<uint32_t> randomPermutationSeeds(std::span<const uint32_t> candidates, uint64_t count,
-                                                           uint64_t randomSeed);
 
 /// Poisson-disk sampling of the dual graph in the distances of arcLengths(), see throwDarts(). The radius of
 /// the disks decreases from 1.25 times an estimate of the radius that gives `count` seeds.
@@ -71,14 +67,6 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 /// ASDF paper). Bins of normals with enough candidates have the same number of seeds, existing seeds included. The
 /// choice within a bin is random. Interpolation from these seeds has larger errors than from a random selection.
 [[nodiscard]] SampleSeeds normalSpaceSeeds;
-
-/// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side, each bin is
-/// 10 degrees wide. Each axis is in the middle of a bin, so that rounding does not distribute an axis-aligned wall over
-/// several bins.
-inline constexpr uint32_t kBinsPerSide = 9;
-inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
-/// normal: unit. Returns less than kNormalBinCount.
-[[nodiscard]] uint32_t normalBinOf(const Vec3d& normal);
 
 struct Sampler {
   SamplerChoice choice;

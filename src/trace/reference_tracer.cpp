@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "cone/cone_value.h"
 #include "core/check.h"
 #include "core/parallel.h"
-#include "mesh/coincident_faces.h"
 #include "trace/chunks.h"
 
 namespace asdfvk {
@@ -83,24 +83,6 @@ RayHit nearestHitFromAnywhere(const TraceScene& scene, const Vec3d& origin, cons
   RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace, contactDistance);
   hit.distance += entry;
   return hit;
-}
-
-ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
-  const Vec3d& normal = scene.geometry.normals[face];
-  if (cone.definition == Definition::Paper) return paperConeFrame(cone, normal, face);
-  // Uses the corners of the mesh. After scaling or a shift, coordinates of the normal that are exactly 0 would no
-  // longer be 0.
-  const auto [i, j, k] = scene.mesh.faces[face];
-  const Vec3d& a = scene.mesh.vertices[i];
-  const Vec3d inward = -cross(scene.mesh.vertices[j] - a, scene.mesh.vertices[k] - a);
-  const double norm = length(inward);  // May overflow or underflow in extreme units.
-  return cgalConeFrame(norm > 0 && std::isfinite(norm) ? inward : -normal);
-}
-
-ConeStart coneStartAt(const Cone& cone, const Vec3d& origin, const Vec3d& normal) {
-  const ConeFrame frame =
-      cone.definition == Definition::Paper ? paperConeFrame(cone, normal, hashOf(origin)) : cgalConeFrame(-normal);
-  return {origin, normal, frame, kNoFace};
 }
 
 std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone) {

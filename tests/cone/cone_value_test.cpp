@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cone/cone.h"
+#include "cone/cone_value.h"
 #include "core/check.h"
 #include "core/random.h"
 

@@ -10,6 +10,7 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/scene.h"
 #include "cone/cone.h"
+#include "cone/cone_value.h"
 #include "core/random.h"
 #include "generate/shapes.h"
 #include "mesh/face_geometry.h"

@@ -1,4 +1,5 @@
 #include "predict/prediction.h"
+#include "cone/cone_value.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

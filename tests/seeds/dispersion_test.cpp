@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "seeds/random_permutation.h"
 #include "seeds/samplers.h"
 #include "seeds/surface.h"
 #include "seeds/surface_distances.h"

@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "generate/analytic_shapes.h"
+#include "seeds/normal_space.h"
 #include "seeds/samplers.h"
 #include "seeds/surface.h"
 

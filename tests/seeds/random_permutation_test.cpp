@@ -4,6 +4,7 @@
 #include <numeric>
 #include <set>
 
+#include "seeds/random_permutation.h"
 #include "seeds/samplers.h"
 
 using namespace asdfvk;

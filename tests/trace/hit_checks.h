@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cone/cone_value.h"
 #include "trace_results.h"
 
 namespace asdfvk {

@@ -1,4 +1,5 @@
 #include "trace/cpu/lane_cones.h"
+#include "cone/cone_value.h"
 
 #include <doctest/doctest.h>
 

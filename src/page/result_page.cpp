@@ -1,10 +1,10 @@
-// Adds a result to a page.
+#include "page/result_page.h"
+
 #include <algorithm>
 #include <utility>
 
 #include "asdf_vk/version.h"
 #include "core/atomic_file.h"
-#include "page/page.h"
 #include "render/png.h"
 #include "render/result_picture.h"
 #include "trace/scene_data.h"

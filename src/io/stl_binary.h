@@ -1,10 +1,8 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "asdf_vk/mesh.h"
-#include "io/corner_welder.h"
 
 namespace asdfvk {
 
@@ -15,14 +13,5 @@ namespace asdfvk {
 [[nodiscard]] bool isBinaryStl(std::span<const char> bytes);
 /// Throws Error{UnreadableInput} with the size, or the byte at which the faces of the header end.
 [[nodiscard]] Mesh parseBinaryStl(std::span<const char> bytes);
-
-/// Whether the first word after lines of comments is `solid`.
-[[nodiscard]] bool beginsWithSolid(std::span<const char> bytes);
-/// Throws Error{UnreadableInput} with the line.
-[[nodiscard]] Mesh parseAsciiStl(std::span<const char> bytes);
-
-/// STL has no indices. Corners at the same point become one vertex, because without common vertices no face would have
-/// a neighbour.
-[[nodiscard]] Mesh weldedStl(CornerWelder& welder, std::vector<Face>&& triangles);
 
 }  // namespace asdfvk

@@ -1,3 +1,5 @@
+#include "bvh/bvh.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "bvh/bvh.h"
 #include "bvh/sah.h"
 #include "bvh/small_tree.h"
 #include "core/check.h"
