@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "c/call_guard.h"
+#include "c/handles.h"
 #include "core/text.h"
 
 namespace asdfvk::c {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "c/objects.h"
+#include "c/handle_types.h"
 #include "describe/computation_options.h"
 
 namespace asdfvk::c {

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "asdf_vk/files.h"
-#include "c/objects.h"
+#include "c/call_guard.h"
+#include "c/handle_types.h"
+#include "c/handles.h"
 #include "describe/report_json.h"
 
 namespace asdfvk::c {

@@ -7,8 +7,9 @@
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
+#include "io/field_columns.h"
 #include "io/formats.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 namespace {

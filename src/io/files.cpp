@@ -14,7 +14,7 @@
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/mesh_content.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 namespace {

@@ -21,6 +21,7 @@
 #include "core/json.h"
 #include "core/length_unit.h"
 #include "core/text.h"
+#include "io/field_columns.h"
 #include "io/formats.h"
 #include "io/result_colours.h"
 #include "mesh/input_faces.h"

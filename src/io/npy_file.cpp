@@ -11,7 +11,7 @@
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "io/formats.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 namespace {

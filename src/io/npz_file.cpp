@@ -13,7 +13,7 @@
 #include "core/atomic_file.h"
 #include "io/formats.h"
 #include "io/npy_file.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 namespace {

@@ -16,10 +16,11 @@
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
+#include "io/field_columns.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/result_colours.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 namespace {

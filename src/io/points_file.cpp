@@ -13,7 +13,7 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
 #include "core/atomic_file.h"
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "core/text.h"
 #include "mesh/spanning_tree.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/colour_map.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 

@@ -10,8 +10,9 @@
 
 #include "core/atomic_file.h"
 #include "core/base64_stream.h"
+#include "io/field_columns.h"
 #include "io/formats.h"
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 namespace asdfvk {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/box3.h"
 #include "core/parallel.h"
 #include "mesh/component_samples.h"
-#include "mesh/plane_points.h"
+#include "mesh/planar_kd_tree.h"
 
 namespace asdfvk {
 namespace {
@@ -64,7 +64,7 @@ std::vector<Surrounding> surroundingsOf(const ClosedComponents& closed, std::spa
     origins.push_back(toRayFrame(sample.point));
     points.push_back({origins.back().x, origins.back().y});
   }
-  const PlanePoints tree(points);
+  const PlanarKdTree tree(points);
   std::vector<Surrounding> crossings;
   std::mutex mutex;
   forEachRange(closed.mesh.faces.size(), kItemsPerTask / 4, [&](size_t begin, size_t end) {

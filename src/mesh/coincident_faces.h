@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "core/vec3.h"
 #include "mesh/dual_graph.h"
 #include "mesh/mesh.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/raise_flag.h"

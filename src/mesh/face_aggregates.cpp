@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"

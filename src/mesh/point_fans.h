@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 #include "trace/greatest_section.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"

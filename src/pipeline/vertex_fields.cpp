@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "asdf_vk/session.h"
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "core/check.h"
 #include "core/parallel.h"
 #include "pipeline/input_face_values.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 

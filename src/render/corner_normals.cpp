@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 #include "core/parallel.h"
 #include "render/image.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 
 namespace asdfvk {
 namespace {

@@ -11,7 +11,7 @@
 #include "bvh/leaf_faces.h"
 #include "core/box3.h"
 #include "core/parallel.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 
 namespace asdfvk {
 namespace {

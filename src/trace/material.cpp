@@ -8,7 +8,7 @@
 
 #include "core/disjoint_sets.h"
 #include "core/parallel.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 #include "trace/winding_number.h"
 
 namespace asdfvk {

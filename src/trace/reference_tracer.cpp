@@ -7,7 +7,7 @@
 #include "cone/cone_value.h"
 #include "core/check.h"
 #include "core/parallel.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 
 namespace asdfvk {
 namespace {

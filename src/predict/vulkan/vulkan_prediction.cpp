@@ -20,7 +20,7 @@
 #include "shared/prediction_layout.h"
 #include "spirv/hit_points.comp.h"
 #include "spirv/predict_faces.comp.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 #include "vk/command_list.h"
 #include "vk/shared_buffer.h"
 

@@ -4,7 +4,7 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 #include "trace/cpu/cone_group.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"

@@ -12,7 +12,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "core/unset_vector.h"
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 #include "trace/vulkan/device_seeds.h"

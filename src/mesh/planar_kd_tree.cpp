@@ -1,4 +1,4 @@
-#include "mesh/plane_points.h"
+#include "mesh/planar_kd_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@ constexpr uint32_t kLeafSize = 6;
 
 }  // namespace
 
-PlanePoints::PlanePoints(std::span<const Point2> points) : order_(points.size()) {
+PlanarKdTree::PlanarKdTree(std::span<const Point2> points) : order_(points.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (!points.empty()) build(points, 0, static_cast<uint32_t>(points.size()));
 }
 
-uint32_t PlanePoints::build(std::span<const Point2> points, uint32_t begin, uint32_t end) {
+uint32_t PlanarKdTree::build(std::span<const Point2> points, uint32_t begin, uint32_t end) {
   const uint32_t index = static_cast<uint32_t>(nodes_.size());
   Node node{points[order_[begin]], points[order_[begin]], begin, end, 0};
   for (uint32_t i = begin; i < end; ++i) {
@@ -38,7 +38,7 @@ uint32_t PlanePoints::build(std::span<const Point2> points, uint32_t begin, uint
 }
 
 // The separating axis test of a box and a triangle: the box's two axes, then the triangle's three edges.
-bool PlanePoints::mayTouch(const Node& node, const std::array<Point2, 3>& triangle) {
+bool PlanarKdTree::mayTouch(const Node& node, const std::array<Point2, 3>& triangle) {
   const auto [minX, maxX] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
   const auto [minY, maxY] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
   if (maxX < node.min.x || minX > node.max.x || maxY < node.min.y || minY > node.max.y) return false;

@@ -1,12 +1,13 @@
-#include "c/border.h"
+#include "c/call_guard.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <exception>
 #include <new>
+#include <string>
 
+#include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
 #include "core/error_kind.h"
 #include "core/parallel.h"
@@ -111,19 +112,6 @@ RunControl ProgressCall::control() {
 void ProgressCall::call() {
   const FloatingPointScope scope(&callers_);
   if (!source_.stop_requested() && callback_(fraction_, stage_, user_) != 0) source_.request_stop();
-}
-
-uintptr_t nextHandle() {
-  constexpr uintptr_t kStep = 16;
-  static std::atomic<uintptr_t> last{0};
-  return last += kStep;
-}
-
-void failHandle(const void* handle, const char* type) {
-  throw Error(ErrorCode::InvalidArgument,
-              handle == nullptr
-                  ? fmt::format("the {} is null", type)
-                  : fmt::format("the handle is not a handle of a {}, or the {} was destroyed", type, type));
 }
 
 }  // namespace asdfvk::c

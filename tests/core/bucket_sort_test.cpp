@@ -1,4 +1,4 @@
-#include "core/buckets.h"
+#include "core/bucket_sort.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

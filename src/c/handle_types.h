@@ -7,11 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "asdf_vk/asdf_vk_c.h"
 #include "asdf_vk/scene.h"
 #include "asdf_vk/session.h"
-#include "c/border.h"
 #include "core/json.h"
 #include "describe/computation_options.h"
+
+// The types behind the handles of asdf_vk_c.h.
 
 struct asdf_vk_options {
   static constexpr const char* kType = "set of options";

@@ -10,9 +10,9 @@
 namespace asdfvk {
 
 /// A k-d tree of points in the plane; finds the points that a triangle may contain.
-class PlanePoints {
+class PlanarKdTree {
  public:
-  explicit PlanePoints(std::span<const Point2> points);
+  explicit PlanarKdTree(std::span<const Point2> points);
 
   /// Calls visit(index) for every point inside the triangle, and for some points near it.
   template <typename Visit>

@@ -1,4 +1,4 @@
-#include "trace/chunks.h"
+#include "trace/adaptive_chunks.h"
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,14 @@
-#include "io/stored_fields.h"
+#include "io/result_view.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
@@ -16,8 +17,6 @@
 
 namespace asdfvk {
 namespace {
-
-constexpr std::array<std::string_view, 3> kSuffixes{"_x", "_y", "_z"};
 
 [[noreturn]] void failConflict(const std::string& reason) { throw Error(ErrorCode::OptionConflict, reason); }
 
@@ -43,24 +42,6 @@ void requireValidField(const Field& field, const MeshView& mesh) {
 }
 
 }  // namespace
-
-std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
-                                   std::initializer_list<std::string_view> reservedNames) {
-  std::set<std::string, std::less<>> names(reservedNames.begin(), reservedNames.end());
-  std::vector<FieldColumn> columns;
-  for (const Field& field : fields) {
-    if (field.location != location || &field == omitted) continue;
-    for (uint32_t c = 0; c < field.componentCount; ++c) {
-      std::string name = field.name;
-      if (field.componentCount == 3) name += kSuffixes[c];
-      if (!names.insert(name).second)
-        failConflict(fmt::format("field {} needs a column {}, but the format or another field uses this name",
-                                 field.name, name));
-      columns.push_back({std::move(name), &field, c});
-    }
-  }
-  return columns;
-}
 
 ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names,
                        const ResultStyle& style)
