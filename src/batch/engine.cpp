@@ -12,7 +12,7 @@
 #include "batch/input_list.h"
 #include "batch/message_channel.h"
 #include "batch/worker.h"
-#include "core/atomic_file.h"
+#include "core/abandoned_files.h"
 #include "core/parallel.h"
 #include "process/interrupt.h"
 

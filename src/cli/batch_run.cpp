@@ -17,7 +17,7 @@
 #include "cli/mesh_jobs.h"
 #include "cli/outputs.h"
 #include "cli/report.h"
-#include "core/atomic_file.h"
+#include "core/abandoned_files.h"
 #include "core/parallel.h"
 #include "page/result_page.h"
 #include "process/interrupt.h"

@@ -6,80 +6,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cerrno>
-#include <climits>
-#include <csignal>
-#include <cstdio>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/abandoned_files.h"
 #include "core/write_all.h"
 
 namespace asdfvk {
 
 static_assert(std::endian::native == std::endian::little, "the binary formats are written as they lie in memory");
-
-namespace {
-
-/// Names of the files that are being written, for a signal handler. A thread or a handler that replaces a name by null
-/// owns the name. Therefore the handler never reads a freed name.
-std::array<std::atomic<const char*>, 64> unfinished{};
-static_assert(std::atomic<const char*>::is_always_lock_free);
-
-/// Returns ".asdf-vk-HOST-". The name of the host is needed because process numbers are unique only within one machine
-/// or container.
-const std::string& temporaryPrefix() {
-  static const std::string prefix = [] {
-    std::array<char, HOST_NAME_MAX + 1> host{};
-    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
-    return fmt::format(".asdf-vk-{}-", host.data());
-  }();
-  return prefix;
-}
-constexpr std::string_view kTemporarySuffix = ".part";
-
-/// Removes the temporary files of this host in a folder, named temporaryPrefix() + "PROCESS-COUNT.part", for which
-/// select(process, path) returns true.
-template <typename Select>
-void removeTemporaries(const std::filesystem::path& folder, const Select& select) {
-  std::error_code error;
-  std::filesystem::directory_iterator entry(folder, error);
-  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with(temporaryPrefix())) continue;
-    int process = 0, end = 0;
-    unsigned count = 0;
-    const char* rest = name.c_str() + temporaryPrefix().size();
-    if (std::sscanf(rest, "%d-%u.part%n", &process, &count, &end) != 2 || end == 0 || rest[end] != '\0') continue;
-    if (process > 0 && select(process, entry->path())) ::unlink(entry->path().c_str());
-  }
-}
-
-/// False for a zombie: a process that has ended, but whose parent has not waited for it.
-bool isRunning(int process) {
-  if (::kill(process, 0) != 0 && errno == ESRCH) return false;
-  std::ifstream stream(fmt::format("/proc/{}/stat", process));
-  std::string text;
-  std::getline(stream, text);
-  const size_t end = text.rfind(") ");  // The end of the process name, which may contain any character.
-  return end == std::string::npos || (text[end + 2] != 'Z' && text[end + 2] != 'X');
-}
-
-/// Whether a running process has locked the file. False if the file system does not support locks.
-bool isLocked(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool isHeld = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return isHeld;
-}
-
-}  // namespace
 
 std::filesystem::path followLinks(std::filesystem::path path) {
   constexpr int kMaxLinks = 40;  // The limit of Linux.
@@ -87,21 +26,6 @@ std::filesystem::path followLinks(std::filesystem::path path) {
   for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(path, error); ++i)
     path = path.parent_path() / std::filesystem::read_symlink(path, error);
   return path;
-}
-
-void removeUnfinishedFiles() noexcept {
-  for (std::atomic<const char*>& slot : unfinished)
-    if (const char* name = slot.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
-}
-
-void removeAbandonedFiles(const std::filesystem::path& folder) {
-  removeTemporaries(
-      folder, [](int process, const std::filesystem::path& path) { return !isRunning(process) && !isLocked(path); });
-}
-
-void removeFilesOfProcess(const std::filesystem::path& folder, int process) {
-  removeTemporaries(
-      folder, [process](int owner, const std::filesystem::path& path) { return owner == process && !isLocked(path); });
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target)
@@ -139,14 +63,14 @@ void AtomicFile::openTemporary() {
   static std::atomic<unsigned> count = 0;
   do {
     temporary_ = target_;
-    temporary_.replace_filename(fmt::format("{}{}-{}{}", temporaryPrefix(), ::getpid(), count++, kTemporarySuffix));
+    temporary_.replace_filename(temporaryFileName(count++));
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ >= 0) {
     // removeAbandonedFiles() keeps locked files. A failure is ignored, because some file systems have no locks.
     static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
     // Announced only after the open: an older file of this name belongs to another process.
-    announceTemporary();
+    unfinished_.announce(temporary_.native());
     return;
   }
   const int reason = errno;
@@ -154,30 +78,6 @@ void AtomicFile::openTemporary() {
   temporary_.clear();
   if (reason == ENOENT) fail(reason, fmt::format("the folder {} does not exist; create it first", folder.string()));
   fail(reason, fmt::format("creating a temporary file in {}", folder.string()));
-}
-
-void AtomicFile::announceTemporary() {
-  const std::string& name = temporary_.native();
-  announced_ = std::make_unique<char[]>(name.size() + 1);
-  std::memcpy(announced_.get(), name.c_str(), name.size() + 1);
-  for (std::atomic<const char*>& slot : unfinished) {
-    const char* none = nullptr;
-    if (slot.compare_exchange_strong(none, announced_.get(), std::memory_order_release)) return;
-  }
-  announced_.reset();
-}
-
-void AtomicFile::withdrawTemporary() noexcept {
-  if (announced_ == nullptr) return;
-  for (std::atomic<const char*>& slot : unfinished) {
-    const char* mine = announced_.get();
-    if (!slot.compare_exchange_strong(mine, nullptr, std::memory_order_acquire)) continue;
-    announced_.reset();
-    return;
-  }
-  // The signal handler has taken the name and ends the process. The name is not freed, because the handler may still
-  // read the name.
-  (void)announced_.release();
 }
 
 void AtomicFile::write(const void* bytes, size_t size) {
@@ -207,7 +107,7 @@ void AtomicFile::close() {
 void AtomicFile::commit() {
   close();
   if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) failAndRemove(errno);
-  withdrawTemporary();
+  unfinished_.withdraw();
   temporary_.clear();
 }
 
@@ -239,7 +139,7 @@ void AtomicFile::closeAndRemove() noexcept {
   if (descriptor_ >= 0 && !isStandardOutput_) ::close(descriptor_);
   descriptor_ = -1;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  withdrawTemporary();
+  unfinished_.withdraw();
   temporary_.clear();
 }
 

@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/unfinished_files.h"
+
 namespace asdfvk {
 
 /// Atomic replacement of a file: bytes go to a temporary file beside the target, which commit() renames to the target.
@@ -60,8 +62,6 @@ class AtomicFile {
   static constexpr size_t kBufferSize = size_t{1} << 20;
 
   void openTemporary();
-  void announceTemporary();
-  void withdrawTemporary() noexcept;
   void flush();
   void close();
   void closeAndRemove() noexcept;
@@ -69,7 +69,7 @@ class AtomicFile {
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
   std::filesystem::path target_, temporary_;  ///< temporary_ is empty if the target is written directly.
-  std::unique_ptr<char[]> announced_;         ///< The path of the temporary file, which removeUnfinishedFiles() reads.
+  UnfinishedFile unfinished_;                 ///< The temporary file.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
@@ -97,17 +97,5 @@ class AtomicFiles {
 
 /// Resolves the symbolic links at the end of the path. The file itself need not exist.
 [[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
-
-/// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain,
-/// if the processes are visible. Processes of other containers with this host name are not visible: their files remain
-/// only if the file system supports flock().
-void removeAbandonedFiles(const std::filesystem::path& folder);
-
-/// Removes the temporary files that an ended process of this host left in a folder.
-void removeFilesOfProcess(const std::filesystem::path& folder, int process);
-
-/// Removes the temporary files that this process is writing, at most 64. Async-signal-safe, for a signal handler that
-/// then ends the process.
-void removeUnfinishedFiles() noexcept;
 
 }  // namespace asdfvk

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "core/check.h"
+#include "core/unfinished_files.h"
 
 namespace asdfvk {
 namespace {

@@ -10,7 +10,9 @@
 #include <thread>
 
 #include "asdf_vk/error.h"
+#include "core/abandoned_files.h"
 #include "core/atomic_file.h"
+#include "core/unfinished_files.h"
 #include "written_file.h"
 
 using namespace asdfvk;
