@@ -1,12 +1,11 @@
 #include "estimate/local_interpolation.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "core/index_table.h"
 #include "core/parallel.h"
 #include "mesh/mesh.h"
-#include "shared/cone_hit.h"
 
 namespace asdfvk {
 namespace {
@@ -16,47 +15,6 @@ namespace {
 constexpr double kLocalReduction = 3e-3;
 constexpr uint32_t kMaxLocalIterations = 1000;
 constexpr uint32_t kConstrainedRow = std::numeric_limits<uint32_t>::max();
-
-/// Maps a few faces to their rows: a hash table with open addressing.
-class PatchRows {
- public:
-  void clear() {
-    entries_.assign(entries_.size(), {});
-    count_ = 0;
-  }
-  /// Returns false if the face already has a row, which then remains.
-  bool add(uint32_t face, uint32_t row) {
-    if (2 * (count_ + 1) > entries_.size()) grow();
-    Entry& entry = entryOf(face);
-    if (entry.face == face) return false;
-    entry = {face, row};
-    ++count_;
-    return true;
-  }
-  /// The row of a face. Precondition: the face has a row.
-  [[nodiscard]] uint32_t of(uint32_t face) { return entryOf(face).row; }
-
- private:
-  struct Entry {
-    uint32_t face = kNoFace, row = 0;
-  };
-
-  Entry& entryOf(uint32_t face) {
-    for (size_t place = face * 0x9e37'79b1u;; ++place) {  // Knuth's multiplicative hash.
-      Entry& entry = entries_[place & (entries_.size() - 1)];
-      if (entry.face == face || entry.face == kNoFace) return entry;
-    }
-  }
-  void grow() {
-    std::vector<Entry> earlier(2 * entries_.size());
-    earlier.swap(entries_);
-    for (const Entry& entry : earlier)
-      if (entry.face != kNoFace) entryOf(entry.face) = entry;
-  }
-
-  std::vector<Entry> entries_ = std::vector<Entry>(256);  // The size is a power of two.
-  size_t count_ = 0;
-};
 
 /// Solves the equation around one face after another.
 class Patch {
@@ -83,7 +41,7 @@ class Patch {
   [[nodiscard]] double step(double length);
 
   const SolvedInterpolation& solved_;
-  PatchRows rows_;
+  IndexTable<uint32_t> rows_;    // Rows of the faces below.
   std::vector<uint32_t> faces_;  // First the unknowns, beginning with the centre; then faces at the boundary.
   size_t unknownCount_ = 0;
   std::vector<uint32_t> offsets_;
@@ -97,13 +55,15 @@ class Patch {
 void Patch::collect(uint32_t centre) {
   faces_.assign(1, centre);
   rows_.clear();
-  (void)rows_.add(centre, 0);
+  rows_.add(centre).first.value = 0;
   uint32_t constraintCount = 0;
   unknownCount_ = 0;
   for (; unknownCount_ < faces_.size() && constraintCount < kLocalConstraintCount; ++unknownCount_)
     for (const uint32_t neighbour : solved_.graph.neighboursOf(faces_[unknownCount_])) {
       const bool isConstrained = std::isfinite(solved_.constraints[neighbour]);
-      if (!rows_.add(neighbour, isConstrained ? kConstrainedRow : static_cast<uint32_t>(faces_.size()))) continue;
+      const auto [row, isNew] = rows_.add(neighbour);
+      if (!isNew) continue;
+      row.value = isConstrained ? kConstrainedRow : static_cast<uint32_t>(faces_.size());
       if (isConstrained)
         ++constraintCount;
       else
@@ -131,7 +91,7 @@ void Patch::addRow(uint32_t face) {
     const uint32_t neighbour = graph.neighbours[arc];
     if (neighbour == face) continue;
     const double weight = solved_.weights[arc];
-    const uint32_t row = rows_.of(neighbour);
+    const uint32_t row = rows_[neighbour];
     const bool isUnknown = row < unknownCount_;
     double value = row == kConstrainedRow ? solved_.constraints[neighbour] : solved_.solution[neighbour];
     if (!std::isfinite(value)) {

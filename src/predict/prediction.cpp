@@ -1,11 +1,11 @@
 #include "predict/prediction.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "core/check.h"
+#include "core/index_table.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
 #include "predict/hit_points.h"
@@ -31,7 +31,7 @@ class CellPredictor {
   /// values: #N; the values of the nodes of these cells are written.
   void run(std::span<const uint32_t> cells, std::span<double> values) {
     points_.clear();
-    cached_.assign(std::bit_ceil(2 * cells.size() * (1 + input_.options.neighbourCount)), {});
+    cached_.resetFor(cells.size() * (1 + input_.options.neighbourCount));
     appendHits(cells);
     for (size_t i = 0; i < cells.size(); ++i) {
       nextNodes_ = {};
@@ -41,14 +41,10 @@ class CellPredictor {
   }
 
  private:
-  struct CachedHits {
-    uint32_t seed = kNoCell;
-    HitRange range;
-  };
+  using CachedHits = IndexTable<HitRange>::Entry;
 
   void runCell(uint32_t cell, std::span<double> values);
   void prefetchNextNode();
-  [[nodiscard]] CachedHits& placeOf(uint32_t seed);
   void appendHits(std::span<const uint32_t> cells);
   [[nodiscard]] HitRange hitsOf(uint32_t seed);
   void reuseEarlier(uint32_t cell, std::span<double> values);
@@ -59,7 +55,7 @@ class CellPredictor {
   const PredictionInput& input_;
   HitPoints points_;
   PredictionKernel kernel_;
-  std::vector<CachedHits> cached_;       // Hash table by seed, with open addressing. Its size is a power of two.
+  IndexTable<HitRange> cached_;          // By seed.
   std::vector<CachedHits*> newHits_;     // Entries of cached_ that appendHits() fills.
   std::span<const uint32_t> nextNodes_;  // Nodes of the next cell that are not yet prefetched.
 
@@ -103,15 +99,6 @@ void CellPredictor::prefetchNextNode() {
   prefetchMemory(&input_.scene.representatives[input_.domain.faceOf(node)]);
 }
 
-/// The entry of the seed, or the empty entry for the seed.
-CellPredictor::CachedHits& CellPredictor::placeOf(uint32_t seed) {
-  size_t place = seed * 0x9e37'79b1u;  // Knuth's multiplicative hash.
-  for (;; ++place) {
-    CachedHits& cached = cached_[place & (cached_.size() - 1)];
-    if (cached.seed == seed || cached.seed == kNoCell) return cached;
-  }
-}
-
 /// Appends the hit points of all seeds of those cells that cannot reuse an earlier prediction. Cache misses take most
 /// of the time without prefetching.
 void CellPredictor::appendHits(std::span<const uint32_t> cells) {
@@ -120,32 +107,30 @@ void CellPredictor::appendHits(std::span<const uint32_t> cells) {
   for (const uint32_t cell : cells) {
     if (input_.hasEarlierSeeds(cell)) continue;
     for (const uint32_t seed : input_.nearest.of(cell)) {
-      CachedHits& cached = placeOf(seed);
-      if (cached.seed == seed) continue;
-      cached.seed = seed;
-      newHits_.push_back(&cached);
+      const auto [cached, isNew] = cached_.add(seed);
+      if (isNew) newHits_.push_back(&cached);
     }
   }
   const size_t count = newHits_.size();
   if (count == 0) return;
   for (size_t i = 0; i < count + 2 * kDistance; ++i) {
-    if (i < count) points_.prefetchHits(newHits_[i]->seed);
+    if (i < count) points_.prefetchHits(newHits_[i]->index);
     if (i < kDistance) continue;
-    const uint32_t later = newHits_[std::min(i - kDistance, count - 1)]->seed;
+    const uint32_t later = newHits_[std::min(i - kDistance, count - 1)]->index;
     if (i < 2 * kDistance) {
       points_.prefetchNormals(later);
     } else {
       CachedHits& cached = *newHits_[i - 2 * kDistance];
-      cached.range = points_.append(cached.seed, later);
+      cached.value = points_.append(cached.index, later);
     }
   }
 }
 
 /// The hit points of the seed. Appends them if appendHits() has not, because the cell keeps some of its earlier values.
 HitRange CellPredictor::hitsOf(uint32_t seed) {
-  CachedHits& cached = placeOf(seed);
-  if (cached.seed == kNoCell) cached = {seed, points_.append(seed)};
-  return cached.range;
+  const auto [cached, isNew] = cached_.add(seed);
+  if (isNew) cached.value = points_.append(seed);
+  return cached.value;
 }
 
 /// Copies the values of nodes that were in this cell in the earlier prediction, if the contributing seeds are
