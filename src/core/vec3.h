@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "asdf_vk/mesh.h"
@@ -53,6 +54,17 @@ T length(const Vec3<T>& a) {
 template <typename T>
 bool isFinite(const Vec3<T>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// v scaled to length 1. Precondition: v is finite and not 0. Squares neither overflow nor underflow.
+[[nodiscard]] inline Vec3d unitVector(const Vec3d& v) {
+  const Vec3d scaled = v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return scaled / length(scaled);
+}
+/// v scaled to length 1 in fewer operations. Returns `fallback` if the length is at most 1e-150 or not finite.
+[[nodiscard]] inline Vec3d unitVector(const Vec3d& v, const Vec3d& fallback) {
+  const double norm = length(v);
+  return norm > 1e-150 && std::isfinite(norm) ? v / norm : fallback;
 }
 
 }  // namespace asdfvk

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/point2.h"
 #include "mesh/mesh.h"
-#include "mesh/point2.h"
 
 namespace asdfvk {
 

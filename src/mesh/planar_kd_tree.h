@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/point2.h"
+#include "core/point2.h"
 
 namespace asdfvk {
 

@@ -61,12 +61,6 @@ void requirePoints(std::span<const double> points, std::span<const double> norma
   }
 }
 
-/// v may have any length above 0: squares neither overflow nor underflow.
-Vec3d unitVector(const Vec3d& v) {
-  const Vec3d scaled = v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return scaled / length(scaled);
-}
-
 void requireNoConflict(const Options& options, Orientation orientation, bool hasRegion) {
   if (options.orientation != Orientation::Keep && options.orientation != orientation)
     throw Error(ErrorCode::OptionConflict,

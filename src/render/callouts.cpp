@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/point2.h"
 #include "render/drawing.h"
 #include "render/sample_rows.h"
 #include "trace/nearest_hit.h"
@@ -14,18 +15,18 @@ namespace {
 constexpr double kRingRadius = 0.62, kRingWidth = 0.16, kLineWidth = 0.07, kRowHeight = 1.9, kCalloutGap = 0.5;
 constexpr double kHidden = 1e-4;  ///< A point this far behind the first face is hidden; in normalised units.
 
-void drawLine(Image& image, const Point2d& a, const Point2d& b, double width, const Rgb& colour) {
+void drawLine(Image& image, const Point2& a, const Point2& b, double width, const Rgb& colour) {
   stroke(image, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}, width, colour,
-         [&](const Point2d& p) { return distanceToSegment(p, a, b); });
+         [&](const Point2& p) { return distanceToSegment(p, a, b); });
 }
 
-void drawRing(Image& image, const Point2d& centre, double radius, double width, const Rgb& colour) {
+void drawRing(Image& image, const Point2& centre, double radius, double width, const Rgb& colour) {
   stroke(image, {centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}, width, colour,
-         [&](const Point2d& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
+         [&](const Point2& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
 /// The pixel of the place of the callout. If only the opposite point is visible, the pixel of the opposite point.
-Point2d pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
+Point2 pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
     constexpr double kBeyond = 4;  // A distance above the diagonal of the normalised box, which is at most 2 sqrt(3).
     return !isHitBetween(scene.bvh, scene.mesh, point, camera.toViewer, kHidden, kBeyond);
@@ -39,7 +40,7 @@ Point2d pixelOf(const TraceScene& scene, const Camera& camera, const Callout& ca
 
 struct Label {
   const Callout* callout = nullptr;
-  Point2d place;
+  Point2 place;
   double y = 0;  ///< Middle of the text.
 };
 
@@ -70,7 +71,7 @@ void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, s
                   const std::array<PixelArea, 2>& columns, double capHeight) {
   std::array<std::vector<Label>, 2> sides;
   for (const Callout& callout : callouts) {
-    const Point2d place = pixelOf(scene, camera, callout);
+    const Point2 place = pixelOf(scene, camera, callout);
     sides[place.x < camera.centreX ? 0 : 1].push_back({&callout, place});
   }
   const double radius = std::max(4.0, kRingRadius * capHeight), width = std::max(1.5, kRingWidth * capHeight);
@@ -80,10 +81,10 @@ void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, s
     for (const auto& [callout, place, y] : sides[side]) {
       const double text = textWidth(callout->text, capHeight);
       const double left = side == 0 ? column.left : column.left + column.width - text;
-      const Point2d from{side == 0 ? left + text + kCalloutGap * capHeight / 2 : left - kCalloutGap * capHeight / 2, y};
+      const Point2 from{side == 0 ? left + text + kCalloutGap * capHeight / 2 : left - kCalloutGap * capHeight / 2, y};
       const double distance = std::hypot(place.x - from.x, place.y - from.y);
       const double share = distance > radius ? (distance - radius) / distance : 0;
-      const Point2d to{from.x + (place.x - from.x) * share, from.y + (place.y - from.y) * share};
+      const Point2 to{from.x + (place.x - from.x) * share, from.y + (place.y - from.y) * share};
       drawLine(image, from, to, std::max(1.2, kLineWidth * capHeight), kInk);
       drawText(image, callout->text, left, y + capHeight / 2, capHeight);
       drawRing(image, place, radius, 2 * width, kWhite);

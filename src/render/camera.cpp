@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/box3.h"
+#include "core/point2.h"
 #include "render/image.h"
 
 namespace asdfvk {
@@ -15,19 +16,14 @@ namespace {
 /// Points at most this far above the lowest point touch the floor. Relative to the longest side of the box.
 constexpr double kFloorShare = 0.025;
 
-/// Twice the signed area of the triangle; positive if c is left of the line from a to b.
-double turn(const Point2d& a, const Point2d& b, const Point2d& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 /// The convex hull, counter-clockwise (Andrew's monotone chain). Fewer than three points if all points lie on a line.
-std::vector<Point2d> convexHull(std::vector<Point2d> points) {
+std::vector<Point2> convexHull(std::vector<Point2> points) {
   std::sort(points.begin(), points.end());
-  std::vector<Point2d> hull;
+  std::vector<Point2> hull;
   for (int side = 0; side < 2; ++side) {
     const size_t begin = hull.size();
-    for (const Point2d& point : points) {
-      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
+    for (const Point2& point : points) {
+      while (hull.size() >= begin + 2 && sideOf(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
       hull.push_back(point);
     }
     hull.pop_back();
@@ -81,17 +77,17 @@ double standingShare(std::span<const Vec3d> points, Up up) {
   }
   const Vec3d size = box.size();
   const double reach = kFloorShare * std::max({size.x, size.y, size.z});
-  std::vector<Point2d> lowest;
+  std::vector<Point2> lowest;
   for (const Vec3d& point : points)
     if (dot(point, direction) <= floor + reach) lowest.push_back({point[first], point[second]});
-  const std::vector<Point2d> hull = convexHull(std::move(lowest));
+  const std::vector<Point2> hull = convexHull(std::move(lowest));
   if (hull.size() < 3) return 0;
   double area = 0;
   bool stands = true;
   for (size_t i = 0; i < hull.size(); ++i) {
-    const Point2d &a = hull[i], &b = hull[(i + 1) % hull.size()];
-    area += turn(hull[0], a, b) / 2;
-    stands &= turn(a, b, {mean[first], mean[second]}) >= 0;
+    const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    area += sideOf(hull[0], a, b) / 2;
+    stands &= sideOf(a, b, {mean[first], mean[second]}) >= 0;
   }
   const double share = area / (size[first] * size[second]);
   return stands ? share : -share;

@@ -6,7 +6,7 @@
 
 #include "core/bucket_sort.h"
 #include "core/parallel.h"
-#include "render/image.h"
+#include "core/vec3.h"
 
 namespace asdfvk {
 namespace {

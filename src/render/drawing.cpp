@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/point2.h"
 #include "render/image.h"
 
 namespace asdfvk {
@@ -121,7 +122,7 @@ constexpr std::array<GlyphText, kLast - kFirst + 1> kGlyphs{{
     /* ~ */ {9, "n a 2.4 5.6 2.4 1.8 170 30 l 6 4.9 a 6.8 6.4 2.4 1.8 215 350"},
 }};
 
-void appendArc(std::vector<Point2d>& stroke, std::istream& in) {
+void appendArc(std::vector<Point2>& stroke, std::istream& in) {
   double centreX = 0, centreY = 0, radiusX = 0, radiusY = 0, from = 0, to = 0;
   in >> centreX >> centreY >> radiusX >> radiusY >> from >> to;
   const int steps = std::max(2, static_cast<int>(std::abs(to - from) / 12));
@@ -139,7 +140,7 @@ Glyph parseGlyph(const GlyphText& text) {
     if (command == 'a') {
       appendArc(glyph.strokes.back(), in);
     } else if (command != 'n') {
-      Point2d point;
+      Point2 point;
       in >> point.x >> point.y;
       glyph.strokes.back().push_back(point);
     }
@@ -149,7 +150,7 @@ Glyph parseGlyph(const GlyphText& text) {
 
 constexpr double kStrokeShare = 0.13;  ///< Width of a stroke, divided by the height of capitals.
 
-double distanceToGlyph(const Point2d& p, const Glyph& glyph, double dotExtra) {
+double distanceToGlyph(const Point2& p, const Glyph& glyph, double dotExtra) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& stroke : glyph.strokes) {
     if (stroke.size() == 1) nearest = std::min(nearest, distanceToSegment(p, stroke[0], stroke[0]) - dotExtra);
@@ -166,8 +167,8 @@ void drawGlyph(Image& image, const Glyph& glyph, double left, double baseline, d
   const double dotExtra = 0.35 * kStrokeShare * kCapHeight;
   stroke(image, {left - kSide * pixelsPerUnit, baseline - kAscent * pixelsPerUnit},
          {left + (glyph.width + kSide) * pixelsPerUnit, baseline + kDescent * pixelsPerUnit}, width, colour,
-         [&](const Point2d& p) {
-           const Point2d inFont{(p.x - left) / pixelsPerUnit, (baseline - p.y) / pixelsPerUnit};
+         [&](const Point2& p) {
+           const Point2 inFont{(p.x - left) / pixelsPerUnit, (baseline - p.y) / pixelsPerUnit};
            return distanceToGlyph(inFont, glyph, dotExtra) * pixelsPerUnit;
          });
 }
@@ -179,7 +180,7 @@ double coverage(int i, double low, double high) {
 
 }  // namespace
 
-double distanceToSegment(const Point2d& p, const Point2d& a, const Point2d& b) {
+double distanceToSegment(const Point2& p, const Point2& a, const Point2& b) {
   const double dx = b.x - a.x, dy = b.y - a.y, lengthSquared = dx * dx + dy * dy;
   const double along = lengthSquared > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / lengthSquared : 0;
   const double t = std::clamp(along, 0.0, 1.0);

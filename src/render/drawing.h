@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/point2.h"
 #include "render/image.h"
 
 namespace asdfvk {
 
-[[nodiscard]] double distanceToSegment(const Point2d& p, const Point2d& a, const Point2d& b);
+[[nodiscard]] double distanceToSegment(const Point2& p, const Point2& a, const Point2& b);
 
 inline constexpr double kCapHeight = 14;  ///< Height of capitals, in font units.
 
@@ -17,7 +18,7 @@ inline constexpr double kCapHeight = 14;  ///< Height of capitals, in font units
 /// of the left side of the glyph, y up from the baseline.
 struct Glyph {
   double width = 0;
-  std::vector<std::vector<Point2d>> strokes;
+  std::vector<std::vector<Point2>> strokes;
 };
 
 /// The glyph of a printable ASCII character; for any other byte, the question mark.
@@ -30,13 +31,13 @@ struct Glyph {
 
 /// Blends `colour` where distance(pixel) is below half of `width`, within the rectangle from `low` to `high`.
 template <typename Distance>
-void stroke(Image& image, const Point2d& low, const Point2d& high, double width, const Rgb& colour,
+void stroke(Image& image, const Point2& low, const Point2& high, double width, const Rgb& colour,
             const Distance& distance) {
   const double reach = width / 2 + 1;
   const auto bound = [](double value, int limit) { return static_cast<int>(std::clamp(value, 0.0, double(limit))); };
   for (int y = bound(low.y - reach, image.height()); y < bound(high.y + reach + 1, image.height()); ++y)
     for (int x = bound(low.x - reach, image.width()); x < bound(high.x + reach + 1, image.width()); ++x) {
-      const double share = std::clamp(width / 2 - distance(Point2d{x + 0.5, y + 0.5}) + 0.5, 0.0, 1.0);
+      const double share = std::clamp(width / 2 - distance(Point2{x + 0.5, y + 0.5}) + 0.5, 0.0, 1.0);
       image.at(x, y) = blend(image.at(x, y), colour, share);
     }
 }

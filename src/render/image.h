@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,11 +14,6 @@ using Rgb = std::array<uint8_t, 3>;
 inline constexpr Rgb kWhite{255, 255, 255}, kInk{34, 34, 34};
 /// Colour of a body without values.
 inline constexpr Rgb kNeutral{210, 209, 204};
-
-struct Point2d {
-  double x = 0, y = 0;
-  auto operator<=>(const Point2d&) const = default;
-};
 
 /// A picture: rows from the top, with pixels from the left.
 class Image {
@@ -56,11 +49,5 @@ class Image {
 [[nodiscard]] Rgb toRgb(const Vec3d& linear);
 /// Blends `share` of `over` onto `under`.
 [[nodiscard]] Rgb blend(const Rgb& under, const Rgb& over, double share);
-
-/// v scaled to length 1; `fallback` if v has no direction.
-[[nodiscard]] inline Vec3d unitVector(const Vec3d& v, const Vec3d& fallback) {
-  const double norm = length(v);
-  return norm > 1e-150 && std::isfinite(norm) ? v / norm : fallback;
-}
 
 }  // namespace asdfvk

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/point2.h"
+#include "core/vec3.h"
 #include "render/corner_normals.h"
 #include "render/sample_rows.h"
 #include "render/sky_light.h"
@@ -73,7 +75,7 @@ class MeshRenderer {
     if (!isEmpty) image_.at(x, y) = toRgb(sum / double{kSamples * kSamples});
   }
 
-  [[nodiscard]] LitPoint pointAt(uint32_t face, const Point2d& place) const {
+  [[nodiscard]] LitPoint pointAt(uint32_t face, const Point2& place) const {
     const std::array<Projected, 3> corners = faces_.cornersOf(face);
     const std::array<double, 3> shares = cornerShares(corners, place);
     const Vec3d& toViewer = grid_.camera.toViewer;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/point2.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "trace/trace_scene.h"
@@ -30,7 +31,7 @@ struct SampleGrid {
 };
 
 /// Barycentric coordinates of `place` in a triangle with an area. Outside of the triangle, some are negative.
-[[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners, const Point2d& place) {
+[[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners, const Point2& place) {
   const auto& [a, b, c] = corners;
   const auto& [x, y] = place;
   const double scale = 1 / ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
@@ -49,7 +50,7 @@ class SampleRows {
  public:
   SampleRows(int width, int top, int bottom, int perSide = 1);
 
-  [[nodiscard]] Point2d placeOf(int column, int row) const {
+  [[nodiscard]] Point2 placeOf(int column, int row) const {
     const double middle = (perSide_ - 1) / 2.0;
     return {column + 0.5 + (row % perSide_ - middle) / perSide_, row + 0.5 - (column % perSide_ - middle) / perSide_};
   }

@@ -6,6 +6,7 @@
 
 #include "cone/cone.h"
 #include "core/parallel.h"
+#include "core/vec3.h"
 #include "render/image.h"
 #include "trace/nearest_hit.h"
 

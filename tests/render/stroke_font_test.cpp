@@ -1,3 +1,4 @@
+#include "core/point2.h"
 #include "render/drawing.h"
 
 #include <doctest/doctest.h>
@@ -22,7 +23,7 @@ TEST_CASE("every printable character has a glyph of its own within its box") {
     CHECK_FALSE(glyph.strokes.empty());
     for (const auto& stroke : glyph.strokes) {
       CHECK_FALSE(stroke.empty());
-      for (const Point2d& point : stroke) {
+      for (const Point2& point : stroke) {
         CHECK_GE(point.x, -0.6);
         CHECK_LE(point.x, glyph.width + 0.6);
         CHECK_GE(point.y, -4.9);
@@ -37,7 +38,7 @@ TEST_CASE("capitals and digits have the documented height") {
   for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789")) {
     double top = 0;
     for (const auto& stroke : glyphOf(c).strokes)
-      for (const Point2d& point : stroke) top = std::max(top, point.y);
+      for (const Point2& point : stroke) top = std::max(top, point.y);
     CAPTURE(c);
     CHECK_EQ(top, doctest::Approx(kCapHeight).epsilon(0.02));
   }

@@ -1,4 +1,5 @@
 #include "trace/material.h"
+#include "core/point2.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include "core/random.h"
-#include "mesh/point2.h"
 #include "support/shapes.h"
 #include "trace/winding_number.h"
 #include "traced_mesh.h"

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <compare>
+
 namespace asdfvk {
 
 struct Point2 {
   double x = 0, y = 0;
-  bool operator==(const Point2&) const = default;
+  auto operator<=>(const Point2&) const = default;
 };
 
 /// The side of p relative to the line from a to b: positive on the left, negative on the right, up to rounding.
