@@ -13,7 +13,7 @@ namespace asdfvk {
 /// Margin of the boxes of a wide hierarchy on a device, in normalised units: a ray enters each box that contains a
 /// triangle that the ray hits. The margin covers three errors of float32. The triangle test has an error of a few units
 /// of 2^-24 times coordinates up to 3.5. Decoding a box has an error of up to 6 units of 2^-24. The distance to a plane
-/// (shaders/ray_query.glsl) has three roundings; each of them shifts the plane by up to 3.5 units of 2^-24.
+/// (shaders/trace/ray_query.glsl) has three roundings; each of them shifts the plane by up to 3.5 units of 2^-24.
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
 /// A node with the boxes of `children` in `slots`, enlarged by kWideBoxMargin and rounded outwards. childBase,

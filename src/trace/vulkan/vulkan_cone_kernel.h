@@ -27,7 +27,7 @@ struct ConeKernelRequest {
 [[nodiscard]] ComputePipelineDescription describeRays(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
                                                       const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
 
-/// The compiled shaders/trace_*.comp for one device and one request, for any number of meshes.
+/// The compiled shaders/trace/*.comp for one device and one request, for any number of meshes.
 class VulkanConeKernel {
  public:
   /// shape, walk: given by tests; otherwise those for the device.

@@ -35,8 +35,8 @@ struct VulkanWorkgroupShape {
 
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel);
 
-/// Traversal by single lanes (shaders/wide_walk.glsl). Results depend on the shape only if a ray hits equally near
-/// triangles.
+/// Traversal by single lanes (shaders/trace/trace_rays.comp). Results depend on the shape only if a ray hits equally
+/// near triangles.
 struct VulkanWalkShape {
   uint32_t stackSize = kMaxBvhDepth;  ///< Number of entries, at least kMaxBvhDepth.
   /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one

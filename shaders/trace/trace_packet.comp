@@ -1,9 +1,15 @@
-// Nearest hits of all rays of a subgroup. The lanes share the stack and the current node. The lanes enter each node
-// that any ray enters, in the order of the distances along the ray of the first lane. All loops are subgroup-uniform.
+#version 450
+// Packets (ASDF paper, section 6): the lanes of a subgroup traverse the hierarchy together. The lanes have the rays of
+// one cone, or of several cones with few rays.
+#extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "wide_nodes.glsl"
 
-Hit findNearestHitTogether(Query query) {
+// The nearest hits of all rays of the subgroup. The lanes share the stack and the current node. The lanes enter each
+// node that any ray enters, in the order of the distances along the ray of the first lane. All loops are
+// subgroup-uniform.
+Hit findNearestHit(Query query) {
   const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(query.isNegative)));
   uint stackBases[kMaxBvhDepth];
   uint stackBits[kMaxBvhDepth];
@@ -37,3 +43,5 @@ Hit findNearestHitTogether(Query query) {
   hit.isComplete = iterationCount <= kIterationLimit;
   return hit;
 }
+
+#include "trace_main.glsl"

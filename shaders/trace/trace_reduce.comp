@@ -7,10 +7,10 @@
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kRayCount = 30;
-layout(constant_id = 2) const bool kIsCgal = false;  // See trace_rays.glsl.
+layout(constant_id = 2) const bool kIsCgal = false;  // See ray_bindings.glsl.
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rayTexels;
-layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // Written by trace_rays.glsl.
+layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // Written by trace_main.glsl.
 layout(set = 0, binding = 2) writeonly buffer Results { uint results[]; };
 layout(push_constant) uniform Push { ConePush push; };
 

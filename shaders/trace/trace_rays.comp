@@ -1,52 +1,12 @@
-// Nearest hit of one ray in the hierarchy of shared/bvh_layout.h (Ylitie, Karras and Laine 2017).
+#version 450
+// A ray per lane: each lane traverses the hierarchy independently.
+#extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
+#include "wide_nodes.glsl"
 
 // See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The default values also work.
 layout(constant_id = 8) const uint kStackSize = kMaxBvhDepth;
 layout(constant_id = 9) const bool kPostponesTriangles = true;
-
-DeviceWideNode loadWideNode(uint index) {
-  const uint t = index * kWideNodeTexelCount;
-  return decodeWideNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u), fetchNode(t + 4u));
-}
-
-// Moves nibble s to nibble s ^ octant, where the signs are the bits of the octant.
-uint permuteNibbles(uint bits, bvec3 isNegative) {
-  if (isNegative.x) bits = (bits & 0x0f0f0f0fu) << 4 | (bits >> 4 & 0x0f0f0f0fu);
-  if (isNegative.y) bits = (bits & 0x00ff00ffu) << 8 | (bits >> 8 & 0x00ff00ffu);
-  if (isNegative.z) bits = bits << 16 | bits >> 16;
-  return bits;
-}
-
-// The exponent of a power of two below 2^31.
-uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
-
-// Inner children of one node that are still to be entered. base: childBase of the node. bits: 0 if the ray enters no
-// inner child. For each of these children, bit 4 p + 3 is set, where p = slot of the child ^ octant of the ray. The
-// lowest such bit is the nearest child. If `bits` is not 0, bit 4 s + 2 is set for each slot s of the node with an
-// inner child.
-struct Group {
-  uint base, bits;
-};
-
-Group groupOf(DeviceWideNode node, uint children, bvec3 isNegative) {
-  const uint rest = permuteNibbles(children & kWideInnerBits, isNegative);
-  return Group(node.childBase, rest == 0u ? 0u : rest | (node.childBits & kWideInnerBits) >> 1);
-}
-
-bool hasMore(Group group) { return (group.bits & kWideInnerBits) != 0u; }
-
-// Removes the nearest child from a non-empty group. Returns its node.
-uint takeNearest(inout Group group, bvec3 isNegative) {
-  const uint rest = (group.bits & kWideInnerBits) >> 3;
-  const uint nearest = rest & (~rest + 1u);
-  const uvec3 signBits = uvec3(isNegative);
-  const uint octantShift = signBits.x << 2 | signBits.y << 3 | signBits.z << 4;
-  const uint below = (1u << (exponentOf(nearest) ^ octantShift)) - 1u;
-  const uint rank = ((group.bits >> 2 & 0x11111111u & below) * 0x11111111u) >> 28;
-  group.bits ^= nearest << 3;
-  return group.base + rank;
-}
 
 // Triangles of one node that are still to be tested. bits: these triangles. all: all triangles of the node. Both are
 // nibbles as in DeviceWideNode::childBits. base: triangleBase of the node.
@@ -133,3 +93,5 @@ Hit findNearestHit(Query query) {
   hit.isComplete = iterationCount <= kIterationLimit;
   return hit;
 }
+
+#include "trace_main.glsl"

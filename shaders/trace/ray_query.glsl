@@ -1,5 +1,6 @@
 // The boxes that a ray enters, and the triangles that it hits.
 #include "bvh_fetch.glsl"
+#include "ray_bindings.glsl"
 #include "ray_frame.glsl"
 
 const uint kNoPrimitive = 0xffffffffu;

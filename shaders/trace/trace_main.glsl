@@ -1,30 +1,8 @@
-// The lengths of the rays of cones, which trace_reduce.comp reduces to values. Workgroup (x, y) traces kLanesPerCone
-// rays of each of kConesPerWorkgroup cones, beginning with ray y * kLanesPerCone. With one lane per cone, neighbouring
-// lanes trace the same ray of neighbouring seeds; such rays visit nearly the same nodes.
+// The main function of the kernels that trace rays: the lengths of the rays of cones, which trace_reduce.comp reduces
+// to values. A kernel includes this file last, after it has defined the walk `Hit findNearestHit(Query query)`. The
+// files wide_nodes.glsl and ray_query.glsl have what a walk needs.
 #include "shared/cone_hit.h"
-#include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
-
-layout(local_size_x_id = 6) in;  // Equal to kLanesPerCone * kConesPerWorkgroup.
-layout(constant_id = 0) const uint kLanesPerCone = 1;
-layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
-layout(constant_id = 2) const uint kRayCount = 30;
-layout(constant_id = 3) const uint kIterationLimit = 8000;
-layout(constant_id = 4) const bool kWritesHits = false;
-layout(constant_id = 7) const bool kIsCgal = false;  // True: Definition::Cgal. False: Definition::Paper.
-
-layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
-layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
-layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };  // The bits of coneCount lengths per ray.
-layout(set = 0, binding = 7) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
-layout(push_constant) uniform Push { ConePush push; };
-
-#include "ray_query.glsl"
-
-#include "wide_walk.glsl"
-#ifdef WALKS_TOGETHER
-#include "packet_walk.glsl"
-#endif
 
 const float kDropped = -1.0;  // The length of an invalid ray.
 
@@ -64,7 +42,7 @@ void main() {
   const vec3 axis = cross(start.tangent, start.bitangent);
   const vec3 local = decodeConeRay(imageLoad(rayTexels, int(ray))).direction;
   const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
-  const Hit hit = FIND_NEAREST_HIT(makeQuery(start.origin, direction, start.excludedFace));
+  const Hit hit = findNearestHit(makeQuery(start.origin, direction, start.excludedFace));
   const float length = validLength(hit, axis, direction);
   lengths[ray * push.coneCount + cone] = hit.isComplete ? floatBitsToUint(length) : kIterationLimitBits;
   if (kWritesHits) hits[cone * kRayCount + ray] = encodeHit(hit, direction);
