@@ -3,12 +3,13 @@
 // the origin, so that only writing them takes time.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
+#include "shared/specialization_ids.h"
 
-layout(local_size_x_id = 6) in;
-layout(constant_id = 0) const uint kLanesPerCone = 1;
-layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
-layout(constant_id = 2) const uint kRayCount = 30;
-layout(constant_id = 4) const bool kWritesHits = false;
+layout(local_size_x_id = kLocalSizeXId) in;
+layout(constant_id = kLanesPerConeId) const uint kLanesPerCone = 1;
+layout(constant_id = kConesPerWorkgroupId) const uint kConesPerWorkgroup = 64;
+layout(constant_id = kRayCountId) const uint kRayCount = 30;
+layout(constant_id = kWritesHitsId) const bool kWritesHits = false;
 
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
 layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };

@@ -1,10 +1,11 @@
 // Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include this file first.
 // PUSH_STRUCT: type of the push constants, by default PoissonPush.
+#include "shared/specialization_ids.h"
 #ifndef PUSH_STRUCT
 #define PUSH_STRUCT PoissonPush
 #endif
-layout(local_size_x_id = 1) in;                      // Has the value of kLaneCount, but a separate id.
-layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
+layout(local_size_x_id = kLocalSizeXId) in;                     // Equal to kLaneCount.
+layout(constant_id = kLaneCountId) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
 layout(push_constant) uniform Push { PUSH_STRUCT push; };
 

@@ -5,12 +5,13 @@
 #include "shared/cone_hit.h"
 #include "shared/cone_rules.h"
 #include "shared/prediction_layout.h"
+#include "shared/specialization_ids.h"
 
-layout(local_size_x_id = 3) in;  // Has the value of kLanesPerCone, but a separate id.
-layout(constant_id = 0) const uint kLanesPerCone = 32u;
-layout(constant_id = 1) const uint kRayCount = 30u;
-layout(constant_id = 2) const bool kIsCgal = false;     // True: Definition::Cgal. False: Definition::Paper.
-layout(constant_id = 4) const uint kLengthCount = 30u;  // Equal to kRayCount.
+layout(local_size_x_id = kLocalSizeXId) in;  // Equal to kLanesPerCone.
+layout(constant_id = kLanesPerConeId) const uint kLanesPerCone = 32u;
+layout(constant_id = kRayCountId) const uint kRayCount = 30u;
+layout(constant_id = kIsCgalId) const bool kIsCgal = false;
+layout(constant_id = kLengthCountId) const uint kLengthCount = 30u;  // Equal to kRayCount.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer Table { uvec4 tableBlocks[]; };  // The rays, then the seeds.

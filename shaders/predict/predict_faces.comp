@@ -6,9 +6,10 @@
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/prediction_layout.h"
+#include "shared/specialization_ids.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const bool kIsCgal = false;  // True: Definition::Cgal. False: Definition::Paper.
+layout(local_size_x_id = kLocalSizeXId) in;
+layout(constant_id = kIsCgalId) const bool kIsCgal = false;
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer Points { uvec4 pointBlocks[]; };

@@ -1,8 +1,9 @@
 // Access to the texels of the hierarchy: bindings 0 to 3 of every traversal kernel. The texels are in images or in
 // buffers; images are much faster on llvmpipe.
 #include "shared/bvh_layout.h"
+#include "shared/specialization_ids.h"
 
-layout(constant_id = 5) const bool kFetchesTexels = true;
+layout(constant_id = kFetchesTexelsId) const bool kFetchesTexels = true;
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer nodeTexels;
 layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer triangleTexels;

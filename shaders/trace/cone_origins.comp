@@ -3,10 +3,11 @@
 // per lane. The twin of coneStartOfFace() in src/trace/cone_tracer.h.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
+#include "shared/specialization_ids.h"
 
 #include "bvh_fetch.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = kLocalSizeXId) in;
 layout(set = 0, binding = 4) readonly buffer Seeds { ConeSeed seeds[]; };
 layout(set = 0, binding = 5) writeonly buffer Origins { ConeOrigin origins[]; };
 layout(push_constant) uniform Push { ConePush push; };

@@ -3,14 +3,15 @@
 // beginning with ray y * kLanesPerCone. With one lane per cone, neighbouring lanes trace the same ray of neighbouring
 // seeds; such rays visit nearly the same nodes.
 #include "shared/cone_layout.h"
+#include "shared/specialization_ids.h"
 
-layout(local_size_x_id = 6) in;  // Equal to kLanesPerCone * kConesPerWorkgroup.
-layout(constant_id = 0) const uint kLanesPerCone = 1;
-layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
-layout(constant_id = 2) const uint kRayCount = 30;
-layout(constant_id = 3) const uint kIterationLimit = 8000;
-layout(constant_id = 4) const bool kWritesHits = false;
-layout(constant_id = 7) const bool kIsCgal = false;  // True: Definition::Cgal. False: Definition::Paper.
+layout(local_size_x_id = kLocalSizeXId) in;  // Equal to kLanesPerCone * kConesPerWorkgroup.
+layout(constant_id = kLanesPerConeId) const uint kLanesPerCone = 1;
+layout(constant_id = kConesPerWorkgroupId) const uint kConesPerWorkgroup = 64;
+layout(constant_id = kRayCountId) const uint kRayCount = 30;
+layout(constant_id = kIterationLimitId) const uint kIterationLimit = 8000;
+layout(constant_id = kWritesHitsId) const bool kWritesHits = false;
+layout(constant_id = kIsCgalId) const bool kIsCgal = false;
 
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;

@@ -2,11 +2,13 @@
 // A ray per lane: each lane traverses the hierarchy independently.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
+#include "shared/specialization_ids.h"
+
 #include "wide_nodes.glsl"
 
 // See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The default values also work.
-layout(constant_id = 8) const uint kStackSize = kMaxBvhDepth;
-layout(constant_id = 9) const bool kPostponesTriangles = true;
+layout(constant_id = kStackSizeId) const uint kStackSize = kMaxBvhDepth;
+layout(constant_id = kPostponesTrianglesId) const bool kPostponesTriangles = true;
 
 // Triangles of one node that are still to be tested. bits: these triangles. all: all triangles of the node. Both are
 // nibbles as in DeviceWideNode::childBits. base: triangleBase of the node.

@@ -4,10 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
+#include "shared/specialization_ids.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kRayCount = 30;
-layout(constant_id = 2) const bool kIsCgal = false;  // See ray_bindings.glsl.
+layout(local_size_x_id = kLocalSizeXId) in;
+layout(constant_id = kRayCountId) const uint kRayCount = 30;
+layout(constant_id = kIsCgalId) const bool kIsCgal = false;
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // Written by trace_main.glsl.

@@ -3,12 +3,22 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
 #include "vk/result.h"
 
 namespace asdfvk {
+
+std::vector<VkSpecializationMapEntry> specializationEntries(std::span<const SpecializationConstant> constants) {
+  std::vector<VkSpecializationMapEntry> entries;
+  for (size_t i = 0; i < constants.size(); ++i) {
+    const size_t offset = i * sizeof(SpecializationConstant) + offsetof(SpecializationConstant, value);
+    entries.push_back({constants[i].id, static_cast<uint32_t>(offset), sizeof(SpecializationConstant::value)});
+  }
+  return entries;
+}
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDescription& description)
     : device_(device.handle()), bindings_(description.bindings) {
@@ -40,12 +50,11 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDesc
     moduleInfo.pCode = description.spirv.data();
     requireSuccess(vkCreateShaderModule(device_, &moduleInfo, nullptr, &module), description.name);
 
-    std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < description.specializationConstants.size(); ++i)
-      entries.push_back({i, static_cast<uint32_t>(i * sizeof(uint32_t)), sizeof(uint32_t)});
-    const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
-                                              description.specializationConstants.size() * sizeof(uint32_t),
-                                              description.specializationConstants.data()};
+    const std::vector<VkSpecializationMapEntry> entries = specializationEntries(description.specializationConstants);
+    const VkSpecializationInfo specialization{
+        static_cast<uint32_t>(entries.size()), entries.data(),
+        description.specializationConstants.size() * sizeof(SpecializationConstant),
+        description.specializationConstants.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;

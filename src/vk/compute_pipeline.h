@@ -11,12 +11,22 @@
 
 namespace asdfvk {
 
+/// The value of a specialization constant: the bits of a uint, an int or a float, or a VkBool32.
+struct SpecializationConstant {
+  uint32_t id;  ///< layout(constant_id = id) or layout(local_size_x_id = id) in the shader.
+  uint32_t value;
+};
+
+/// An entry per constant; the data are the constants themselves.
+[[nodiscard]] std::vector<VkSpecializationMapEntry> specializationEntries(
+    std::span<const SpecializationConstant> constants);
+
 struct ComputePipelineDescription {
   std::string name;  ///< Name of the shader, for messages.
   std::span<const uint32_t> spirv;
   std::vector<VkDescriptorType> bindings;  ///< Binding i of set 0 has type bindings[i].
   uint32_t pushConstantByteCount = 0;
-  std::vector<uint32_t> specializationConstants;  ///< Entry i: the value of the constant with id i, if any.
+  std::vector<SpecializationConstant> specializationConstants;  ///< Ids that the shader lacks have no effect.
 };
 
 class ComputePipeline {

@@ -96,12 +96,11 @@ class RadvCompiler {
     VkShaderModule module = VK_NULL_HANDLE;
     requireSuccess(vkCreateShaderModule(device_, &moduleInfo, nullptr, &module), description.name);
 
-    std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < description.specializationConstants.size(); ++i)
-      entries.push_back({i, static_cast<uint32_t>(i * sizeof(uint32_t)), sizeof(uint32_t)});
-    const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
-                                              description.specializationConstants.size() * sizeof(uint32_t),
-                                              description.specializationConstants.data()};
+    const std::vector<VkSpecializationMapEntry> entries = specializationEntries(description.specializationConstants);
+    const VkSpecializationInfo specialization{
+        static_cast<uint32_t>(entries.size()), entries.data(),
+        description.specializationConstants.size() * sizeof(SpecializationConstant),
+        description.specializationConstants.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;

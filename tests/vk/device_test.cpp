@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "shared/specialization_ids.h"
 #include "spirv/fill.comp.h"
 #include "support/test_device.h"
 #include "vk/buffer.h"
@@ -20,7 +21,7 @@ struct FillPush {
 };
 
 ComputePipelineDescription fillDescription() {
-  return {"fill.comp", k_fill_comp, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, sizeof(FillPush), {/* LOCAL_SIZE= */ 64}};
+  return {"fill.comp", k_fill_comp, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, sizeof(FillPush), {{kLocalSizeXId, 64}}};
 }
 
 }  // namespace

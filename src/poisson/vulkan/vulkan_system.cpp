@@ -10,6 +10,7 @@
 
 #include "asdf_vk/error.h"
 #include "shared/poisson_layout.h"
+#include "shared/specialization_ids.h"
 
 namespace asdfvk {
 namespace {
@@ -27,7 +28,7 @@ uint32_t minRowsPerLane(const DeviceFacts& facts) {
 
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
-/// Lanes per workgroup on this device: the specialization constant of the pipelines.
+/// Lanes per workgroup on this device: kLaneCount in the shaders.
 uint32_t laneCountOn(const DeviceFacts& facts) {
   const uint32_t wanted = facts.kind == DeviceKind::Cpu ? kCpuLaneCount : kGpuLaneCount;
   return std::bit_floor(std::min({wanted, facts.maxWorkgroupInvocations, facts.maxWorkgroupSize}));
@@ -65,7 +66,7 @@ ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const
           spirv,
           std::vector(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
           sizeof(PoissonPush),
-          {/* kLaneCount= */ laneCountOn(facts), /* LOCAL_SIZE_X= */ laneCountOn(facts)}};
+          {{kLocalSizeXId, laneCountOn(facts)}, {kLaneCountId, laneCountOn(facts)}}};
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, uint32_t count, Buffer columns, Buffer couplings)

@@ -18,6 +18,7 @@
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/prediction_layout.h"
+#include "shared/specialization_ids.h"
 #include "spirv/hit_points.comp.h"
 #include "spirv/predict_faces.comp.h"
 #include "trace/adaptive_chunks.h"
@@ -58,9 +59,11 @@ ComputePipelineDescription describePoints(Definition definition, uint32_t rayCou
           .spirv = k_hit_points_comp,
           .bindings = std::vector(4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
           .pushConstantByteCount = sizeof(PointPush),
-          .specializationConstants = {/* kLanesPerCone= */ laneCount, /* kRayCount= */ rayCount,
-                                      /* kIsCgal= */ isCgal(definition), /* LOCAL_SIZE_X= */ laneCount,
-                                      /* kLengthCount= */ rayCount}};
+          .specializationConstants = {{kLocalSizeXId, laneCount},
+                                      {kLanesPerConeId, laneCount},
+                                      {kRayCountId, rayCount},
+                                      {kLengthCountId, rayCount},
+                                      {kIsCgalId, isCgal(definition)}}};
 }
 
 ComputePipelineDescription describeFaces(Definition definition) {
@@ -68,8 +71,8 @@ ComputePipelineDescription describeFaces(Definition definition) {
           .spirv = k_predict_faces_comp,
           .bindings = std::vector(4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
           .pushConstantByteCount = sizeof(PredictionPush),
-          .specializationConstants = {/* LOCAL_SIZE_X= */ VulkanPredictionKernels::kFaceLaneCount,
-                                      /* kIsCgal= */ isCgal(definition)}};
+          .specializationConstants = {{kLocalSizeXId, VulkanPredictionKernels::kFaceLaneCount},
+                                      {kIsCgalId, isCgal(definition)}}};
 }
 
 Buffer uploadFaces(const Device& device, const TraceScene& scene) {

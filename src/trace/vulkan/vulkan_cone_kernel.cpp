@@ -8,6 +8,7 @@
 #include "asdf_vk/error.h"
 #include "bvh/device_bvh.h"
 #include "shared/cone_hit.h"
+#include "shared/specialization_ids.h"
 #include "spirv/cone_origins.comp.h"
 #include "spirv/trace_packet.comp.h"
 #include "spirv/trace_rays.comp.h"
@@ -23,17 +24,18 @@ VulkanTraceChoice choiceFor(const Device& device, const ConeKernelRequest& reque
   return request.choice.value_or(defaultTraceChoice(device.facts()));
 }
 
-VkBool32 isCgal(const ConeKernelRequest& request) {
-  return request.definition == Definition::Cgal ? VK_TRUE : VK_FALSE;
-}
+VkBool32 toBool32(bool value) { return value ? VK_TRUE : VK_FALSE; }
+
+VkBool32 isCgal(const ConeKernelRequest& request) { return toBool32(request.definition == Definition::Cgal); }
 
 ComputePipelineDescription describeReduction(const ConeKernelRequest& request) {
   return {.name = "trace_reduce.comp",
           .spirv = k_trace_reduce_comp,
           .bindings = {kTexels, kStorage, kStorage},
           .pushConstantByteCount = sizeof(ConePush),
-          .specializationConstants = {/* LOCAL_SIZE_X= */ VulkanConeKernel::kReductionLaneCount,
-                                      /* RAY_COUNT= */ request.rayCount, isCgal(request)}};
+          .specializationConstants = {{kLocalSizeXId, VulkanConeKernel::kReductionLaneCount},
+                                      {kRayCountId, request.rayCount},
+                                      {kIsCgalId, isCgal(request)}}};
 }
 
 ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
@@ -41,8 +43,8 @@ ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
           .spirv = k_cone_origins_comp,
           .bindings = {kTexels, kTexels, kStorage, kStorage, kStorage, kStorage},
           .pushConstantByteCount = sizeof(ConePush),
-          .specializationConstants = {/* LANE_COUNT= */ VulkanConeKernel::kOriginLaneCount, 0, 0, 0, 0,
-                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE}};
+          .specializationConstants = {{kLocalSizeXId, VulkanConeKernel::kOriginLaneCount},
+                                      {kFetchesTexelsId, toBool32(choice.fetch == BvhFetch::Texel)}}};
 }
 
 /// Returns the device. Throws if the device lacks subgroup operations of the kernel.
@@ -104,16 +106,16 @@ ComputePipelineDescription describeRays(const ConeKernelRequest& request, const 
           .spirv = isPacket ? std::span<const uint32_t>(k_trace_packet_comp) : k_trace_rays_comp,
           .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kTexels, kStorage, kStorage},
           .pushConstantByteCount = sizeof(ConePush),
-          .specializationConstants = {/* LANES_PER_CONE= */ shape.lanesPerCone,
-                                      /* CONES_PER_WORKGROUP= */ shape.conesPerWorkgroup,
-                                      /* RAY_COUNT= */ request.rayCount,
-                                      /* ITERATION_LIMIT= */ shape.iterationLimit,
-                                      /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
-                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
-                                      /* LOCAL_SIZE_X= */ shape.lanesPerCone * shape.conesPerWorkgroup,
-                                      /* IS_CGAL= */ isCgal(request),
-                                      /* STACK_SIZE= */ walk.stackSize,
-                                      /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
+          .specializationConstants = {{kLocalSizeXId, shape.lanesPerCone * shape.conesPerWorkgroup},
+                                      {kLanesPerConeId, shape.lanesPerCone},
+                                      {kConesPerWorkgroupId, shape.conesPerWorkgroup},
+                                      {kRayCountId, request.rayCount},
+                                      {kIterationLimitId, shape.iterationLimit},
+                                      {kWritesHitsId, toBool32(request.writesHits)},
+                                      {kFetchesTexelsId, toBool32(choice.fetch == BvhFetch::Texel)},
+                                      {kIsCgalId, isCgal(request)},
+                                      {kStackSizeId, walk.stackSize},
+                                      {kPostponesTrianglesId, toBool32(walk.postponesTriangles)}}};
 }
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
