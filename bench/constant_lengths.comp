@@ -22,7 +22,7 @@ void main() {
   const uint ray = gl_WorkGroupID.y * kLanesPerCone + lane % kLanesPerCone;
   if (cone >= push.coneCount || ray >= kRayCount) return;
   const uvec4 origin = imageLoad(originTexels, int(cone * kConeOriginTexelCount));
-  const uint length = floatBitsToUint(0.25 + 0.125 * uintBitsToFloat(origin.x));
-  lengths[ray * push.coneCount + cone] = length;
-  if (kWritesHits) hits[cone * kRayCount + ray] = uvec2(length, origin.w);
+  const uint lengthBits = floatBitsToUint(0.25 + 0.125 * uintBitsToFloat(origin.x));
+  lengths[ray * push.coneCount + cone] = lengthBits;
+  if (kWritesHits) hits[cone * kRayCount + ray] = uvec2(lengthBits, origin.w);
 }

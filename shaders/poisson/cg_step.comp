@@ -22,8 +22,8 @@ void main() {
     partial += mat2x3(sums.directionSquared[i], sums.productDot[i], sums.productSquared[i], sums.residualProduct[i],
                       sums.residualDot[i], sums.residualSquared[i]);
   const mat2x3 total = workgroupSum(partial);
-  const CgSums all = CgSums(total[0].x, total[0].y, total[0].z, total[1].x, total[1].y, total[1].z);
-  const CgStep next = nextCgStep(all, state.toleranceSquared, kCgFloatRounding);
+  const CgSums rowSums = CgSums(total[0].x, total[0].y, total[0].z, total[1].x, total[1].y, total[1].z);
+  const CgStep next = nextCgStep(rowSums, state.toleranceSquared, kCgFloatRounding);
   if (next.status == kCgRunning)
     for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
       const float direction = p[row];
@@ -33,7 +33,7 @@ void main() {
       p[row] = residual + next.beta * direction;
     }
   if (lane != 0u || gl_WorkGroupID.x != 0u) return;
-  state.residualSquared = all.residualSquared;
+  state.residualSquared = rowSums.residualSquared;
   state.status = next.status;
   if (next.status == kCgRunning)
     state.iterationCount += 1u;

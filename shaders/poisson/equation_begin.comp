@@ -28,12 +28,12 @@ void main() {
       if (neighbours[arc] == face) continue;
       const float weight = weights[arc];
       const EquationStart other = starts[neighbours[arc]];
-      const float step = weight * (other.base - start.base);
+      const float baseDifference = weight * (other.base - start.base);
       diagonal += weight;
       if (has(start, kIsGuided) && has(other, kIsGuided))
-        rightHandSide -= step;
+        rightHandSide -= baseDifference;
       else
-        source += step;
+        source += baseDifference;
       known += weight * other.difference;
       if (!has(other, kIsUnknown)) rightHandSide += weight * (other.base + other.difference);
     }

@@ -113,11 +113,11 @@ void main() {
     PredictionPoint point = PredictionPoint(vec3(0.0), kNoFace, vec3(0.0), -1.0);
     if (hit.y != kNoFace) {
       const PredictionRay coneRay = loadRay(ray);
-      const float distance = uintBitsToFloat(hit.x);
-      const float ratio = distance * distance * coneRay.solidAngle;
-      const bool isInlier = lengths[ray] >= 0.0 && abs(distance - median) <= bound;
-      point = PredictionPoint(face.barycentre + distance * (frame * coneRay.direction), hit.y, loadFace(hit.y).normal,
-                              isInlier ? ratio : -ratio);
+      const float hitDistance = uintBitsToFloat(hit.x);
+      const float ratio = hitDistance * hitDistance * coneRay.solidAngle;
+      const bool isInlier = lengths[ray] >= 0.0 && abs(hitDistance - median) <= bound;
+      point = PredictionPoint(face.barycentre + hitDistance * (frame * coneRay.direction), hit.y,
+                              loadFace(hit.y).normal, isInlier ? ratio : -ratio);
     }
     storePoint(firstPoint + 1u + ray, point);
   }

@@ -71,17 +71,17 @@ struct ConePoint {
 ConePoint project(PredictionFace at, PredictionPoint point, float seedWeight) {
   const vec3 offset = point.position - at.barycentre;
   const float squared = dot(offset, offset);
-  const float inverse = inversesqrt(max(squared, kMinSquaredLength));
-  const float cosine = -dot(offset, at.normal) * inverse;
+  const float inverseLength = inversesqrt(max(squared, kMinSquaredLength));
+  const float cosine = -dot(offset, at.normal) * inverseLength;
   const float versine = max(1.0 - cosine, push.minVersine);
-  float ratio = abs(point.solidAngleRatio) * (inverse * inverse);
+  float ratio = abs(point.solidAngleRatio) * (inverseLength * inverseLength);
   // The density of rays per solid angle at this angle t to the axis is proportional to 1 / (sin t cos^2 t).
   if (kIsCgal) ratio *= inversesqrt(max(versine * (2.0 - versine), kMinSquaredLength)) / (cosine * cosine);
   const float normalCosine = kIsCgal ? -dot(point.normal, offset) : dot(point.normal, at.normal);
   const bool isInCone = cosine >= push.minCosine && normalCosine <= push.maxNormalCosine && point.face != kNoFace &&
                         point.face != at.representative;
   ConePoint seen;
-  seen.distance = isInCone ? squared * inverse : 0.0;
+  seen.distance = isInCone ? squared * inverseLength : 0.0;
   seen.mass = isInCone ? seedWeight * clamp(ratio, 1.0 / kMaxSolidAngleChange, kMaxSolidAngleChange) : 0.0;
   seen.weight = kIsCgal ? seen.mass : seen.mass * (approximateRsqrt(versine) * sqrtOverAngle(versine));
   seen.isInlier = point.solidAngleRatio >= 0.0;

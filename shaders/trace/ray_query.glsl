@@ -12,11 +12,11 @@ struct Hit {
   bool isComplete;  // False: the iteration limit ended the traversal.
 };
 
-// Replaces `hit` by the triangle in `primitive` if the triangle is nearer. distance: negative if the ray misses the
+// Replaces `hit` by the triangle in `primitive` if the triangle is nearer. hitDistance: negative if the ray misses the
 // triangle.
-void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
-  if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
-    hit.distance = distance;
+void keepNearest(float hitDistance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
+  if (hitDistance >= 0.0 && hitDistance < hit.distance && faceIndex != excludedFace) {
+    hit.distance = hitDistance;
     hit.primitive = primitive;
   }
 }

@@ -43,7 +43,7 @@ void main() {
   const vec3 local = decodeConeRay(imageLoad(rayTexels, int(ray))).direction;
   const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
   const Hit hit = findNearestHit(makeQuery(start.origin, direction, start.excludedFace));
-  const float length = validLength(hit, axis, direction);
-  lengths[ray * push.coneCount + cone] = hit.isComplete ? floatBitsToUint(length) : kIterationLimitBits;
+  const float rayLength = validLength(hit, axis, direction);
+  lengths[ray * push.coneCount + cone] = hit.isComplete ? floatBitsToUint(rayLength) : kIterationLimitBits;
   if (kWritesHits) hits[cone * kRayCount + ray] = encodeHit(hit, direction);
 }
