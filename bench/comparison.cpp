@@ -16,7 +16,7 @@
 #include "support/process.h"
 #include "trace/cone_tracer.h"
 #include "trace/seed_order.h"
-#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_trace_choice.h"
 
 namespace asdfvk::bench {
 namespace {

@@ -17,7 +17,7 @@
 #include "generate/creatures.h"
 #include "generate/generated_shape.h"
 #include "pipeline/compute.h"
-#include "predict/vulkan/vulkan_prediction.h"
+#include "predict/vk/vulkan_prediction.h"
 #include "seeds/random_permutation.h"
 #include "seeds/samplers.h"
 #include "spirv/constant_lengths.comp.h"
@@ -25,8 +25,8 @@
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_tracer.h"
 #include "vk/buffer_pool.h"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "wide_nodes.glsl"
 
-// See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The default values also work.
+// See VulkanWalkShape in src/trace/vk/vulkan_trace_choice.h. The default values also work.
 layout(constant_id = kStackSizeId) const uint kStackSize = kMaxBvhDepth;
 layout(constant_id = kPostponesTrianglesId) const bool kPostponesTriangles = true;
 

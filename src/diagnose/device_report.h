@@ -9,7 +9,7 @@
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
-#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_trace_choice.h"
 #include "vk/device_choice.h"
 
 namespace asdfvk {

@@ -9,7 +9,7 @@
 #include "generate/shapes.h"
 #include "mesh/dual_graph.h"
 #include "pipeline/average_error.h"
-#include "pipeline/vulkan/vulkan_backend.h"
+#include "pipeline/vk/vulkan_backend.h"
 #include "smooth/bilateral.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"

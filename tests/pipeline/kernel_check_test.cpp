@@ -1,4 +1,4 @@
-#include "pipeline/vulkan/kernel_check.h"
+#include "pipeline/vk/kernel_check.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
-#include "pipeline/vulkan/vulkan_backend.h"
+#include "pipeline/vk/vulkan_backend.h"
 #include "support/bits.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"

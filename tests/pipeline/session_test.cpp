@@ -10,7 +10,7 @@
 #include "core/stopwatch.h"
 #include "generate/shapes.h"
 #include "pipeline/prepared_mesh.h"
-#include "pipeline/vulkan/vulkan_backend.h"
+#include "pipeline/vk/vulkan_backend.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "poisson/scaled_system.h"
-#include "poisson/vulkan/vulkan_system.h"
+#include "poisson/vk/vulkan_system.h"
 
 namespace asdfvk {
 

@@ -1,4 +1,4 @@
-#include "predict/vulkan/vulkan_prediction.h"
+#include "predict/vk/vulkan_prediction.h"
 
 #include <doctest/doctest.h>
 

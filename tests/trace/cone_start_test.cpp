@@ -12,7 +12,7 @@
 #include "support/shapes.h"
 #include "support/test_device.h"
 #include "trace/seed_order.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_tracer.h"
 #include "vulkan_variants.h"
 
 using namespace asdfvk;

@@ -2,7 +2,7 @@
 
 #include "asdf_vk/error.h"
 #include "support/require_failure.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 
 using namespace asdfvk;
 

@@ -11,7 +11,7 @@
 
 #include "support/mesa_driver.h"
 #include "support/scoped_variable.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 #include "vk/instance.h"
 #include "vk/result.h"
 

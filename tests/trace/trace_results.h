@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "support/bits.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_tracer.h"
 #include "traced_mesh.h"
 
 namespace asdfvk {

@@ -1,5 +1,5 @@
 // The choice of kernel, fetch and shapes for a device, and devices that cannot run a kernel.
-#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_trace_choice.h"
 
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@
 #include "support/require_failure.h"
 #include "support/specialization_ids.h"
 #include "support/test_device.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_tracer.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;

@@ -1,4 +1,4 @@
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_tracer.h"
 
 #include <doctest/doctest.h>
 

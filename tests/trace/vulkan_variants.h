@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_trace_choice.h"
 
 namespace asdfvk {
 

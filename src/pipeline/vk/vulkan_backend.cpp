@@ -1,4 +1,4 @@
-#include "pipeline/vulkan/vulkan_backend.h"
+#include "pipeline/vk/vulkan_backend.h"
 
 #include <fmt/core.h>
 
@@ -11,11 +11,11 @@
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "pipeline/vulkan/kernel_check.h"
-#include "predict/vulkan/vulkan_prediction.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
-#include "trace/vulkan/vulkan_trace_choice.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "pipeline/vk/kernel_check.h"
+#include "predict/vk/vulkan_prediction.h"
+#include "trace/vk/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_tracer.h"
 #include "vk/device.h"
 
 namespace asdfvk {

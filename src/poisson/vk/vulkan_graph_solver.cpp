@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "poisson/vulkan/vulkan_solver.h"
+#include "poisson/vk/vulkan_solver.h"
 
 namespace asdfvk {
 namespace {

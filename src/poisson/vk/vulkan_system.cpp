@@ -1,4 +1,4 @@
-#include "poisson/vulkan/vulkan_system.h"
+#include "poisson/vk/vulkan_system.h"
 
 #include <fmt/core.h>
 

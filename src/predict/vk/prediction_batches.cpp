@@ -1,4 +1,4 @@
-#include "predict/vulkan/prediction_batches.h"
+#include "predict/vk/prediction_batches.h"
 
 #include <algorithm>
 

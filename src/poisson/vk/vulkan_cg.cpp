@@ -1,4 +1,4 @@
-#include "poisson/vulkan/vulkan_cg.h"
+#include "poisson/vk/vulkan_cg.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/stopwatch.h"
-#include "poisson/vulkan/vulkan_solver.h"
+#include "poisson/vk/vulkan_solver.h"
 #include "spirv/cg_product.comp.h"
 #include "spirv/cg_step.comp.h"
 

@@ -1,11 +1,11 @@
-#include "poisson/vulkan/vulkan_jacobi.h"
+#include "poisson/vk/vulkan_jacobi.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 
-#include "poisson/vulkan/vulkan_solver.h"
+#include "poisson/vk/vulkan_solver.h"
 #include "shared/poisson_layout.h"
 #include "spirv/jacobi_sweep.comp.h"
 

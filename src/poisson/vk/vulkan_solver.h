@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "poisson/poisson_solver.h"
-#include "poisson/vulkan/vulkan_equation.h"
-#include "poisson/vulkan/vulkan_system.h"
+#include "poisson/vk/vulkan_equation.h"
+#include "poisson/vk/vulkan_system.h"
 
 namespace asdfvk {
 

@@ -10,7 +10,7 @@
 #include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
 #include "poisson/poisson_solver.h"
-#include "poisson/vulkan/vulkan_system.h"
+#include "poisson/vk/vulkan_system.h"
 #include "shared/equation_layout.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "predict/vulkan/vulkan_prediction.h"
+#include "predict/vk/vulkan_prediction.h"
 #include "trace/tracer_check.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 
 namespace asdfvk {
 

@@ -1,4 +1,4 @@
-#include "trace/vulkan/device_seeds.h"
+#include "trace/vk/device_seeds.h"
 
 #include <algorithm>
 #include <atomic>

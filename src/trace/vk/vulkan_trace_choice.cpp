@@ -1,4 +1,4 @@
-#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_trace_choice.h"
 
 #include <algorithm>
 

@@ -11,12 +11,12 @@
 #include "mesh/arc_angles.h"
 #include "pipeline/backend.h"
 #include "pipeline/generated_mesh.h"
-#include "pipeline/vulkan/vulkan_backend.h"
+#include "pipeline/vk/vulkan_backend.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 #include "trace/tracer_check.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_tracer.h"
 #include "vk/device.h"
 
 namespace asdfvk {

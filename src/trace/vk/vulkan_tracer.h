@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "trace/cone_tracer.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 
 namespace asdfvk {
 

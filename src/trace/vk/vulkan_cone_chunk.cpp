@@ -1,4 +1,4 @@
-#include "trace/vulkan/vulkan_cone_chunk.h"
+#include "trace/vk/vulkan_cone_chunk.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "poisson/vulkan/vulkan_equation.h"
+#include "poisson/vk/vulkan_equation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/vulkan/kernel_check.h"
+#include "pipeline/vk/kernel_check.h"
 
 #include <vector>
 
@@ -6,7 +6,7 @@
 #include "pipeline/region.h"
 #include "predict/prediction.h"
 #include "trace/reference_tracer.h"
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_tracer.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,4 @@
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 
 #include <fmt/core.h>
 

@@ -9,7 +9,7 @@
 #include "cone/cone.h"
 #include "shared/cone_layout.h"
 #include "trace/trace_scene.h"
-#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vk/vulkan_trace_choice.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "poisson/vulkan/vulkan_system.h"
+#include "poisson/vk/vulkan_system.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
 

@@ -1,4 +1,4 @@
-#include "trace/vulkan/vulkan_tracer.h"
+#include "trace/vk/vulkan_tracer.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@
 #include "trace/adaptive_chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
-#include "trace/vulkan/device_seeds.h"
-#include "trace/vulkan/vulkan_cone_chunk.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/device_seeds.h"
+#include "trace/vk/vulkan_cone_chunk.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 
 namespace asdfvk {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
-#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_cone_kernel.h"
 #include "vk/command_list.h"
 #include "vk/shared_buffer.h"
 

@@ -6,7 +6,7 @@
 
 #include "cone/cone.h"
 #include "predict/prediction.h"
-#include "predict/vulkan/prediction_batches.h"
+#include "predict/vk/prediction_batches.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
