@@ -54,7 +54,7 @@ TEST_CASE("any number of rays gives the reference's values by CGAL's definition"
   for (const uint32_t rayCount : {1u, 33u, 1000u}) {
     CAPTURE(rayCount);
     const CgalReference reference(mesh, rayCount);
-    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+    for (const auto& [name, kernel] : kKernels)
       reference.check(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel}, Definition::Cgal}));
   }
 }

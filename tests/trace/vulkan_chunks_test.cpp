@@ -88,7 +88,7 @@ TEST_CASE("small chunks, one seed and repeated seeds have the values of the whol
                useSmallChunks(facts);
                test::useSeparateMemory(facts);
              });
-  for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
+  for (const auto& [name, kernel] : kKernels) {
     const ConeKernelRequest request{30, true, VulkanTraceChoice{kernel, BvhFetch::Texel}};
     const TraceResults expected = traceByKernel(VulkanConeKernel(*whole, request), traced, {}, Wanted::ValuesAndHits);
     for (const Device* device : {&*whole, &*mapped, &*separate}) check(*device, request, expected);

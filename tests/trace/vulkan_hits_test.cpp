@@ -81,7 +81,7 @@ TEST_CASE("any number of rays gives the reference's hits" * doctest::test_suite(
   for (const uint32_t rayCount : {1u, 7u, 33u, 257u, 1024u}) {
     CAPTURE(rayCount);
     const ReferenceHits reference(mesh, {.rayCount = rayCount});
-    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+    for (const auto& [name, kernel] : kKernels)
       checkHits(VulkanConeKernel(*device, {rayCount, true, VulkanTraceChoice{kernel}}), reference);
   }
 }

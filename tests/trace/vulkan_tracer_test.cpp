@@ -79,7 +79,7 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values" * doc
   for (const uint32_t rayCount : {1u, 2u, 3u, 7u, 8u, 9u, 31u, 32u, 33u, 64u, 100u, 255u, 256u, 257u, 1000u, 1024u}) {
     CAPTURE(rayCount);
     const std::vector<double> reference = referenceValues(traced, {.rayCount = rayCount});
-    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+    for (const auto& [name, kernel] : kKernels)
       checkParity(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel}}), traced,
                   {.rayCount = rayCount}, reference);
   }

@@ -11,12 +11,12 @@ enum class Fetches { All, TexelOnly };
 /// Calls body(choice) for every variant of the kernels; the message of a failed check names the variant.
 template <typename Body>
 void forEveryVariant(Fetches fetches, const Body& body) {
-  for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
-    for (const BvhFetch fetch : {BvhFetch::Storage, BvhFetch::Texel}) {
-      if (fetches == Fetches::TexelOnly && fetch != BvhFetch::Texel) continue;
-      CAPTURE(static_cast<int>(kernel));
-      CAPTURE(static_cast<int>(fetch));
-      body(VulkanTraceChoice{kernel, fetch});
+  for (const auto& kernel : kKernels) {
+    for (const auto& fetch : kFetches) {
+      if (fetches == Fetches::TexelOnly && fetch.second != BvhFetch::Texel) continue;
+      CAPTURE(kernel.first);
+      CAPTURE(fetch.first);
+      body(VulkanTraceChoice{kernel.second, fetch.second});
     }
   }
 }

@@ -47,6 +47,22 @@ ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
                                       {kFetchesTexelsId, toBool32(choice.fetch == BvhFetch::Texel)}}};
 }
 
+struct RayShader {
+  const char* name;
+  std::span<const uint32_t> spirv;
+};
+
+RayShader shaderOf(TraceKernel kernel) {
+  switch (kernel) {
+    case TraceKernel::Packet:
+      return {"trace_packet.comp", k_trace_packet_comp};
+    case TraceKernel::Ray:
+    case TraceKernel::Seed:
+      break;
+  }
+  return {"trace_rays.comp", k_trace_rays_comp};
+}
+
 /// Returns the device. Throws if the device lacks subgroup operations of the kernel.
 const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
   const DeviceFacts& facts = device.facts();
@@ -101,9 +117,9 @@ uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount()
 
 ComputePipelineDescription describeRays(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
                                         const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk) {
-  const bool isPacket = choice.kernel == TraceKernel::Packet;
-  return {.name = isPacket ? "trace_packet.comp" : "trace_rays.comp",
-          .spirv = isPacket ? std::span<const uint32_t>(k_trace_packet_comp) : k_trace_rays_comp,
+  const RayShader shader = shaderOf(choice.kernel);
+  return {.name = shader.name,
+          .spirv = shader.spirv,
           .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kTexels, kStorage, kStorage},
           .pushConstantByteCount = sizeof(ConePush),
           .specializationConstants = {{kLocalSizeXId, shape.lanesPerCone * shape.conesPerWorkgroup},
