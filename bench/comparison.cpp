@@ -34,7 +34,7 @@ std::map<std::string, std::unique_ptr<Backend>> openBackends(const std::string& 
   for (const std::string& name : fastBackends()) open(name, sessionOptionsOf(name, device));
   const std::optional<TraceKernel> defaultKernel = backends["vulkan"]->traceVariant()->kernel;
   for (const auto& [name, kernel] : kKernels) {
-    if (!kernel || kernel == defaultKernel) continue;
+    if (kernel == defaultKernel) continue;
     SessionOptions options = sessionOptionsOf("vulkan", device);
     options.variant.kernel = kernel;
     open(std::string("vulkan ") + name, options);

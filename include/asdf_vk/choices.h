@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -43,11 +42,10 @@ inline constexpr ChoiceNames<BackendChoice, 4> kBackendNames{{{"auto", BackendCh
                                                               {"cpu", BackendChoice::Cpu},
                                                               {"reference", BackendChoice::Reference}}};
 
-inline constexpr ChoiceNames<std::optional<TraceKernel>, 4> kKernels{
-    {{"auto", std::nullopt}, {"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}}};
+inline constexpr ChoiceNames<TraceKernel, 3> kKernels{
+    {{"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}}};
 
-inline constexpr ChoiceNames<std::optional<BvhFetch>, 3> kFetches{
-    {{"auto", std::nullopt}, {"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}}};
+inline constexpr ChoiceNames<BvhFetch, 2> kFetches{{{"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}}};
 
 inline constexpr ChoiceNames<ArcWeights, 2> kWeights{
     {{"distance", ArcWeights::Distance}, {"feature", ArcWeights::Feature}}};

@@ -127,7 +127,7 @@ class SessionOptions(TypedDict, total=False):
     """Backend that traces the rays. vulkan: a Vulkan device. cpu: the cores of the CPU. reference: the CPU in
     double precision. auto: the first of these that is available; default auto."""
     device: str | int | None
-    """Vulkan device: its number in list_devices or a part of its name; default the best."""
+    """Vulkan device: its number in the list of devices or a part of its name; default the best."""
     require_gpu: bool | None
     """Fail if no GPU is usable."""
     threads: int | None

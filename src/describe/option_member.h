@@ -111,6 +111,31 @@ struct ChoiceCodec {
   }
 };
 
+/// As ChoiceCodec, for std::optional members; the name "auto" is an unset member.
+template <const auto& kNames>
+struct AutoChoiceCodec : ChoiceCodec<kNames> {
+  template <typename T>
+  [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, std::optional<T>& member) {
+    T named{};
+    const bool isAuto = value == OptionValue(kAuto);
+    if (!isAuto && !ChoiceCodec<kNames>::read(value, row, named)) return false;
+    member = isAuto ? std::nullopt : std::optional(named);
+    return true;
+  }
+  template <typename T>
+  [[nodiscard]] static OptionValue write(const std::optional<T>& member) {
+    return member ? ChoiceCodec<kNames>::write(*member) : OptionValue(kAuto);
+  }
+  [[nodiscard]] static std::vector<std::string> names() {
+    std::vector<std::string> names = ChoiceCodec<kNames>::names();
+    names.insert(names.begin(), kAuto);
+    return names;
+  }
+
+ private:
+  static inline const std::string kAuto = "auto";
+};
+
 /// The codec of members of type T if the row names no other.
 template <typename T>
 struct DefaultCodecOf {

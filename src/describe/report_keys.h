@@ -65,8 +65,7 @@ inline constexpr ChoiceNames<WarningCode, 19> kWarningCodeNames{
      {"uncertainParts", WarningCode::UncertainParts},
      {"coarseParts", WarningCode::CoarseParts}}};
 
-// choicesOf(): the names. enumerationName(): the name of the type. TraceKernel and BvhFetch have a further name,
-// "auto".
+// choicesOf(): the names. enumerationName(): the name of the type.
 #define ASDFVK_NAMES(Enumeration, names)                                      \
   constexpr const char* enumerationName(Enumeration) { return #Enumeration; } \
   constexpr const auto& choicesOf(Enumeration) { return names; }

@@ -137,8 +137,8 @@ std::string partRow(const PartsReport& parts) {
 
 std::string deviceRow(const Report& report) {
   if (!report.traceChoice) return report.device;
-  return fmt::format("{}; kernel {}, fetch {}", report.device, nameOf(kKernels, report.traceChoice->kernel),
-                     nameOf(kFetches, report.traceChoice->fetch));
+  return fmt::format("{}; kernel {}, fetch {}", report.device, nameOf(kKernels, *report.traceChoice->kernel),
+                     nameOf(kFetches, *report.traceChoice->fetch));
 }
 
 std::string solverRow(const SolverReport& solver) {

@@ -28,7 +28,7 @@ OptionRows sessionRows(SessionSettings& settings) {
                 .placeholder = "N"},
       OptionRow{.name = "kernel",
                 .group = kExperimentGroup,
-                .member = choice<kKernels>(&settings.variant.kernel),
+                .member = memberAs<AutoChoiceCodec<kKernels>>(&settings.variant.kernel),
                 .text =
                     "Vulkan: rays that neighbouring lanes trace. seed: the same ray of neighbouring seeds. ray: the "
                     "rays of one seed. packet: as ray, but the lanes traverse the hierarchy together",
@@ -36,7 +36,7 @@ OptionRows sessionRows(SessionSettings& settings) {
                         "mesh ([devices.md](devices.md)).",
                 .where = OptionPlace::Program},
       OptionRow{.name = "fetch",
-                .member = choice<kFetches>(&settings.variant.fetch),
+                .member = memberAs<AutoChoiceCodec<kFetches>>(&settings.variant.fetch),
                 .text = "Vulkan: kind of buffers from which the kernels read the hierarchy",
                 .where = OptionPlace::Program},
   });

@@ -110,8 +110,6 @@ class ModelBuilder {
   std::vector<std::string> addEnumeration(T value) {
     ReportEnumeration enumeration{enumerationName(value), {}, {}};
     for (const auto& [name, enumerator] : choicesOf(value)) {
-      if constexpr (!std::is_same_v<std::decay_t<decltype(enumerator)>, T>)
-        if (!enumerator) continue;  // The name "auto".
       enumeration.names.emplace_back(name);
       std::string identifier = name;
       identifier[0] = static_cast<char>(std::toupper(identifier[0]));

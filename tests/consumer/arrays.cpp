@@ -51,6 +51,7 @@ bool reportsErrors(asdfvk::Session& session) {
 }  // namespace
 
 int main() {
-  asdfvk::Session session({.backend = BackendChoice::Reference, .device = {}, .requireGpu = false, .variant = {}});
+  asdfvk::Session session(
+      {.backend = asdfvk::BackendChoice::Reference, .device = {}, .requireGpu = false, .variant = {}});
   return computesOnArrays(session) && reportsErrors(session) ? 0 : 1;
 }

@@ -85,7 +85,7 @@ TEST_CASE("each variant and solver of the device gives the values of the CPU" * 
     CAPTURE(tracer.failure);
     REQUIRE(tracer.variant);
     const std::string variant =
-        std::string(nameOf(kKernels, tracer.variant->kernel)) + nameOf(kFetches, tracer.variant->fetch);
+        std::string(nameOf(kKernels, *tracer.variant->kernel)) + nameOf(kFetches, *tracer.variant->fetch);
     CAPTURE(variant);
     variants.insert(variant);
     CHECK(tracer.backend == "vulkan");

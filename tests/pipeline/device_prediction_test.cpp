@@ -33,6 +33,7 @@ class GpuBackend final : public Backend {
   [[nodiscard]] std::string deviceName() const override { return vulkan_->deviceName(); }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return vulkan_->deviceLines(); }
   [[nodiscard]] bool runsOnCpu() const override { return false; }
+  [[nodiscard]] BvhOptions bvhOptions() const override { return vulkan_->bvhOptions(); }
   [[nodiscard]] bool hasDevice() const override { return true; }
   [[nodiscard]] const Solver& automaticSolver() const override { return defaultSolver(true); }
   [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const override {

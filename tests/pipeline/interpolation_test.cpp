@@ -143,7 +143,8 @@ TEST_CASE("values are within those of the seeds of their component, whatever the
   const bool hasSolvers =
       test::hasBuffersForSolvers(*vulkanDeviceOf(*openBackend({.backend = BackendChoice::Vulkan}).backend));
   for (const Guidance guidance : {Guidance::None, Guidance::Curvature}) {
-    for (const SolverChoice solver : {SolverChoice::Cpu, SolverChoice::Eigen}) checkWithin(referenceSession(), solver, guidance);
+    for (const SolverChoice solver : {SolverChoice::Cpu, SolverChoice::Eigen})
+      checkWithin(referenceSession(), solver, guidance);
     if (hasSolvers) checkWithin(test::vulkanSession(), SolverChoice::Cg, guidance);
   }
 }

@@ -117,8 +117,8 @@ TEST_CASE("options out of range are errors, also where nothing uses them") {
     set(options);
     requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange, part);
   };
-  requireRefusal("seeds: 0% is not a share", [](Options& options) { options.seeds = SeedCount::ofShare(0); });
-  requireRefusal("seeds: 0 is not a share", [](Options& options) { options.seeds = SeedCount::ofCount(0); });
+  requireRefusal("seeds: '0%' is not a share", [](Options& options) { options.seeds = SeedCount::ofShare(0); });
+  requireRefusal("seeds: '0' is not a share", [](Options& options) { options.seeds = SeedCount::ofCount(0); });
   requireRefusal("rays: 1025 is not a whole number from 1 to 1024",
                  [](Options& options) { options.cone.rayCount = 1025; });
   requireRefusal("tolerance: 0 is not a number above 0 and below 1",

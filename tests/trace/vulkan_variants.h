@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "asdf_vk/choices.h"
 #include "trace/vk/vulkan_trace_choice.h"
 
 namespace asdfvk {
