@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
+#include "describe/option_rules.h"
 
 namespace py = pybind11;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 
 namespace asdfvk::python {
 

@@ -10,7 +10,7 @@
 
 #include "asdf_vk/scene.h"
 #include "asdf_vk/session.h"
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 
 namespace asdfvk::python {
 

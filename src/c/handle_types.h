@@ -11,7 +11,7 @@
 #include "asdf_vk/scene.h"
 #include "asdf_vk/session.h"
 #include "core/json.h"
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 
 // The types behind the handles of asdf_vk_c.h.
 

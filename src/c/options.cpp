@@ -5,6 +5,7 @@
 #include "c/call_guard.h"
 #include "c/handles.h"
 #include "core/text.h"
+#include "describe/option_rules.h"
 
 namespace asdfvk::c {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "c/handle_types.h"
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 
 namespace asdfvk::c {
 

@@ -1,5 +1,5 @@
-// The options of the meshes that are read.
-#include "cli/options.h"
+#include "cli/input_options.h"
+
 #include "cli/program_values.h"
 
 namespace asdfvk {

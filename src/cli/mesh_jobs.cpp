@@ -9,10 +9,13 @@
 #include "batch/content_hash.h"
 #include "batch/output_record.h"
 #include "batch/process_memory.h"
-#include "cli/report.h"
+#include "cli/page_output.h"
+#include "cli/report_json.h"
+#include "cli/report_text.h"
 #include "core/json.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "describe/report_json.h"
 
 namespace asdfvk {
 namespace {

@@ -13,8 +13,12 @@
 
 #include "asdf_vk/asdf_vk.h"
 #include "batch/output_record.h"
+#include "cli/device_output.h"
+#include "cli/mesh_outcome.h"
 #include "cli/outputs.h"
-#include "cli/report.h"
+#include "cli/page_output.h"
+#include "cli/report_json.h"
+#include "cli/report_text.h"
 #include "core/atomic_file.h"
 #include "core/background_task.h"
 #include "core/stopwatch.h"

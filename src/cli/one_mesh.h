@@ -9,28 +9,11 @@
 #include "asdf_vk/session.h"
 #include "cli/exit_code.h"
 #include "cli/loaded_mesh.h"
-#include "cli/options.h"
+#include "cli/mesh_settings.h"
 #include "page/page.h"
 #include "process/interrupt.h"
 
 namespace asdfvk {
-
-struct MeshSettings {
-  SessionSettings session;
-  ComputationSettings computation;
-  ReadOptions reading;
-  OtherMeshes others;  ///< Empty for one of several meshes and in batches.
-  Outputs outputs;
-  double timeoutSeconds = std::numeric_limits<double>::infinity();
-  bool makesFolders = false;  ///< Whether a missing folder of the result is created.
-  /// Whether the mesh is part of a batch. In a batch, a record beside the result replaces the report, and pages have no
-  /// times.
-  bool isOfBatch = false;
-};
-
-/// The settings as JSON, for a worker process of the same version. The strings may contain any bytes.
-[[nodiscard]] nlohmann::ordered_json toJson(MeshSettings settings);
-[[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
 /// Computes a mesh and reports the result or a failure. Throws Error{OptionConflict} if outputs contradict each other.
 [[nodiscard]] ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings,

@@ -1,4 +1,4 @@
-#include "cli/report.h"
+#include "cli/page_output.h"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
-// The options of outputs, batches and devices. src/describe has the other options.
-#include "cli/options.h"
+#include "cli/program_options.h"
+
 #include "cli/program_values.h"
 #include "core/text.h"
-#include "describe/option_values.h"
+#include "describe/computation_options.h"
 
 namespace asdfvk {
 namespace {
@@ -154,33 +154,6 @@ OptionRows batchRows(BatchOptions& batch) {
                 .placeholder = "N",
                 .defaultText = "the number of cores for many small meshes, else 1"},
   });
-}
-
-OptionRows deviceRows(CommandLine& line) {
-  return withGroups({
-      OptionRow{.name = "list-devices",
-                .group = kDeviceGroup,
-                .member = &line.listDevices,
-                .text = "List Vulkan devices and whether each is usable",
-                .more =
-                    "Only `{json}`, `{quiet}`, `{threads}` and `{require-gpu}` (exit code 3 if no GPU is usable) can "
-                    "be combined with `{list-devices}`."},
-      OptionRow{.name = "device-report",
-                .member = &line.deviceReport,
-                .text = "Print a report on the device as JSON, with a self-test and the rate of each variant of the "
-                        "kernels; exit code 3 if the self-test fails",
-                .more = "Takes `{backend}`, `{device}` and `{require-gpu}` ([devices.md](devices.md))."},
-  });
-}
-
-std::vector<OptionRows> optionTables(CommandLine& line) {
-  return {computationRows(line.computation),
-          readingRows(line.reading),
-          otherMeshRows(line.others),
-          outputRows(line.outputs),
-          batchRows(line.batch),
-          sessionRows(line.session),
-          deviceRows(line)};
 }
 
 }  // namespace asdfvk

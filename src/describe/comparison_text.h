@@ -3,7 +3,7 @@
 #include <string>
 
 #include "asdf_vk/report.h"
-#include "describe/report_text.h"
+#include "describe/thickness_text.h"
 
 namespace asdfvk {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "asdf_vk/session.h"
+#include "asdf_vk/options.h"
 #include "describe/option.h"
 
 namespace asdfvk {
@@ -22,10 +22,6 @@ struct ComputationSettings {
   }
 };
 
-struct SessionSettings : SessionOptions {
-  uint32_t threadCount = 0;  ///< 0: the number of cores.
-};
-
 /// Headings of option groups (OptionRow::group) that occur in more than one table of options.
 inline constexpr const char* kOutputGroup = "Output";
 inline constexpr const char* kDeviceGroup = "Device";
@@ -34,7 +30,6 @@ inline constexpr const char* kExperimentGroup = "Experiments (the defaults are b
 /// Rows are in the order in which options are set. Recipe and definition are first, because they set further options.
 /// The settings must outlive the rows.
 [[nodiscard]] ASDFVK_API OptionRows computationRows(ComputationSettings& settings);
-[[nodiscard]] ASDFVK_API OptionRows sessionRows(SessionSettings& settings);
 
 /// withSpelledOptions() with the options of computations.
 [[nodiscard]] ASDFVK_API std::string withSpelledOptions(std::string_view message, OptionSpelling spelling);
@@ -42,18 +37,5 @@ inline constexpr const char* kExperimentGroup = "Experiments (the defaults are b
 /// A message such as "--allow-sharp-edges was removed: ...; --count-edges counts them" for an option of earlier
 /// versions, else an empty text. name: the name in the spelling.
 [[nodiscard]] ASDFVK_API std::string removedOptionText(std::string_view name, OptionSpelling spelling);
-
-/// Applies what the given options imply; idempotent. Throws Error{OptionOutOfRange}, Error{UnknownName}, and
-/// Error{OptionConflict} if given options have no effect or contradict each other.
-ASDFVK_API void complete(ComputationSettings& computation, const GivenOptions& given);
-// The constructor of CheckedOptions is complete() for callers of the library: options that differ from the defaults
-// count as given.
-
-/// Throws as complete() does.
-ASDFVK_API void requireValid(SessionSettings session, OptionSpelling spelling);
-
-/// The options that repeat the run. An option without effect has no value.
-[[nodiscard]] std::vector<std::pair<std::string, OptionValue>> reportedOptions(ComputationSettings computation,
-                                                                               SessionSettings session);
 
 }  // namespace asdfvk

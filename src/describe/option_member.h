@@ -28,7 +28,7 @@ struct OptionCodec {
   OptionKind kind;
   bool (*read)(const OptionValue& value, const OptionRow& row, void* member);
   OptionValue (*write)(const void* member);
-  const char* wanted = nullptr;                   ///< As OptionRow::wanted.
+  const char* wanted = nullptr;                   ///< See OptionRow::wanted.
   const char* pythonType = nullptr;               ///< Null: the type of OptionKind.
   std::vector<std::string> (*names)() = nullptr;  ///< The allowed values.
 };
@@ -111,7 +111,7 @@ struct ChoiceCodec {
   }
 };
 
-/// As ChoiceCodec, for std::optional members; the name "auto" is an unset member.
+/// Like ChoiceCodec, for std::optional members; the name "auto" is an unset member.
 template <const auto& kNames>
 struct AutoChoiceCodec : ChoiceCodec<kNames> {
   template <typename T>

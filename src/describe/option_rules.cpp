@@ -1,8 +1,8 @@
-// Rules of implication and exclusion between options, for all front ends.
+#include "describe/option_rules.h"
+
 #include <fmt/core.h>
 
 #include "asdf_vk/error.h"
-#include "describe/computation_options.h"
 
 namespace asdfvk {
 namespace {
@@ -135,19 +135,6 @@ CheckedOptions::CheckedOptions(const Options& options) {
     if (rows[i].member.write() != defaultRows[i].member.write()) given.names.insert(rows[i].name);
   complete(computation, given);
   options_ = computation.options;
-}
-
-void requireValid(SessionSettings session, OptionSpelling spelling) {
-  const OptionRows rows = sessionRows(session);
-  requireInRange(rows, spelling);
-  if (session.backend != BackendChoice::Cpu && session.backend != BackendChoice::Reference) return;
-  if (session.requireGpu)
-    refuse(rows, "{require-gpu} contradicts {backend=cpu} and reference, which run on the CPU; drop one", spelling);
-  if (!session.device.empty())
-    refuse(rows, "{device} chooses a Vulkan device, which {backend=cpu} and reference do not use; drop one", spelling);
-  if (session.variant.kernel || session.variant.fetch)
-    refuse(rows, "{kernel} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one",
-           spelling);
 }
 
 }  // namespace asdfvk

@@ -5,7 +5,7 @@
 
 #include "asdf_vk/field.h"
 #include "asdf_vk/report.h"
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 
 namespace asdfvk {
 

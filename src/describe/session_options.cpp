@@ -1,5 +1,5 @@
-// One row per option of a session, and the options that the report lists.
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
+
 #include "describe/option_values.h"
 
 namespace asdfvk {
@@ -40,6 +40,19 @@ OptionRows sessionRows(SessionSettings& settings) {
                 .text = "Vulkan: kind of buffers from which the kernels read the hierarchy",
                 .where = OptionPlace::Program},
   });
+}
+
+void requireValid(SessionSettings session, OptionSpelling spelling) {
+  const OptionRows rows = sessionRows(session);
+  requireInRange(rows, spelling);
+  if (session.backend != BackendChoice::Cpu && session.backend != BackendChoice::Reference) return;
+  if (session.requireGpu)
+    refuse(rows, "{require-gpu} contradicts {backend=cpu} and reference, which run on the CPU; drop one", spelling);
+  if (!session.device.empty())
+    refuse(rows, "{device} chooses a Vulkan device, which {backend=cpu} and reference do not use; drop one", spelling);
+  if (session.variant.kernel || session.variant.fetch)
+    refuse(rows, "{kernel} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one",
+           spelling);
 }
 
 std::vector<std::pair<std::string, OptionValue>> reportedOptions(ComputationSettings computation,

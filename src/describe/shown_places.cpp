@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 #include "describe/comparison_text.h"
-#include "describe/report_text.h"
+#include "describe/thickness_text.h"
 
 namespace asdfvk {
 namespace {

@@ -1,3 +1,5 @@
+#include "describe/thickness_text.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 
 #include "core/text.h"
 #include "describe/comparison_text.h"
-#include "describe/computation_options.h"
-#include "describe/report_text.h"
 #include "describe/unjudged_text.h"
 
 namespace asdfvk {

@@ -2,7 +2,7 @@
 
 #include "asdf_vk/report.h"
 #include "describe/option.h"
-#include "describe/report_text.h"
+#include "describe/thickness_text.h"
 
 namespace asdfvk {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "asdf_vk/version.h"
+#include "cli/command_line.h"
 #include "cli/exit_code.h"
-#include "cli/options.h"
 #include "core/atomic_file.h"
 #include "documents/documents.h"
 #include "generate/generator_options.h"

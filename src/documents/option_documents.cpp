@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "core/text.h"
 #include "documents/documents.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/text.h"
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 #include "documents/documents.h"
 
 namespace asdfvk {

@@ -60,7 +60,7 @@ class Backend {
 
 struct NamedBackend {
   BackendChoice choice = BackendChoice::Automatic;
-  std::string name;  ///< Of kBackendNames.
+  std::string name;  ///< The name in kBackendNames.
   std::unique_ptr<Backend> backend;
   /// Backend::deviceLines(), then the reasons why BackendChoice::Automatic rejected other backends.
   std::vector<std::string> deviceLines;

@@ -1,6 +1,6 @@
 #include "asdf_vk/session.h"
 
-#include "describe/computation_options.h"
+#include "describe/session_options.h"
 #include "pipeline/backend.h"
 #include "pipeline/compute.h"
 

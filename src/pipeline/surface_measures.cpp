@@ -6,7 +6,7 @@
 
 #include "describe/comparison_text.h"
 #include "describe/fields.h"
-#include "describe/report_text.h"
+#include "describe/thickness_text.h"
 #include "pipeline/body_names.h"
 #include "pipeline/comparison.h"
 #include "pipeline/comparison_report.h"

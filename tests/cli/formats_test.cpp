@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "asdf_vk/error.h"
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "describe/computation_options.h"
 #include "describe/option_values.h"
 

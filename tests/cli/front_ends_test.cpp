@@ -6,10 +6,11 @@
 #include <set>
 
 #include "c/c_objects.h"
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "cli/refusal.h"
-#include "cli/report.h"
+#include "cli/report_json.h"
 #include "core/json.h"
+#include "describe/option_rules.h"
 #include "generate/analytic_shapes.h"
 #include "support/shapes.h"
 

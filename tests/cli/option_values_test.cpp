@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "cli/refusal.h"
 #include "cli/scratch_folder.h"
 #include "describe/option_values.h"

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "batch/message_channel.h"
+#include "cli/command_line.h"
 #include "cli/one_mesh.h"
-#include "cli/options.h"
 
 namespace asdfvk {
 namespace {

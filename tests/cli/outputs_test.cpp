@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "asdf_vk/error.h"
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "cli/scratch_folder.h"
 
 namespace asdfvk {

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "cli/outputs.h"
+#include "cli/page_output.h"
 #include "cli/program_under_test.h"
 #include "cli/refusal.h"
-#include "cli/report.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
-#include "cli/options.h"
+#include "cli/command_line.h"
 
 namespace asdfvk {
 

@@ -4,7 +4,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/report.h"
+#include "cli/command_line.h"
+#include "cli/device_output.h"
+#include "cli/report_json.h"
+#include "cli/report_text.h"
 #include "diagnose/device_report.h"
 
 namespace asdfvk {

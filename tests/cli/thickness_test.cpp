@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "cli/program_under_test.h"
 #include "cli/refusal.h"
 #include "cli/sample_files.h"

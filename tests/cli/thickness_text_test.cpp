@@ -2,7 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/report.h"
+#include "cli/command_line.h"
+#include "cli/report_text.h"
 
 namespace asdfvk {
 namespace {

@@ -10,8 +10,8 @@
 #include <regex>
 #include <set>
 
+#include "cli/command_line.h"
 #include "cli/exit_code.h"
-#include "cli/options.h"
 #include "documents/documents.h"
 #include "generate/generator_options.h"
 

@@ -1,9 +1,12 @@
-// Options as JSON, for worker processes and for the hash that --skip-existing compares.
+#include "cli/mesh_settings.h"
+
 #include <utility>
 
 #include "batch/content_hash.h"
-#include "cli/one_mesh.h"
+#include "cli/input_options.h"
+#include "cli/program_options.h"
 #include "core/json.h"
+#include "describe/report_json.h"
 
 namespace asdfvk {
 namespace {

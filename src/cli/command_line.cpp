@@ -1,4 +1,4 @@
-#include "cli/options.h"
+#include "cli/command_line.h"
 
 #include <fmt/core.h>
 
@@ -13,9 +13,11 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
 #include "cli/exit_code.h"
-#include "cli/outputs.h"
+#include "cli/input_options.h"
+#include "cli/program_options.h"
 #include "core/text.h"
 #include "describe/fields.h"
+#include "describe/option_rules.h"
 #include "pipeline/backend.h"
 
 namespace asdfvk {
@@ -266,7 +268,34 @@ void validateOptions(const CommandLine& line) {
     refuseOptions("--quiet and --verbose contradict each other; drop one");
 }
 
+OptionRows deviceRows(CommandLine& line) {
+  return withGroups({
+      OptionRow{.name = "list-devices",
+                .group = kDeviceGroup,
+                .member = &line.listDevices,
+                .text = "List Vulkan devices and whether each is usable",
+                .more =
+                    "Only `{json}`, `{quiet}`, `{threads}` and `{require-gpu}` (exit code 3 if no GPU is usable) can "
+                    "be combined with `{list-devices}`."},
+      OptionRow{.name = "device-report",
+                .member = &line.deviceReport,
+                .text = "Print a report on the device as JSON, with a self-test and the rate of each variant of the "
+                        "kernels; exit code 3 if the self-test fails",
+                .more = "Takes `{backend}`, `{device}` and `{require-gpu}` ([devices.md](devices.md))."},
+  });
+}
+
 }  // namespace
+
+std::vector<OptionRows> optionTables(CommandLine& line) {
+  return {computationRows(line.computation),
+          readingRows(line.reading),
+          otherMeshRows(line.others),
+          outputRows(line.outputs),
+          batchRows(line.batch),
+          sessionRows(line.session),
+          deviceRows(line)};
+}
 
 ArgumentParser parserOf(CommandLine& line) {
   std::vector<Argument> arguments{{.names = "meshes",

@@ -10,6 +10,7 @@
 #include "cli/outputs.h"
 #include "describe/computation_options.h"
 #include "describe/report_json.h"
+#include "describe/session_options.h"
 
 namespace asdfvk {
 
@@ -29,10 +30,6 @@ struct CommandLine {
 
 /// All options of the program by table, in the order of the help. The line must outlive the rows.
 [[nodiscard]] std::vector<OptionRows> optionTables(CommandLine& line);
-[[nodiscard]] OptionRows readingRows(ReadOptions& reading);
-[[nodiscard]] OptionRows otherMeshRows(OtherMeshes& others);
-[[nodiscard]] OptionRows outputRows(Outputs& outputs);
-
 /// Makes the parser of the program. The options of the parser set `line`.
 [[nodiscard]] ArgumentParser parserOf(CommandLine& line);
 
@@ -41,10 +38,6 @@ struct CommandLine {
 
 /// Throws Error{OptionConflict} with the message.
 [[noreturn]] void refuseOptions(const std::string& message);
-
-/// Hash of all options that affect the output of a mesh, for --skip-existing.
-[[nodiscard]] std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
-                                      const ReadOptions& reading, const Outputs& outputs);
 
 /// The usage in three lines, for a call without arguments.
 [[nodiscard]] std::string shortUsage();
