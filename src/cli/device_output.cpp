@@ -9,8 +9,8 @@
 #include "asdf_vk/version.h"
 #include "core/json.h"
 #include "core/text.h"
-#include "diagnose/device_report.h"
 #include "describe/report_json.h"
+#include "diagnose/device_report.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 

@@ -9,6 +9,7 @@
 #include "batch/content_hash.h"
 #include "batch/output_record.h"
 #include "batch/process_memory.h"
+#include "cli/device_output.h"
 #include "cli/page_output.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"

@@ -1,9 +1,10 @@
+#include "cli/report_text.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "cli/report_text.h"
 #include "core/text.h"
 #include "describe/report_text.h"
 
