@@ -266,7 +266,7 @@ struct Options {
   }
 };
 
-/// Valid options together with the settings that they imply; computations do not check them again.
+/// Valid options together with the settings that they imply. Steps of a computation take them and check nothing again.
 class ASDFVK_API CheckedOptions {
  public:
   /// Throws Error{OptionOutOfRange}, Error{UnknownName} for an enumerator without a name, and Error{OptionConflict};

@@ -214,8 +214,8 @@ enum class BvhFetch {
 
 /// Variant of the Vulkan kernels. All variants compute the same values.
 struct TraceVariant {
-  std::optional<TraceKernel> kernel;  ///< Assignment of rays to lanes; set in a report.
-  std::optional<BvhFetch> fetch;      ///< Kind of buffers that the kernels read; set in a report.
+  std::optional<TraceKernel> kernel;  ///< Assignment of rays to lanes; unset in options: the default of the device.
+  std::optional<BvhFetch> fetch;      ///< Kind of buffers that the kernels read; unset in options: as above.
 };
 
 /// Facts about a computation: mesh, device, times, errors and warnings.
@@ -243,7 +243,7 @@ struct Report {
   std::string backend;                           ///< "vulkan", "cpu" or "reference".
   std::string device;                            ///< Name of the device and its driver, or of the CPU.
   bool runsOnCpu = false;                        ///< The CPU traced the rays, also as a CPU device of Vulkan.
-  std::optional<TraceVariant> traceChoice;       ///< The variant of the Vulkan kernels; unset without Vulkan.
+  std::optional<TraceVariant> traceChoice;       ///< The variant of the Vulkan kernels; unset if no kernel ran.
   StageSeconds stageSeconds;                     ///< Seconds by stage; 0 for a stage that did not run.
   double raysPerSecond = 0;                      ///< Rays divided by the seconds of the stage "trace".
   SolverReport solver;                           ///< The solution of the Poisson equation.

@@ -60,7 +60,7 @@ class ASDFVK_API Scene {
   /// the same one.
   [[nodiscard]] Result compare(const Scene& former, const Options& options = {}, std::span<const uint8_t> region = {},
                                const RunControl& control = {});
-  /// Precondition: the options measure the thickness.
+  /// Throws Error{OptionConflict} if the options do not measure the thickness.
   [[nodiscard]] Result compare(const Scene& former, const CheckedOptions& options, std::span<const uint8_t> region = {},
                                const RunControl& control = {});
 

@@ -103,7 +103,8 @@ class ASDFVK_API Session {
 
   /// First line: the chosen device and the reason. Each further line: a device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
-  /// "vulkan", "cpu" or "reference". If "auto" replaces a backend, backend(), deviceLines() and runsOnCpu() change.
+  /// "vulkan", "cpu" or "reference". If BackendChoice::Automatic replaces a backend, backend(), deviceLines() and
+  /// runsOnCpu() change.
   [[nodiscard]] const std::string& backend() const;
   /// Whether the CPU traces: the backend is "cpu" or "reference", or Vulkan uses a CPU device.
   [[nodiscard]] bool runsOnCpu() const;

@@ -30,9 +30,9 @@ class TraceVariant:
     """Variant of the Vulkan kernels. All variants compute the same values."""
 
     kernel: TraceKernel | None
-    """Assignment of rays to lanes; set in a report."""
+    """Assignment of rays to lanes; unset in options: the default of the device."""
     fetch: BvhFetch | None
-    """Kind of buffers that the kernels read; set in a report."""
+    """Kind of buffers that the kernels read; unset in options: as above."""
 
 
 @dataclass(frozen=True)
@@ -528,7 +528,7 @@ class Report:
     runs_on_cpu: bool
     """The CPU traced the rays, also as a CPU device of Vulkan."""
     trace_choice: TraceVariant | None
-    """The variant of the Vulkan kernels; unset without Vulkan."""
+    """The variant of the Vulkan kernels; unset if no kernel ran."""
     stage_seconds: dict[str, float]
     """Seconds by stage; 0 for a stage that did not run."""
     rays_per_second: float

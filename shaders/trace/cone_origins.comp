@@ -1,6 +1,6 @@
 #version 450
 // Computes the starts of the cones of seed faces for Definition::Paper from the triangles of the hierarchy, one cone
-// per lane. The twin of coneStartOfFace() in src/trace/cone_tracer.h.
+// per lane. The twin of coneStartOfFace() in src/trace/cone_start.h.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/specialization_ids.h"

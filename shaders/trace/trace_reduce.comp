@@ -1,6 +1,7 @@
 #version 450
-// The shape diameter of one cone per lane, from the lengths of its rays (the twin of coneValue() in src/cone/cone.h).
-// Lengths are compared by their bits. Bits and lengths have the same order, because only invalid rays are negative.
+// The shape diameter of one cone per lane, from the lengths of its rays: the twin of coneValue() in
+// src/cone/cone_value.h. Lengths are compared by their bits. Bits and lengths have the same order, because only invalid
+// rays are negative.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"

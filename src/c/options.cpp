@@ -127,7 +127,7 @@ asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, c
   return guarded([&] {
     const auto object = handles<asdf_vk_options>().get(options);
     requireArgument(name, "the name of the option");
-    const AllRows all;  // Used only to check the value.
+    AllRows all;  // Used only to check the value.
     const OptionRow* const ofComputation = rowOf(all.ofComputation, name);
     const OptionRow* const row = ofComputation != nullptr ? ofComputation : rowOf(all.ofSession, name);
     if (row == nullptr) failName(name, all);

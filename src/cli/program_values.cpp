@@ -129,7 +129,10 @@ bool MeshNameCodec::read(const OptionValue& value, const OptionRow& row, std::st
 }
 
 bool MeshNamesCodec::read(const OptionValue& value, const OptionRow& row, std::vector<std::string>& names) {
-  return MeshNameCodec::read(value, row, names.emplace_back());
+  std::string name;
+  const bool isRead = MeshNameCodec::read(value, row, name);
+  if (isRead) names.push_back(name);
+  return isRead;
 }
 
 OptionValue MeshNamesCodec::write(const std::vector<std::string>& names) {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -254,6 +255,7 @@ std::string withSpelledOptions(const OptionRows& rows, std::string_view message,
     text += message.substr(0, begin);
     if (begin == message.size()) break;
     const size_t end = message.find('}', begin);
+    ASDFVK_CHECK(end != message.npos);
     const std::string_view option = message.substr(begin + 1, end - begin - 1);
     const size_t sign = std::min(option.find('='), option.size());
     const std::string name(option.substr(0, sign));

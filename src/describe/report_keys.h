@@ -79,9 +79,10 @@ ASDFVK_NAMES(TraceKernel, kKernels)
 ASDFVK_NAMES(BvhFetch, kFetches)
 #undef ASDFVK_NAMES
 
-// Applies the macro visit to each argument.
+// Applies the macro visit to each of at most 120 arguments.
 #define ASDFVK_PARENTHESES ()
-#define ASDFVK_EXPAND(...) ASDFVK_EXPAND3(ASDFVK_EXPAND3(ASDFVK_EXPAND3(__VA_ARGS__)))
+#define ASDFVK_EXPAND(...) ASDFVK_EXPAND4(ASDFVK_EXPAND4(ASDFVK_EXPAND4(__VA_ARGS__)))
+#define ASDFVK_EXPAND4(...) ASDFVK_EXPAND3(ASDFVK_EXPAND3(ASDFVK_EXPAND3(__VA_ARGS__)))
 #define ASDFVK_EXPAND3(...) ASDFVK_EXPAND2(ASDFVK_EXPAND2(ASDFVK_EXPAND2(__VA_ARGS__)))
 #define ASDFVK_EXPAND2(...) ASDFVK_EXPAND1(ASDFVK_EXPAND1(ASDFVK_EXPAND1(__VA_ARGS__)))
 #define ASDFVK_EXPAND1(...) __VA_ARGS__
@@ -143,6 +144,7 @@ ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, comp
 #undef ASDFVK_EXPAND1
 #undef ASDFVK_EXPAND2
 #undef ASDFVK_EXPAND3
+#undef ASDFVK_EXPAND4
 #undef ASDFVK_PARENTHESES
 
 }  // namespace asdfvk

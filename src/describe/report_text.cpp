@@ -166,7 +166,8 @@ ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spe
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
     if (!showsTimes && (title == "time" || title == "rate")) continue;
-    if (title == "device" && !report.traceChoice) continue;  // The name of a CPU has the number of threads.
+    if (title == "device" && report.backend != nameOf(kBackendNames, BackendChoice::Vulkan))
+      continue;  // The name of a CPU has the number of threads.
     if (!title.empty()) isThinRow = std::find(kListed.begin(), kListed.end(), title) != kListed.end();
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;

@@ -19,6 +19,7 @@ std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
   const std::string faces = counted(reason.faceCount, "face"), edges = counted(reason.edgeCount, "edge");
   const std::string place = placeText(reason.place, reason.face) + bodiesText(reason.bodies);
   const bool isOneEdge = reason.edgeCount == 1;
+  const std::string orient = withSpelledOptions("{orient=auto}", spelling);  // Names of bodies may have braces.
   std::string text;
   switch (reason.cause) {
     case UnjudgedCause::Border:
@@ -34,11 +35,10 @@ std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
     case UnjudgedCause::WoundAgainst:
       text = fmt::format(
           "{} of components with faces wound against each other: {}, the first {}; {}", faces, edges, place,
-          reason.isRepairable ? "{orient=auto} reverses them" : "the surface has no consistent orientation, repair it");
+          reason.isRepairable ? orient + " reverses them" : "the surface has no consistent orientation, repair it");
       break;
     case UnjudgedCause::Inverted:
-      text =
-          fmt::format("{} of components oriented inwards, the first {}; {{orient=auto}} reverses them", faces, place);
+      text = fmt::format("{} of components oriented inwards, the first {}; {} reverses them", faces, place, orient);
       break;
     case UnjudgedCause::DoubleSided:
       text = fmt::format(
@@ -59,7 +59,7 @@ std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
           faces, reason.amount);
       break;
   }
-  return withSpelledOptions(text, spelling);
+  return text;
 }
 
 }  // namespace

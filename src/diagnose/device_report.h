@@ -17,7 +17,7 @@ namespace asdfvk {
 /// Self-test and rate of a backend or variant.
 struct TracerReport {
   std::string backend;                  ///< A name of Session::backend().
-  std::optional<TraceVariant> variant;  ///< Set for "vulkan".
+  std::optional<TraceVariant> variant;  ///< Set for Vulkan.
   bool isDefault = false;               ///< The variant is the default of the device.
   std::string refusal;                  ///< Set if a limit or a missing feature of the device excludes the variant.
   std::string failure;                  ///< Set if the test ended with an error.
@@ -56,10 +56,10 @@ struct DeviceReport {
   [[nodiscard]] bool passed() const;
 };
 
-/// Measures the backend of the options. For "auto", measures the Vulkan device and, for comparison, the CPU. A Vulkan
-/// device is measured with every kernel variant and every solver, whatever SessionOptions::variant is. A run that takes
-/// less than secondsPerRun is repeated with more faces, at most with all faces of the mesh. Throws Error of kind Device
-/// if the options exclude every device and backend, and Error{Cancelled}.
+/// Measures the backend of the options. For BackendChoice::Automatic, measures the Vulkan device and, for comparison,
+/// the CPU. A Vulkan device is measured with every kernel variant and every solver, whatever SessionOptions::variant
+/// is. A run that takes less than secondsPerRun is repeated with more faces, at most with all faces of the mesh. Throws
+/// Error of kind Device if the options exclude every device and backend, and Error{Cancelled}.
 [[nodiscard]] DeviceReport reportDevice(const SessionOptions& options, const RunControl& control,
                                         double secondsPerRun = 0.15);
 

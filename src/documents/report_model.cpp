@@ -26,6 +26,13 @@ class Comments {
 
   [[nodiscard]] std::string ofType(const std::string& type) const { return commentAt(beginOf(type)); }
 
+  [[nodiscard]] size_t enumeratorCount(const std::string& type) const {
+    size_t count = 0;
+    for (size_t line = beginOf(type) + 1; lines_[line] != "};"; ++line)
+      count += lines_[line].find(',') < lines_[line].find("//") ? 1 : 0;
+    return count;
+  }
+
   /// member: a member or an enumerator. Empty without a comment.
   [[nodiscard]] std::string ofMember(const std::string& type, const std::string& member) const {
     for (size_t line = beginOf(type) + 1; lines_[line] != "};"; ++line) {
@@ -115,6 +122,7 @@ class ModelBuilder {
       identifier[0] = static_cast<char>(std::toupper(identifier[0]));
       enumeration.comments.push_back(comments_.ofMember(enumeration.name, identifier));
     }
+    ASDFVK_CHECK_OP(enumeration.names.size(), ==, comments_.enumeratorCount(enumeration.name));
     if (!has(model.enumerations, enumeration.name)) model.enumerations.push_back(enumeration);
     return enumeration.names;
   }

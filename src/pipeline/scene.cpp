@@ -191,7 +191,7 @@ Result Scene::compare(const Scene& former, const Options& given, std::span<const
 
 Result Scene::compare(const Scene& former, const CheckedOptions& options, std::span<const uint8_t> region,
                       const RunControl& control) {
-  ASDFVK_CHECK(options->measuresThickness());
+  if (!options->measuresThickness()) throw Error(ErrorCode::OptionConflict, "a comparison needs the measure thickness");
   (void)commonUnit(state_->scene->prepared.unit, former.state_->scene->prepared.unit);
   return state_->compute(options, region, &former.state_->judgedSurface(control), control);
 }

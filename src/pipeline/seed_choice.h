@@ -23,8 +23,6 @@ struct SeedChoice {
   std::vector<uint32_t> sampled, heldOut;  ///< Ascending and disjoint.
 };
 
-/// The sampler of completed options.
-
 /// Numbers of further seeds of each kind, for a computation that estimates the error.
 struct SeedShares {
   uint64_t sampled = 0, heldOut = 0;

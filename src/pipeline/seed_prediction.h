@@ -11,7 +11,8 @@
 namespace asdfvk {
 
 /// Predictions of one computation, from the hits of any of its seeds. The device predicts if the solver runs on the
-/// device. With the solver "auto", the CPU predicts if the device fails or is too small. A warning has the reason.
+/// device. With SolverChoice::Automatic, the CPU predicts if the device fails or is too small. A warning has the
+/// reason.
 class SeedPrediction {
  public:
   /// The computation must outlive this object.

@@ -27,7 +27,8 @@ class SessionState {
   Solvers solvers;  ///< Destroyed before the device that they use.
 
  private:
-  /// Opens the next backend of "auto". Returns false if there is none, or if the options request the current backend.
+  /// Opens the next backend of BackendChoice::Automatic. Returns false if there is none, or if the options request the
+  /// current backend.
   bool replaceBackend(const Error& failure);
   /// Ends a replacement that was for one mesh only.
   void returnToDevice();

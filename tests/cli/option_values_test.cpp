@@ -64,6 +64,25 @@ TEST_CASE("the options of a picture") {
   CHECK(refusal({"a.ply", "-o", "-", "--picture", "-"}).find("standard output") != std::string::npos);
 }
 
+TEST_CASE("each option in braces in the texts of the rows exists") {
+  CommandLine line;
+  const std::vector<OptionRows> tables = optionTables(line);
+  std::set<std::string> names;
+  for (const OptionRows& rows : tables)
+    for (const OptionRow& row : rows) names.insert(row.name);
+  size_t count = 0;
+  for (const OptionRows& rows : tables)
+    for (const OptionRow& row : rows)
+      for (const std::string text : {row.text, row.more, row.defaultText == nullptr ? "" : row.defaultText,
+                                     row.wanted == nullptr ? "" : row.wanted})
+        for (size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1)) {
+          const std::string name = text.substr(at + 1, text.find_first_of("=}", at) - at - 1);
+          CHECK_MESSAGE(names.contains(name), row.name << ": " << name);
+          ++count;
+        }
+  CHECK(count >= 30);
+}
+
 TEST_CASE("a kernel variant of auto is the default") {
   const TraceVariant variant = parseCommandLine({"a.ply", "--kernel", "auto", "--fetch", "auto"}).session.variant;
   CHECK_FALSE((variant.kernel || variant.fetch));

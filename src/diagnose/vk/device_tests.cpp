@@ -80,8 +80,8 @@ void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test,
 }
 
 void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
-  for (const TraceKernel kernel : {TraceKernel::Seed, TraceKernel::Ray, TraceKernel::Packet}) {
-    for (const BvhFetch fetch : {BvhFetch::Texel, BvhFetch::Storage}) {
+  for (const auto& [kernelName, kernel] : kKernels) {
+    for (const auto& [fetchName, fetch] : kFetches) {
       control.checkpoint(0);
       const VulkanTraceChoice choice{kernel, fetch};
       TracerReport tracer{.backend = nameOf(kBackendNames, BackendChoice::Vulkan),
