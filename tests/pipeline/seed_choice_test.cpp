@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/error.h"
 #include "generate/shapes.h"
 #include "pipeline/region.h"
