@@ -32,7 +32,7 @@ class TraceVariant:
     kernel: TraceKernel | None
     """Assignment of rays to lanes; unset in options: the default of the device."""
     fetch: BvhFetch | None
-    """Kind of buffers that the kernels read; unset in options: as above."""
+    """Kind of buffers that the kernels read; unset in options: the default of the device."""
 
 
 @dataclass(frozen=True)

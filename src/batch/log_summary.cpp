@@ -195,7 +195,7 @@ std::string jsonOf(const LogSummary& summary) {
   for (const auto& [device, count] : summary.devices) json["devices"][device] = count;
   json["warnings"] = summary.warnings;
   json["failures"] = summary.failures;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 std::string csvOf(const LogSummary& summary) {

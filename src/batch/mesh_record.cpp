@@ -34,7 +34,7 @@ std::string bytesOfHex(std::string_view hex) {
 
 /// Whether JSON can represent the text, which requires UTF-8.
 bool survivesJson(const std::string& text) {
-  const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string json = jsonText(text);
   return Json::parse(json).get_ref<const std::string&>() == text;
 }
 
@@ -80,9 +80,7 @@ Json toJson(const MeshRecord& record) {
   return json;
 }
 
-std::string toJsonLine(const MeshRecord& record) {
-  return toJson(record).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string toJsonLine(const MeshRecord& record) { return jsonText(toJson(record)); }
 
 std::optional<MeshRecord> parseRecord(std::string_view text) {
   try {

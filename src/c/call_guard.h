@@ -8,8 +8,8 @@
 #include "asdf_vk/run_control.h"
 #include "core/function_ref.h"
 
-/// The guard of a call from C, which every function of asdf_vk_c.h uses: floating-point environment, errors, arguments
-/// and progress.
+/// What every function of asdf_vk_c.h needs: guarded(), in which its body runs, the check of its arguments, and the
+/// progress function of the caller.
 namespace asdfvk::c {
 
 /// Calls `body` on this thread, in the default floating-point environment on all threads of its parallel loops, and
@@ -45,7 +45,7 @@ class ProgressCall {
   std::fenv_t callers_{};
   double fraction_ = 0;
   const char* stage_ = "";
-  /// Allocated by control(), because the constructor must not throw.
+  /// control() allocates the state of the source, because the constructor must not throw.
   std::stop_source source_{std::nostopstate};
 };
 

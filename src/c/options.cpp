@@ -28,17 +28,6 @@ void setText(const OptionRow& row, const std::string& text) {
   setOption(row, isOn, text, kSpelling);
 }
 
-/// The options of computations and of sessions.
-struct AllRows {
-  ComputationSettings computation;
-  SessionSettings session;
-  OptionRows ofComputation = computationRows(computation), ofSession = sessionRows(session);
-
-  AllRows() = default;
-  AllRows(const AllRows&) = delete;  // The rows refer to the members.
-  AllRows& operator=(const AllRows&) = delete;
-};
-
 /// Sets the options in the order of the rows. other: rows of options that are refused. use: the object that has the
 /// refused options, for the message.
 GivenOptions setAll(const OptionRows& rows, const asdf_vk_options* handle, const OptionRows& other, const char* use) {
@@ -57,7 +46,7 @@ GivenOptions setAll(const OptionRows& rows, const asdf_vk_options* handle, const
   return given;
 }
 
-[[noreturn]] void failName(const std::string& name, const AllRows& all) {
+[[noreturn]] void failName(const std::string& name, const SettingsWithRows& all) {
   if (const std::string removed = removedOptionText(name, kSpelling); !removed.empty())
     throw Error(ErrorCode::UnknownName, removed, {{"option", name}});
   std::vector<std::string> names;
@@ -72,14 +61,14 @@ GivenOptions setAll(const OptionRows& rows, const asdf_vk_options* handle, const
 }  // namespace
 
 SessionSettings sessionSettings(const asdf_vk_options* options) {
-  AllRows all;
+  SettingsWithRows all;
   (void)setAll(all.ofSession, options, all.ofComputation, "computation");
   requireValid(all.session, kSpelling);
   return all.session;
 }
 
 ComputationSettings computationSettings(const asdf_vk_options* options, bool compares) {
-  AllRows all;
+  SettingsWithRows all;
   all.computation.compares = compares;
   complete(all.computation, setAll(all.ofComputation, options, all.ofSession, "session"));
   return all.computation;
@@ -96,7 +85,7 @@ Options pointOptions(const asdf_vk_options* handle) {
   const auto hasEffect = [&](const OptionRow& row) {
     return row.atPoints == AtPoints::Both || row.atPoints == (isThickness ? AtPoints::Thickness : AtPoints::Diameter);
   };
-  const AllRows all;
+  const SettingsWithRows all;
   std::vector<std::string> names;
   for (const OptionRow& row : all.ofComputation)
     if (hasEffect(row)) names.emplace_back(row.name);
@@ -127,7 +116,7 @@ asdf_vk_status asdf_vk_options_set(asdf_vk_options* options, const char* name, c
   return guarded([&] {
     const auto object = handles<asdf_vk_options>().get(options);
     requireArgument(name, "the name of the option");
-    AllRows all;  // Used only to check the value.
+    SettingsWithRows all;  // Used only to check the value.
     const OptionRow* const ofComputation = rowOf(all.ofComputation, name);
     const OptionRow* const row = ofComputation != nullptr ? ofComputation : rowOf(all.ofSession, name);
     if (row == nullptr) failName(name, all);

@@ -65,7 +65,7 @@ std::string jsonAt(asdf_vk_result& result, const std::string& pointer) {
   if (result.report.is_null())
     result.report = resultJson(result.result.report, result.result.fields, result.computation, result.session);
   try {
-    return result.report.at(Json::json_pointer(pointer)).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return jsonText(result.report.at(Json::json_pointer(pointer)));
   } catch (const Json::exception&) {
     throw Error(ErrorCode::UnknownField, fmt::format("the report has no value '{}'", pointer));
   }

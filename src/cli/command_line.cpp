@@ -153,12 +153,12 @@ void completeFields(CommandLine& line) {
     if (const auto request = fieldRow(field.second).request; request != nullptr) request(options);
   for (const auto& field : shown) {
     const FieldRow& row = fieldRow(field.second);
-    if (row.isComputed != nullptr && !row.isComputed(options))
-      refuseOptions(fmt::format("{} {} needs --{}", field.first, row.name, row.needs));
+    const bool lacksFormer = field.second == "thickness_change" && line.others.former.empty();
+    if (lacksFormer || (row.isComputed != nullptr && !row.isComputed(options)))
+      refuseOptions(
+          fmt::format("{} {} needs {}", field.first, row.name, withSpelledOptions(row.needs, OptionSpelling::Flag)));
     if (field.second == "error" && !estimates(options))
       refuseOptions(fmt::format("{} error needs an error estimate; drop --no-estimate and --seeds all", field.first));
-    if (field.second == "thickness_change" && line.others.former.empty())
-      refuseOptions(fmt::format("{} {} needs --{}", field.first, row.name, row.needs));
   }
 }
 

@@ -9,7 +9,6 @@
 #include "cli/other_meshes.h"
 #include "cli/outputs.h"
 #include "describe/computation_options.h"
-#include "describe/report_json.h"
 #include "describe/session_options.h"
 
 namespace asdfvk {

@@ -86,7 +86,7 @@ std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& 
     list.push_back({{"index", list.size()}});
     list.back().update(Json(device));
   }
-  return Json{{"devices", list}, {"reason", reason}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText({{"devices", list}, {"reason", reason}}) + "\n";
 }
 
 std::string jsonDeviceReport(const DeviceReport& report) {
@@ -102,7 +102,7 @@ std::string jsonDeviceReport(const DeviceReport& report) {
                   {"fastest", fastest == nullptr ? Json(nullptr) : Json(*fastest)},
                   {"tracers", report.tracers},
                   {"solvers", report.solvers}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop) {

@@ -41,7 +41,7 @@ std::string optionsHash(const ComputationSettings& computation, const SessionSet
                       {"colourOf", outputs.colourOf},
                       {"vertexColours", outputs.coloursVertices},
                       {"ascii", outputs.ascii}};
-  return contentHash(identity.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return contentHash(jsonText(identity));
 }
 
 Json toJson(MeshSettings settings) {

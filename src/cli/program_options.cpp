@@ -96,7 +96,7 @@ OptionRows outputRows(Outputs& outputs) {
                 .needs = "picture",
                 .defaultText = "30,18 (for thin places the view that shows them best)"},
       OptionRow{.name = "picture-up",
-                .member = choice<kUps>(&outputs.pictureView.up),
+                .member = memberAs<AutoChoiceCodec<kUps>>(&outputs.pictureView.up),
                 .text = "Up axis of the picture. auto: z for STL and 3MF; for other formats y, or another axis if only "
                         "on that axis the mesh stands stably",
                 .needs = "picture"},

@@ -16,8 +16,6 @@ namespace {
 
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
-const std::string* textIn(const OptionValue& value) { return std::get_if<std::string>(&value); }
-
 void requireFieldName(const std::string& name) {
   const std::vector<std::string> known = resultFieldNames();
   if (std::find(known.begin(), known.end(), name) == known.end())
@@ -28,12 +26,12 @@ void requireFieldName(const std::string& name) {
 }  // namespace
 
 bool FieldListCodec::read(const OptionValue& value, const OptionRow&, std::vector<std::string>& fields) {
-  const std::string* const text = textIn(value);
-  std::vector<std::string> names = text == nullptr ? std::vector<std::string>() : splitAt(*text, ',');
-  if (names.empty() || text->ends_with(',')) return false;
+  const std::string_view text = textIn(value);
+  std::vector<std::string> names = splitAt(text, ',');
+  if (names.empty() || text.ends_with(',')) return false;
   for (const std::string& name : names) {
     if (name.empty()) return false;
-    if (std::count(names.begin(), names.end(), name) > 1) reject(fmt::format("'{}' names {} twice", *text, name));
+    if (std::count(names.begin(), names.end(), name) > 1) reject(fmt::format("'{}' names {} twice", text, name));
     requireFieldName(name);
   }
   fields = std::move(names);
@@ -45,21 +43,20 @@ OptionValue FieldListCodec::write(const std::vector<std::string>& fields) {
 }
 
 bool FieldCodec::read(const OptionValue& value, const OptionRow& row, std::string& field) {
-  if (textIn(value) != nullptr) requireFieldName(*textIn(value));
+  requireFieldName(std::string(textIn(value)));
   return TextCodec::read(value, row, field);
 }
 
 bool ShownFieldCodec::read(const OptionValue& value, const OptionRow& row, std::string& field) {
-  const std::string* const text = textIn(value);
-  if (text == nullptr) return false;
-  const std::string name = *text == "seeds" ? "seed" : *text;  // Version 0.1 had the name "seeds".
+  const std::string_view text = textIn(value);
+  const std::string name(text == "seeds" ? "seed" : text);  // Version 0.1 had the name "seeds".
   requireFieldName(name);
   if (name == "centre") reject("'centre' has three components; a picture shows a field of one component");
   return TextCodec::read(name, row, field);
 }
 
 bool ViewCodec::read(const OptionValue& value, const OptionRow&, Outputs& outputs) {
-  const std::string text = textIn(value) == nullptr ? "" : *textIn(value);
+  const std::string_view text = textIn(value);
   const size_t comma = std::min(text.find(','), text.size());
   const auto azimuth = numberIn<double>(text.substr(0, comma)),
              elevation = numberIn<double>(text.substr(std::min(comma + 1, text.size())));
@@ -83,17 +80,16 @@ bool NameCodec::read(const OptionValue& value, const OptionRow& row, std::string
 }
 
 bool FileCodec::read(const OptionValue& value, const OptionRow& row, std::string& name) {
-  if (textIn(value) == nullptr) return false;
-  const std::string extension = lowerCase(std::filesystem::path(*textIn(value)).extension().string());
+  const std::string extension = lowerCase(std::filesystem::path(textIn(value)).extension().string());
   const std::vector<std::string> allowed = splitAt(row.placeholder, '|');
   const bool isAllowed = std::any_of(allowed.begin(), allowed.end(), [&](const std::string& file) {
     return std::filesystem::path(file).extension() == extension;
   });
-  return (isAllowed || *textIn(value) == "-") && NameCodec::read(value, row, name);
+  return (isAllowed || textIn(value) == "-") && NameCodec::read(value, row, name);
 }
 
 bool MemoryCodec::read(const OptionValue& value, const OptionRow&, uint64_t& limit) {
-  const std::optional<uint64_t> bytes = textIn(value) == nullptr ? std::nullopt : parseByteCount(*textIn(value));
+  const std::optional<uint64_t> bytes = parseByteCount(std::string(textIn(value)));
   if (bytes) limit = *bytes;
   return bytes.has_value();
 }
@@ -103,8 +99,8 @@ OptionValue MemoryCodec::write(uint64_t limit) {
 }
 
 bool ShardCodec::read(const OptionValue& value, const OptionRow&, std::optional<Shard>& shard) {
-  if (textIn(value) != nullptr) shard = parseShard(*textIn(value));
-  return textIn(value) != nullptr;
+  shard = parseShard(std::string(textIn(value)));
+  return true;
 }
 
 OptionValue ShardCodec::write(const std::optional<Shard>& shard) {

@@ -8,7 +8,7 @@ namespace asdfvk {
 
 namespace {
 
-std::string oneLineOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string oneLineOf(const Json& json) { return jsonText(json) + "\n"; }
 
 }  // namespace
 

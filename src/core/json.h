@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "core/vec3.h"
 
@@ -10,6 +11,11 @@ namespace asdfvk {
 
 /// Only layers that link nlohmann_json (src/layers.txt) may include this header.
 using Json = nlohmann::ordered_json;
+
+/// indent: -1 for one line. Bytes that are not UTF-8 are replaced.
+[[nodiscard]] inline std::string jsonText(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
 
 [[nodiscard]] inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 [[nodiscard]] inline Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }

@@ -16,7 +16,7 @@ struct FieldRow {
   const char* unit = "";  ///< See Field::unit.
   FieldType type = FieldType::Real;
   uint32_t componentCount = 1;
-  const char* needs = nullptr;  ///< The option that computes the field; null: no option is needed.
+  const char* needs = nullptr;  ///< The option that computes the field, in braces; null: none is needed.
   /// Whether the options compute the field; null: always, after request().
   bool (*isComputed)(const Options&) = nullptr;
   /// Sets the options that a user implies who asks for the field; null: none.

@@ -59,7 +59,8 @@ struct OptionRow {
   OptionPlace where = OptionPlace::Everywhere;
   std::vector<std::string> (*names)() = nullptr;  ///< Returns the allowed values if the codec has none.
   const char* bareValue = nullptr;  ///< Value of an option that is given without a value; null: a value is required.
-  /// Description of valid values for messages, such as "an error such as 1%"; null: that of the codec.
+  /// Description of valid values for messages, such as "an error such as 1%"; null: that of the codec. Options in
+  /// braces are spelled by their names.
   const char* wanted = nullptr;
   bool isRepeatable = false;           ///< The program reads each occurrence of the option.
   std::function<void()> applied = {};  ///< Called after the option is set.

@@ -1,6 +1,8 @@
 #include "describe/option_member.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "describe/option.h"
 

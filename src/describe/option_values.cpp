@@ -21,12 +21,12 @@ std::optional<double> shareIn(std::string_view text) {
   return number && isPercent ? *number / 100 : number;
 }
 
+}  // namespace
+
 std::string_view textIn(const OptionValue& value) {
   const auto* text = std::get_if<std::string>(&value);
   return text == nullptr ? std::string_view() : *text;
 }
-
-}  // namespace
 
 bool LengthCodec::read(const OptionValue& value, const OptionRow&, std::optional<LengthLimit>& length) {
   std::string_view text = textIn(value);

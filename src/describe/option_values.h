@@ -1,10 +1,15 @@
 #pragma once
 
+#include <string_view>
+
 #include "asdf_vk/options.h"
 #include "describe/option_member.h"
 
 /// Codecs of options whose values are not plain numbers or names.
 namespace asdfvk {
+
+/// The text of the value; empty for a value that is no text.
+[[nodiscard]] std::string_view textIn(const OptionValue& value);
 
 struct SeedCountCodec {
   static constexpr OptionKind kKind = OptionKind::Text;

@@ -16,6 +16,17 @@ struct SessionSettings : SessionOptions {
 /// The settings must outlive the rows.
 [[nodiscard]] ASDFVK_API OptionRows sessionRows(SessionSettings& settings);
 
+/// The settings of computations and of sessions, with the rows that set them.
+struct SettingsWithRows {
+  ComputationSettings computation;
+  SessionSettings session;
+  OptionRows ofComputation = computationRows(computation), ofSession = sessionRows(session);
+
+  SettingsWithRows() = default;
+  SettingsWithRows(const SettingsWithRows&) = delete;  // The rows refer to the members.
+  SettingsWithRows& operator=(const SettingsWithRows&) = delete;
+};
+
 /// Throws Error{OptionOutOfRange}, Error{UnknownName}, and Error{OptionConflict} if options contradict each other.
 ASDFVK_API void requireValid(SessionSettings session, OptionSpelling spelling);
 

@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/text.h"
+#include "describe/computation_options.h"
 #include "describe/fields.h"
 #include "documents/documents.h"
 
@@ -57,7 +58,8 @@ std::string fieldTable() {
     const std::string count = row.componentCount == 1 ? "" : fmt::format("{} ", row.componentCount);
     text += fmt::format("| `{}` | {}{} | {} | {} | {} |\n", row.name, count, kTypes[static_cast<size_t>(row.type)],
                         *row.unit == 0 ? "-" : "the mesh's",
-                        row.needs == nullptr ? "-" : fmt::format("`--{}`", row.needs), row.meaning);
+                        row.needs == nullptr ? "-" : "`" + withSpelledOptions(row.needs, OptionSpelling::Flag) + "`",
+                        row.meaning);
   }
   return text;
 }

@@ -11,13 +11,8 @@ namespace asdfvk {
 enum class Up { X, Y, Z, MinusX, MinusY, MinusZ };
 
 /// Names of View::up on the command line and in pages.
-inline constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
-                                                         {"x", Up::X},
-                                                         {"y", Up::Y},
-                                                         {"z", Up::Z},
-                                                         {"-x", Up::MinusX},
-                                                         {"-y", Up::MinusY},
-                                                         {"-z", Up::MinusZ}}};
+inline constexpr ChoiceNames<Up, 6> kUps{
+    {{"x", Up::X}, {"y", Up::Y}, {"z", Up::Z}, {"-x", Up::MinusX}, {"-y", Up::MinusY}, {"-z", Up::MinusZ}}};
 
 /// Direction of view. At azimuth 0 and elevation 0 the view is along the shorter horizontal axis of the bounding box.
 struct View {

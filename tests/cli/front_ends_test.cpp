@@ -11,6 +11,7 @@
 #include "cli/report_json.h"
 #include "core/json.h"
 #include "describe/option_rules.h"
+#include "describe/report_json.h"
 #include "generate/analytic_shapes.h"
 #include "support/shapes.h"
 
@@ -36,19 +37,8 @@ std::string withoutSpelling(std::string text) {
 
 std::string textOf(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-/// The options of computations and of sessions, and the members that they set.
-struct SetOptions {
-  ComputationSettings computation;
-  SessionSettings session;
-  OptionRows ofComputation = computationRows(computation), ofSession = sessionRows(session);
-
-  SetOptions() = default;
-  SetOptions(const SetOptions&) = delete;
-  SetOptions& operator=(const SetOptions&) = delete;
-};
-
-const SetOptions& defaultOptions() {
-  static const SetOptions defaults;
+const SettingsWithRows& defaultOptions() {
+  static const SettingsWithRows defaults;
   return defaults;
 }
 
@@ -166,7 +156,7 @@ TEST_CASE("the command line and the library refuse the same options with the sam
     const Json& options = example.at("options");
     CAPTURE(options.dump());
     CHECK_EQ(refusal(argumentsOf(options)), example.at("refusal").get<std::string>());
-    SetOptions set;
+    SettingsWithRows set;
     bool isSet = options.value("measure", "") != "sdf";
     for (const OptionRows* const rows : {&set.ofComputation, &set.ofSession})
       for (const OptionRow& row : *rows) {

@@ -1,5 +1,4 @@
 #include "predict/prediction.h"
-#include "cone/cone_value.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "cone/cone_value.h"
 #include "generate/shapes.h"
 #include "predict/seeded_mesh.h"
 #include "support/bits.h"

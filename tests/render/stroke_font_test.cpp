@@ -1,7 +1,8 @@
-#include "core/point2.h"
 #include "render/drawing.h"
 
 #include <doctest/doctest.h>
+
+#include "core/point2.h"
 
 namespace asdfvk {
 namespace {

@@ -1,11 +1,11 @@
 #include "trace/cpu/lane_cones.h"
-#include "cone/cone_value.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "cone/cone_value.h"
 #include "core/random.h"
 #include "support/shapes.h"
 #include "trace_results.h"

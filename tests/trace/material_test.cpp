@@ -1,5 +1,4 @@
 #include "trace/material.h"
-#include "core/point2.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/point2.h"
 #include "core/random.h"
 #include "support/shapes.h"
 #include "trace/winding_number.h"
