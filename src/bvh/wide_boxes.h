@@ -5,7 +5,6 @@
 #include <span>
 
 #include "core/box3.h"
-#include "core/simd.h"
 #include "shared/bvh_layout.h"
 
 namespace asdfvk {
@@ -17,9 +16,8 @@ namespace asdfvk {
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
 /// A node with the boxes of `children` in `slots`, enlarged by kWideBoxMargin and rounded outwards. childBase,
-/// triangleBase and childBits are not set. The result is the same for every instruction set.
+/// triangleBase and childBits are not set.
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
-                                           const std::array<uint32_t, kWideChildCount>& slots,
-                                           InstructionSet instructionSet = widestInstructionSet());
+                                           const std::array<uint32_t, kWideChildCount>& slots);
 
 }  // namespace asdfvk

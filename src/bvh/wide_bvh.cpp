@@ -57,8 +57,7 @@ class WideEncoder {
       const WideCollapse::PrimitiveRange range = collapse_.primitivesOf(inSlot[s].node);
       if (inSlot[s].isLeaf) {
         node.childBits |= ((1u << range.count) - 1) << 4 * s;
-        for (uint32_t i = 0; i < kMaxWideLeafTriangleCount; ++i)  // Faster than a call of memmove().
-          if (i < range.count) bvh_.primitiveFaces[primitive + i] = primitiveFaces_[range.first + i];
+        std::copy_n(primitiveFaces_.begin() + range.first, range.count, bvh_.primitiveFaces.begin() + primitive);
         primitive += range.count;
       } else {
         node.childBits |= kWideInnerBits & 0xfu << 4 * s;

@@ -18,34 +18,30 @@ float halfAreaOf(const BvhNode& node) { return Box3f{node.min, node.max}.halfAre
 // Entry [i - 1]: the least cost of i children from both sides, and the number of these children from the left side.
 struct Sharing {
   std::array<float, kWideChildCount> costs;
-  std::array<int32_t, kWideChildCount> leftCounts;
+  std::array<uint32_t, kWideChildCount> leftCounts;
 };
 
-// Vectorised over i; loops over the number k of children from the left side. Of equal costs, the least k counts. More
-// than maxLeftCount children from the left side are never cheaper.
-ASDFVK_ALWAYS_INLINE inline Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
-                                                  const std::array<float, kWideChildCount>& right) {
-  const auto infinity = broadcast<Float8>(std::numeric_limits<float>::infinity());
-  Float8 least = infinity, rightCosts = load<Float8>(right.data());
-  IntsOf<Float8> leftCounts{};
-  for (uint32_t k = 1; k <= maxLeftCount; ++k) {
-    // Entry [i - 1] becomes that of i - k children; at least one child comes from the right side.
-    rightCosts = __builtin_shufflevector(rightCosts, infinity, 8, 0, 1, 2, 3, 4, 5, 6);
-    const Float8 costs = rightCosts + left[k - 1];
-    const IntsOf<Float8> isLess = costs < least;
-    least = isLess ? costs : least;
-    leftCounts = isLess ? broadcast<IntsOf<Float8>>(static_cast<int32_t>(k)) : leftCounts;
+// If costs are equal, the least number of children from the left side counts. More than maxLeftCount children from
+// there are never cheaper.
+Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
+                      const std::array<float, kWideChildCount>& right) {
+  Sharing sharing{};
+  sharing.costs.fill(std::numeric_limits<float>::infinity());
+  for (uint32_t i = 2; i <= kWideChildCount; ++i) {
+    for (uint32_t k = 1; k <= std::min(maxLeftCount, i - 1); ++k) {
+      const float cost = left[k - 1] + right[i - k - 1];
+      if (cost >= sharing.costs[i - 1]) continue;
+      sharing.costs[i - 1] = cost;
+      sharing.leftCounts[i - 1] = k;
+    }
   }
-  Sharing sharing;
-  store(sharing.costs.data(), least);
-  store(sharing.leftCounts.data(), leftCounts);
   return sharing;
 }
 
 }  // namespace
 
-WideCollapse::WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs, InstructionSet instructionSet)
-    : nodes_(nodes), costs_(costs), instructionSet_(instructionSet), choices_(nodes.size()) {
+WideCollapse::WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs)
+    : nodes_(nodes), costs_(costs), choices_(nodes.size()) {
   ASDFVK_CHECK(!nodes.empty());
   Forests forests;
   chooseFrom(0, 0, forests);
@@ -76,16 +72,14 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
   choice.primitives = {leftPrimitives.first, leftPrimitives.count + rightPrimitives.count};
   const uint32_t maxLeftCount =
       nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftPrimitives.count, kWideChildCount - 1);
-  const Sharing sharing = dispatch<Float8>(instructionSet_, [&]<typename>() ASDFVK_ALWAYS_INLINE {
-    return shareChildren(left.costs, maxLeftCount, right.costs);
-  });
+  const Sharing sharing = shareChildren(left.costs, maxLeftCount, right.costs);
   const auto nodeCount = [&](uint32_t childCount) {
-    const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
+    const uint32_t k = sharing.leftCounts[childCount - 1];
     return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];
   };
   const float area = halfAreaOf(nodes_[node]), leafCost = area * costs_.ofLeaf(choice.primitives.count);
   choice.nodeCountBelow = nodeCount(kWideChildCount);
-  choice.leftCounts = static_cast<uint32_t>(sharing.leftCounts.back()) << 4 * (kWideChildCount - 1);
+  choice.leftCounts = sharing.leftCounts.back() << 4 * (kWideChildCount - 1);
   forests.costs[0] = sharing.costs.back() + area * costs_.node;
   forests.nodeCounts[0] = 1 + choice.nodeCountBelow;
   if (choice.primitives.count <= costs_.maxLeafTriangleCount && leafCost <= forests.costs[0]) {
@@ -97,7 +91,7 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
     const bool isCheaper = sharing.costs[i - 1] < forests.costs[i - 2];
     forests.costs[i - 1] = isCheaper ? sharing.costs[i - 1] : forests.costs[i - 2];
     forests.nodeCounts[i - 1] = isCheaper ? nodeCount(i) : forests.nodeCounts[i - 2];
-    if (isCheaper) choice.leftCounts |= static_cast<uint32_t>(sharing.leftCounts[i - 1]) << 4 * (i - 1);
+    if (isCheaper) choice.leftCounts |= sharing.leftCounts[i - 1] << 4 * (i - 1);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "bvh/bvh.h"
-#include "core/simd.h"
 #include "core/unset_vector.h"
 #include "shared/bvh_layout.h"
 
@@ -43,8 +42,7 @@ class WideCollapse {
  public:
   /// nodes: those of a Bvh, at least one, with at most costs.maxLeafTriangleCount triangles per leaf. The nodes must
   /// outlive this object. Parallel, with the same result for any thread count.
-  explicit WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs = {},
-                        InstructionSet instructionSet = widestInstructionSet());
+  explicit WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs = {});
 
   /// Children of the wide node that replaces a binary node. A root that is a leaf becomes the only child of a wide
   /// node.
@@ -81,7 +79,6 @@ class WideCollapse {
 
   std::span<const BvhNode> nodes_;
   WideCosts costs_;
-  InstructionSet instructionSet_;
   UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 
