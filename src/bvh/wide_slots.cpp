@@ -12,6 +12,7 @@ namespace {
 constexpr float kNone = -1e30f;
 
 // Eight numbers in registers. In memory, the load of a vector would wait for the store of a single number.
+// A plain array and search take 2 % more CPU seconds of a whole run (1.5 million faces, Vulkan, 1 % seeds).
 struct EightNumbers {
   using Ints = IntsOf<Float4>;
   static constexpr Ints kLowIndices = {0, 1, 2, 3}, kHighIndices = {4, 5, 6, 7};
