@@ -60,7 +60,8 @@ template <typename Doubles>
   return sum;
 }
 
-/// exp(x) for -512 < x <= 0. Fast only on instruction sets with fused multiply-add.
+/// exp(x) for -512 < x <= 0. Fast only on instruction sets with fused multiply-add: there, a loop of std::exp() takes 9
+/// % more CPU seconds of a whole run (horse, 10 % seeds, `--segment cgal`).
 template <typename Doubles>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Doubles expOfNegative(const Doubles& x) {
   constexpr size_t kCount = kLaneCount<Doubles>;

@@ -93,7 +93,6 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
     const PointGroup* const begin = input.groups + range.firstGroup;
     const float seedWeight = range.weight;
     for (const PointGroup* group = begin; group < begin + range.groupCount; ++group) {
-#pragma GCC unroll 4
       for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
         const Floats x = load<Floats>(group->x + i) - origin.x, y = load<Floats>(group->y + i) - origin.y,
                      z = load<Floats>(group->z + i) - origin.z;
@@ -153,7 +152,6 @@ ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, con
                third = broadcast<Floats>(bounds.low + 3 * quarter);
   GroupSum<Floats> toFirst, toSecond, toThird;
   for (size_t group = 0; group < points.count; group += kPointGroupSize) {
-#pragma GCC unroll 4
     for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
       const Floats key = keyOf(load<Floats>(points.lengths + group + i));
       const Floats mass = load<Floats>(points.masses + group + i);
@@ -212,7 +210,6 @@ ASDFVK_ALWAYS_INLINE inline float predictedValue(const PredictionKernel::Rules& 
   const Floats low = broadcast<Floats>(median - bound), high = broadcast<Floats>(median + bound);
   GroupSum<Floats> pooledWeight, pooledLength;
   for (size_t group = 0; group < points.count; group += kPointGroupSize) {
-#pragma GCC unroll 4
     for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
       const Floats length = load<Floats>(points.lengths + group + i);
       const Floats weight =
@@ -231,7 +228,6 @@ template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline void weighSeeds(const SeedGroup& seeds, const SeedWeighting& weighting,
                                             const VirtualCone& at, float* weights) {
   const FloatVec3 origin = toFloat(at.origin), normal = toFloat(at.normal);
-#pragma GCC unroll 4
   for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
     const Floats x = load<Floats>(seeds.x + i) - origin.x, y = load<Floats>(seeds.y + i) - origin.y,
                  z = load<Floats>(seeds.z + i) - origin.z;
