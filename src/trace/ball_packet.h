@@ -69,12 +69,14 @@ class BallPacket {
     while (stackSize > 0) {
       const WallNode& node = tree_.nodes()[stack[--stackSize]];
       const Mask isNear = reach(node) & mayOppose(node) & isUsed_;
+      // Without reachDisc(), a whole run takes 6 % more CPU seconds (horse); without mayOppose(), 60 % more.
       if (!anyLane(isNear) || !anyLane(reachDisc(node, isNear))) continue;
       if (node.wallCount > 0) {
         for (uint32_t i = node.first; i < node.first + node.wallCount; ++i) test(tree_.walls()[i]);
         continue;
       }
       const WallNode &left = tree_.nodes()[node.first], &right = tree_.nodes()[node.first + 1];
+      // A fixed order takes 6 % more CPU seconds of a whole run (horse).
       const uint32_t leftFirst = diameterAt(left.middle) < diameterAt(right.middle) ? 1 : 0;
       stack[stackSize++] = node.first + leftFirst;
       stack[stackSize++] = node.first + 1 - leftFirst;
@@ -82,7 +84,8 @@ class BallPacket {
     for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
   }
 
-  /// Lowers the limits to the diameters of the balls through a point of `wall`, which is probably near.
+  /// Lowers the limits to the diameters of the balls through a point of `wall`, which is probably near. Without such
+  /// walls, a whole run takes 16 % more CPU seconds (horse).
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
     const Mask opposing =
         lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
@@ -187,7 +190,8 @@ class BallPacket {
     return atPoint - greatestCorner(tangent.slope) - tangent.doubt * reach_;
   }
 
-  /// Whether the tangent at the middle of a wall is a poor bound at its corners.
+  /// Whether the tangent at the middle of a wall is a poor bound at its corners. Without the nearest points, a whole
+  /// run takes 30 % more CPU seconds (tube of 32,000 long faces).
   [[nodiscard]] ASDFVK_ALWAYS_INLINE bool isLong(const Wall& wall) const {
     return anyLane(lessEqual(radius_, broadcast<Floats>(wall.reach)));
   }
@@ -234,7 +238,8 @@ class BallPacket {
     const Floats cosine = dotLanes(wall.normal, normal_);
     const Mask opposing = lessEqual(cosine, cosineLimit(kWallCosineMargin)) & isUsed_ & mayBound(wall);
     if (!anyLane(opposing)) return;
-    // A ball that touches the wall is at least as large as the ball that touches the plane of the wall.
+    // A ball that touches the wall is at least as large as the ball that touches the plane of the wall. Without this
+    // bound, a whole run takes 5 % more CPU seconds (horse).
     std::array<Floats, 4> offsets;
     for (size_t k = 0; k < 4; ++k) offsets[k] = wall.offset - dotLanes(wall.normal, corners_[k]);
     const Floats smallest = broadcast<Floats>(kWallCosineMargin);
@@ -256,6 +261,7 @@ class BallPacket {
                               tangent.doubt * (3 * wall.reach);
     Floats leastAtFace = asdfvk::max(least, leastBound(tangent, pointBound));
     Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
+    // Without separatedBy(), a whole run takes 4 % more CPU seconds (tube of 32,000 long faces).
     if (isLong(wall)) {
       const Separated separated = separatedBy(q, wall);
       leastAtFace = orUnlimited(~separated.atFace, leastAtFace);
@@ -267,6 +273,7 @@ class BallPacket {
     isNear &= isWithinLimits();
     if (!anyLane(isNear)) return;
     const Mask isSure = isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin));
+    // Limits that are lowered only by the measured balls take 15 % more CPU seconds of a whole run (horse).
     if (anyLane(isSure) && shrinkLimits(q, tangent, isSure)) isNear &= isWithinLimits();
     for (uint32_t lanes = bitsOf(isNear); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(lanes));
@@ -292,6 +299,7 @@ class BallPacket {
     const Floats diameter = orUnlimited(lanes, tangent.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
     Floats least = asdfvk::min(leastLimit_, diameter);
+    // Limits without the corners take 9 % more CPU seconds of a whole run (horse).
     for (size_t k = 0; k < 3; ++k) {
       const Lanes v{q.x - corners_[k].x, q.y - corners_[k].y, q.z - corners_[k].z};
       const Floats depth = -dotLanes(v, normal_);
@@ -306,6 +314,7 @@ class BallPacket {
     return true;
   }
 
+  /// Measuring each wall at once takes 20 % more CPU seconds of a whole run (horse).
   void collect(size_t lane, const Candidate& candidate) {
     size_t& count = counts_[lane];
     if (count == kMaxCandidateCount) {
@@ -324,7 +333,8 @@ class BallPacket {
   }
   static float withMargin(double diameter) { return asFloat(diameter * (1 + kWallBoxMargin)); }
 
-  /// Shrinks the balls of a query by its candidates, in ascending order of their bounds.
+  /// Shrinks the balls of a query by its candidates, in ascending order of their bounds. The order in which they were
+  /// found takes 2 % more CPU seconds of a whole run (horse).
   void measure(size_t lane) {
     const std::span<Candidate> found(candidates_[lane].data(), std::exchange(counts_[lane], 0));
     BallQuery& query = queries_[lane];
