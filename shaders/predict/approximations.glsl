@@ -1,11 +1,5 @@
 // The approximations of src/core/simd.h and src/predict/prediction_kernel.cpp, for equal systematic errors.
 
-// 1 / sqrt(x) for positive x, relative error 1e-3.
-float approximateRsqrt(float x) {
-  const float y = uintBitsToFloat(0x5f376a40u - (floatBitsToUint(x) >> 1));
-  return y * (1.500881 - 0.5 * x * y * y);
-}
-
 // exp(-x) with a relative error of 1e-4, for x from 0 to 80.
 float expNegative(float x) {
   const float exponent = 127.0 - x * 1.44269504;

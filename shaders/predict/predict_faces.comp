@@ -83,7 +83,7 @@ ConePoint project(PredictionFace at, PredictionPoint point, float seedWeight) {
   ConePoint seen;
   seen.distance = isInCone ? squared * inverseLength : 0.0;
   seen.mass = isInCone ? seedWeight * clamp(ratio, 1.0 / kMaxSolidAngleChange, kMaxSolidAngleChange) : 0.0;
-  seen.weight = kIsCgal ? seen.mass : seen.mass * (approximateRsqrt(versine) * sqrtOverAngle(versine));
+  seen.weight = kIsCgal ? seen.mass : seen.mass * (inversesqrt(versine) * sqrtOverAngle(versine));
   seen.isInlier = point.solidAngleRatio >= 0.0;
   return seen;
 }
