@@ -46,7 +46,8 @@ class MeshComparison {
  public:
   MeshComparison(std::string path, const std::string& device)
       : path_(std::move(path)), device_(device), mesh_(readMesh(path_)), backends_(openBackends(device)) {
-    for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(mesh_.scene(), cone_, {});
+    for (const auto& [name, backend] : backends_)
+      tracers_[name] = backend->makeTracer(mesh_.scene(), cone_, {}, nullptr);
     for (const EmbreeMode& mode : kEmbreeModes)
       if (auto baseline = makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.primitiveFaces, cone_, mode))
         embree_[mode.name] = std::move(baseline);

@@ -204,7 +204,8 @@ class ConstantBackend final : public Backend {
   [[nodiscard]] const Device& device() const { return *opened_.device; }
 
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds& needs) override {
+                                                       const TracerNeeds& needs,
+                                                       std::unique_ptr<EncodedScene> encoded) override {
     const ConeKernelRequest request{.rayCount = static_cast<uint32_t>(cone.directions.size()),
                                     .writesHits = needs.hits,
                                     .choice = traceChoiceFor(facts(), {}, scene.bvh)};
@@ -213,7 +214,7 @@ class ConstantBackend final : public Backend {
       const ConstantLengths constant;
       kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
     }
-    return makeVulkanTracer(*kernel, scene, cone);
+    return makeVulkanTracer(*kernel, scene, cone, std::move(encoded));
   }
 
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
@@ -247,7 +248,7 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
     std::vector<double> values(seeds.size());
     for (const bool withHits : {false, true}) {
       std::vector<ConeHit> hits(withHits ? seeds.size() * cone.directions.size() : 0);
-      const auto tracer = backend.makeTracer(mesh.scene(), cone, {.hits = withHits});
+      const auto tracer = backend.makeTracer(mesh.scene(), cone, {.hits = withHits}, nullptr);
       backend.device().pool().clear();
       const IdleDevice idle;
       std::vector<double> seconds, coneRates, rayRates;
@@ -309,10 +310,11 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
 }
 
 void run(const Arguments& arguments, const RunControl& control) {
-  SessionState session({.backend = BackendChoice::Reference});
+  SessionState session({.backend = BackendChoice::Reference}, SessionOpening::Now);
   auto backend = std::make_unique<ConstantBackend>(arguments.device);
   ConstantBackend& constant = *backend;
-  session.named = {BackendChoice::Vulkan, "vulkan", std::move(backend), {}};
+  session.backend =
+      std::make_unique<LazyBackend>(NamedBackend{BackendChoice::Vulkan, "vulkan", std::move(backend), {}});
   const TrafficCounter counter;
   const auto measure = [&](const std::string& name, const Mesh& mesh) {
     writeOutput(fmt::format("{}: {} faces, {}, {}\n", name, groupDigits(mesh.faceCount()), constant.deviceName(),

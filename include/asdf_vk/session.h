@@ -92,15 +92,26 @@ struct DeviceInfo {
 /// marks CPU devices as not usable, as SessionOptions::requireGpu does.
 [[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr, bool requireGpu = false);
 
+enum class SessionOpening {
+  Now,
+  /// A thread opens the device while the first computation prepares its mesh. The constructor succeeds. The functions
+  /// that need the device wait, and throw the errors that the constructor throws otherwise.
+  InThread,
+};
+
 /// A device with its pipelines, for any number of meshes, one after another. Not thread-safe.
 class ASDFVK_API Session {
  public:
   /// Throws Error of kind Device, with the reason, if the requested backend or device is not available.
-  explicit Session(const SessionOptions& options = {});
+  explicit Session(const SessionOptions& options = {}, SessionOpening opening = SessionOpening::Now);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  /// Whether requireOpen() would neither wait nor throw.
+  [[nodiscard]] bool isOpen() const;
+  /// Waits until the device is open. Throws the errors of the constructor. So do the following three functions.
+  void requireOpen() const;
   /// First line: the chosen device and the reason. Each further line: a device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
   /// "vulkan", "cpu" or "reference". If BackendChoice::Automatic replaces a backend, backend(), deviceLines() and

@@ -302,19 +302,27 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
   const InputFile file{.path = input};
   const std::string output = planOutputs(settings.outputs, {}, {&file, 1}).front();
   LoadedMesh loaded;
-  // Reads the mesh while the device is opened. If opening fails, the program ends when the mesh has been read.
+  // The device is opened while the mesh is read and prepared. A failure of the device is reported instead of one of the
+  // mesh.
   std::optional<BackgroundTask> reading;
   if (!mayWait(input)) reading.emplace([&] { loaded = loadMesh(input, settings.reading, false, {}); });
   std::optional<Session> session;
-  try {
-    session.emplace(settings.session);
-  } catch (...) {
+  const auto reportOpenFailure = [&] {
     const Failure failure = currentFailure(settings.session.requireGpu);
     printError("", failure.message);
     if (settings.outputs.json) writeStandardOutput(jsonFailure(input, failure.name, failure.message));
     return failure.code;
+  };
+  try {
+    session.emplace(settings.session, SessionOpening::InThread);
+  } catch (...) {
+    return reportOpenFailure();
   }
-  if (!settings.outputs.quiet) writeStandardError(deviceLinesOf(*session, settings.session, settings.outputs.verbose));
+  const bool printsDevice = !settings.outputs.quiet, wasOpen = session->isOpen();
+  const auto printDevice = [&] {
+    writeStandardError(deviceLinesOf(*session, settings.session, settings.outputs.verbose));
+  };
+  if (printsDevice && wasOpen) printDevice();
   const Deadline deadline(settings.timeoutSeconds, stop);
   if (reading)
     reading->wait();
@@ -322,6 +330,14 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
     loaded = loadMesh(input, settings.reading, false, deadline.token());
   const MeshRun run =
       computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
+  if (!run.failure || run.failure->code != ExitCode::Cancelled) {
+    try {
+      session->requireOpen();
+    } catch (...) {
+      return reportOpenFailure();
+    }
+    if (printsDevice && !wasOpen) printDevice();
+  }
   writeStandardError(run.text);
   writeStandardOutput(run.json);
   return run.failure ? run.failure->code : ExitCode::Done;

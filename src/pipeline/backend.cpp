@@ -24,8 +24,8 @@ class CpuBackend final : public Backend {
     return fmt::format("CPU, {}, single precision", cpuThreads());
   }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return {fmt::format("cpu: {}", deviceName())}; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds&) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, const TracerNeeds&,
+                                                       std::unique_ptr<EncodedScene>) override {
     return makeCpuTracer(scene, cone);
   }
 };
@@ -39,8 +39,8 @@ class ReferenceBackend final : public Backend {
     return {fmt::format("reference: {}", deviceName())};
   }
   [[nodiscard]] bool isReference() const override { return true; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds&) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, const TracerNeeds&,
+                                                       std::unique_ptr<EncodedScene>) override {
     return makeReferenceTracer(scene, cone);
   }
 };
@@ -112,6 +112,14 @@ std::unique_ptr<DevicePredictor> Backend::makePredictor(const TraceScene&, const
 
 std::unique_ptr<PoissonSolver> Backend::makeSolver(SolverChoice choice) const {
   return asdfvk::makeSolver(choice, nullptr);
+}
+
+bool Backend::predictsOnDevice(SolverChoice solver) const {
+  return hasDevice() && (solver == SolverChoice::Automatic ? !runsOnCpu() : solverOf(solver).needsDevice);
+}
+
+SolverChoice Backend::solverFor(SolverChoice choice) const {
+  return choice == SolverChoice::Automatic ? automaticSolver().choice : choice;
 }
 
 void Backend::requireSolver(SolverChoice choice) const {

@@ -12,12 +12,23 @@
 #include "poisson/poisson_solver.h"
 #include "predict/prediction.h"
 #include "trace/cone_tracer.h"
+#include "trace/encoded_scene.h"
 
 namespace asdfvk {
 
 /// Outputs of a tracer besides the values.
 struct TracerNeeds {
   bool hits = false;  ///< The hits of the rays.
+};
+
+/// The kernels of one computation.
+struct KernelNeeds {
+  uint32_t rayCount = 0;
+  Definition definition = Definition::Paper;
+  bool hits = false;      ///< Hits are written.
+  bool predicts = false;  ///< Values are predicted from hits.
+  bool solves = false;    ///< Equations are solved.
+  SolverChoice solver = SolverChoice::Automatic;
 };
 
 /// Makes tracers, and on a device also predictors. A backend is a Vulkan device with its pipelines, the CPU, or the
@@ -38,18 +49,28 @@ class Backend {
   /// Options of the hierarchy for the tracers.
   [[nodiscard]] virtual BvhOptions bvhOptions() const { return {.maxLeafTriangleCount = kMaxLeafTriangleCount}; }
 
-  /// The scene and the cone must outlive the tracer.
+  /// Makes the kernels of a computation, which makeTracer() and makePredictor() otherwise make. Throws Error of kind
+  /// Device.
+  virtual void prepare(const KernelNeeds&) {}
+  /// The scene and the cone must outlive the tracer. encoded: the scene, encoded for this backend, or null.
   [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                               const TracerNeeds& needs) = 0;
+                                                               const TracerNeeds& needs,
+                                                               std::unique_ptr<EncodedScene> encoded) = 0;
   /// Whether makePredictor() and the solvers that need a device are available.
   [[nodiscard]] virtual bool hasDevice() const { return false; }
   /// Returns a predictor on the device. The scene and the cone must outlive the predictor. Throws Error of kind Device.
   /// Precondition: hasDevice().
   [[nodiscard]] virtual std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone);
+  /// Whether predictions are made on the device. A CPU device needs more time than the CPU for the same predictions
+  /// (bench/experiments.md). The number of storage buffers is not tested, because the prediction needs fewer than any
+  /// solver.
+  [[nodiscard]] bool predictsOnDevice(SolverChoice solver) const;
   /// The solver that SolverChoice::Automatic selects: that of the device if the device has enough storage buffers and
   /// is not a CPU device. A CPU device needs more time for the same iterations than the solver of the CPU
   /// (docs/speed.md).
   [[nodiscard]] virtual const Solver& automaticSolver() const { return defaultSolver(false); }
+  /// The choice itself, or the automatic solver.
+  [[nodiscard]] SolverChoice solverFor(SolverChoice choice) const;
   /// Precondition: requireSolver(choice) does not throw.
   [[nodiscard]] virtual std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const;
   /// Throws Error{NoDeviceForKernel} if the solver needs a device and hasDevice() is false.
@@ -79,5 +100,8 @@ struct NamedBackend {
 
 /// Throws Error of kind Device.
 [[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);
+
+/// Encodes a scene for BackendChoice::Vulkan. The scene must outlive the result.
+[[nodiscard]] std::unique_ptr<EncodedScene> encodeForVulkan(const TraceScene& scene);
 
 }  // namespace asdfvk

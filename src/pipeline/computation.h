@@ -5,8 +5,7 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "cone/cone.h"
-#include "pipeline/backend.h"
-#include "pipeline/equation_solver.h"
+#include "pipeline/lazy_backend.h"
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/region.h"
 #include "pipeline/stage_clock.h"
@@ -22,8 +21,7 @@ struct Computation {
   const InputFaceSet& region;  ///< The computed faces: those that get values.
   const TraceScene& scene;
   const Cone& cone;
-  Backend& backend;
-  Solvers& solvers;
+  LazyBackend& backend;
   StageClock& clock;
   std::vector<Warning>& warnings;
 

@@ -39,6 +39,15 @@ void describeBackend(Report& report, const NamedBackend& named) {
   report.runsOnCpu = named.backend->runsOnCpu();
 }
 
+KernelNeeds kernelNeedsOf(const Computation& computation) {
+  return {.rayCount = static_cast<uint32_t>(computation.cone.directions.size()),
+          .definition = computation.cone.definition,
+          .hits = computation.keepsHits(),
+          .predicts = computation.keepsHits(),
+          .solves = computation.options.seeds.kind != SeedCount::Kind::All,
+          .solver = computation.options.solver};
+}
+
 void describeMesh(Report& report, const PreparedMesh& prepared, const InputFaceSet& region) {
   report.faceCount = prepared.mesh.inputFaceCount();
   report.regionFaceCount =
@@ -150,7 +159,7 @@ RoundsResult onFaces(RoundsResult rounds, const FaceDomain& domain, const Aggreg
 /// Calls runRounds(), on fine meshes for the centres of aggregates only. If these leave a component without a value,
 /// calls it for all faces.
 RoundsResult runRoundsOnFaces(const Computation& computation, const RaySource& source, const RunControl& control) {
-  const auto& [options, prepared, domain, region, scene, cone, backend, solvers, clock, warnings] = computation;
+  const auto& [options, prepared, domain, region, scene, cone, backend, clock, warnings] = computation;
   const auto runOnDomain = [&](const Computation& on, const AggregatedMesh* aggregated) {
     RoundsResult rounds = runRounds(on, source, control);
     const auto scope = on.clock.time(Stage::Solve);
@@ -170,8 +179,8 @@ RoundsResult runRoundsOnFaces(const Computation& computation, const RaySource& s
   Options counted = options;  // A share would be a share of the centres.
   counted.seeds = SeedCount::ofCount(seedCount);
   control.checkpoint(0);
-  RoundsResult rounds = runOnDomain(
-      {counted, prepared, centres, region, scene, cone, backend, solvers, clock, warnings}, aggregated.get());
+  RoundsResult rounds =
+      runOnDomain({counted, prepared, centres, region, scene, cone, backend, clock, warnings}, aggregated.get());
   const bool hasUntried = !untriedWithoutValue(domain, rounds.seeds, [](size_t) { return true; }).empty();
   return hasUntried ? runOnDomain(computation, nullptr) : std::move(rounds);
 }
@@ -191,7 +200,7 @@ FaceValues faceValuesOf(const Computation& computation, RoundsResult& rounds, Re
 
 void measureDiameter(Result& result, const Computation& computation, const RaySource& source,
                      const RunControl& control) {
-  const auto& [options, prepared, domain, region, scene, cone, backend, solvers, clock, warnings] = computation;
+  const auto& [options, prepared, domain, region, scene, cone, backend, clock, warnings] = computation;
   Report& report = result.report;
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   RoundsResult rounds = runRoundsOnFaces(computation, source, control.part(0, roundsEnd));
@@ -200,11 +209,11 @@ void measureDiameter(Result& result, const Computation& computation, const RaySo
   const RunControl stopOnly = control.withoutProgress();
   faces.values = finalValues(domain, std::move(faces.values), options.smoothing, clock, stopOnly);
   SegmentedValues segmented =
-      segmentValues(prepared, faces.values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock,
+      segmentValues(prepared, faces.values, options, makeLineOfSight(scene, backend->isReference(), stopOnly), clock,
                     report, stopOnly);
   if (options.checkCount)
     report.check = checkAgainstReference(scene, cone, facesAt(domain, domain.traceable),
-                                         {rounds.seeds, faces.isSeed, faces.values, backend.isReference()},
+                                         {rounds.seeds, faces.isSeed, faces.values, backend->isReference()},
                                          *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
   result.fields = fieldsOf(prepared, std::move(faces), std::move(segmented));
   describeValues(report, prepared, region, result.sdf(), computation.keepsMissing());
@@ -247,36 +256,40 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
                const RunControl& control, Result& result) {
   Report& report = result.report;
   const auto& [session, sharedScene, part, tracers, former] = input;
-  Backend& backend = *session.named.backend;
+  LazyBackend& backend = *session.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
   const FaceDomain domain = part != nullptr ? part->domain() : wholeMesh(prepared);
   const InputFaceSet region = part != nullptr ? part->inputFaces() : InputFaceSet();
   const bool isLast = tracers == nullptr;
-  backend.requireSolver(requested->solver);  // The backend may have changed.
+  if (backend.isOpen()) backend->requireSolver(requested->solver);  // The backend may have changed.
   Options options = withAllSeeds(*requested, domain);
   for (std::optional<LengthLimit>* const limit :
        {&options.thickness.thinnerThan, &options.thickness.thickerThan, &options.thickness.closerThan})
     convertToUnit(*limit, prepared.unit);
   const Cone cone = makeCone(options.cone);
-  describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, region);
   result.reversedFaces = prepared.reversedFaces;
   report.warnings.insert(report.warnings.end(), session.warnings().begin(), session.warnings().end());
 
   const TraceScene scene = sharedScene->view();
-  const Computation computation{options, prepared, domain,          region, scene,
-                                cone,    backend,  session.solvers, clock,  report.warnings};
+  const Computation computation{options, prepared, domain, region, scene, cone, backend, clock, report.warnings};
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
                           options.measuresGap() || options.segmentation == Segmentation::Parts;
-  if (options.measuresDiameter()) measureDiameter(result, computation, {*sharedScene, tracers, keepsNodes}, control);
+  if (options.measuresDiameter()) {
+    backend.prepare(kernelNeedsOf(computation));
+    measureDiameter(result, computation, {*sharedScene, tracers, keepsNodes}, control);
+  }
+  const NamedBackend& opened = backend.open(control.stop);
+  describeBackend(report, opened);
   if (options.measuresThickness() || options.measuresGap()) {
-    sharedScene->requireHierarchy(backend.bvhOptions(), clock, control.withoutProgress());
+    opened.backend->requireSolver(options.solver);
+    sharedScene->requireHierarchy(opened.backend->bvhOptions(), clock, control.withoutProgress());
     measureSurfaces(result, computation, *sharedScene, former,
                     options.measuresDiameter() ? control.withoutProgress() : control);
   }
   addDerivedFields(result.fields, prepared, options);
-  backend.requireSilentValidation();
+  opened.backend->requireSilentValidation();
   if (options.keepsScene) result.scene = sceneData(sharedScene, isLast);
 }
 

@@ -7,18 +7,10 @@
 
 namespace asdfvk {
 
-EquationSolver::EquationSolver(const Options& options, const Backend& backend, Solvers& solvers,
-                               std::vector<Warning>& warnings)
-    : options_(options.solverOptions),
-      backend_(backend),
-      solvers_(solvers),
-      warnings_(warnings),
-      isReplaceable_(options.solver == SolverChoice::Automatic),
-      choice_(isReplaceable_ ? backend.automaticSolver().choice : options.solver) {}
-
 SolverReport EquationSolver::solve(const DualGraph& graph, std::span<const double> weights, GraphProblem problem,
                                    std::vector<double>& values, const RunControl& control) {
-  if (!isReplaceable_ || !solverOf(choice_).needsDevice)
+  if (!choice_) choice_ = backend_->solverFor(options_.solver);
+  if (options_.solver != SolverChoice::Automatic || !solverOf(*choice_).needsDevice)
     return solveWithChosen(graph, weights, std::move(problem), values, control);
   try {
     // Passes a copy of the problem, because the CPU receives the problem if the device fails.
@@ -35,13 +27,9 @@ SolverReport EquationSolver::solve(const DualGraph& graph, std::span<const doubl
 SolverReport EquationSolver::solveWithChosen(const DualGraph& graph, std::span<const double> weights,
                                              GraphProblem problem, std::vector<double>& values,
                                              const RunControl& control) {
-  if (!onGraph_) {
-    std::unique_ptr<PoissonSolver>& solver = solvers_[choice_];
-    if (!solver) solver = backend_.makeSolver(choice_);
-    onGraph_ = solver->onGraph(graph, weights);
-  }
-  SolverReport report = onGraph_->solve(std::move(problem), options_, values, control);
-  report.name = nameOf(kSolverNames, choice_);
+  if (!onGraph_) onGraph_ = backend_.solver(*choice_).onGraph(graph, weights);
+  SolverReport report = onGraph_->solve(std::move(problem), options_.solverOptions, values, control);
+  report.name = nameOf(kSolverNames, *choice_);
   return report;
 }
 

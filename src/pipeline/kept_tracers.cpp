@@ -6,12 +6,12 @@
 namespace asdfvk {
 
 KeptTracer::KeptTracer(Backend& backend, const TraceScene& scene, const ConeOptions& coneOptions,
-                       const TracerNeeds& tracerNeeds, StageClock& clock)
+                       const TracerNeeds& tracerNeeds, StageClock& clock, std::unique_ptr<EncodedScene> encoded)
     : options(coneOptions), cone(makeCone(coneOptions)), needs(tracerNeeds) {
   const Stage stage = setUpStage(backend);
   {
     const auto scope = clock.time(stage);
-    tracer = backend.makeTracer(scene, cone, needs);
+    tracer = backend.makeTracer(scene, cone, needs, std::move(encoded));
     variant = backend.traceVariant();
   }
   clock.transfer(stage, Stage::Encode, tracer->encodeSeconds());

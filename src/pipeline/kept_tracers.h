@@ -14,9 +14,10 @@ namespace asdfvk {
 
 /// A tracer with the cone that it refers to.
 struct KeptTracer {
-  /// The time of creation is charged to the clock. Throws the errors of makeCone(), and Error{Device}.
+  /// encoded: see Backend::makeTracer(). The time of creation is charged to the clock. Throws the errors of makeCone(),
+  /// and Error{Device}.
   KeptTracer(Backend& backend, const TraceScene& scene, const ConeOptions& coneOptions, const TracerNeeds& tracerNeeds,
-             StageClock& clock);
+             StageClock& clock, std::unique_ptr<EncodedScene> encoded = nullptr);
 
   ConeOptions options;
   Cone cone;

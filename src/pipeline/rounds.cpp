@@ -27,7 +27,7 @@ struct RoundTools {
   explicit RoundTools(const Computation& of)
       : computation(of),
         prediction(of),
-        solver(of.options, of.backend, of.solvers, of.warnings),
+        solver(of.options, of.backend, of.warnings),
         arcAngles(of.domain.graph, of.domain.geometry),
         interpolation(of.domain, of.prepared.mesh, arcAngles, of.options, solver) {}
 

@@ -109,13 +109,15 @@ struct Scene::State {
   State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
       : session(theSession), orientation(theOrientation) {
     StageClock clock(preparation, control.stageBegan);
-    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control, session.named.backend->bvhOptions());
+    scene = std::make_shared<PreparedScene>(prepareMesh(mesh, orientation, clock, control));
+    scene->requireHierarchy(session.backend->open(control.stop).backend->bvhOptions(), clock, control);
   }
 
   /// Tracers of the backend that the session has now.
   KeptTracers& tracers() {
-    if (!tracers_ || &tracers_->backend() != session.named.backend.get())
-      tracers_ = std::make_unique<KeptTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
+    Backend& backend = **session.backend;
+    if (!tracers_ || &tracers_->backend() != &backend)
+      tracers_ = std::make_unique<KeptTracers>(backend, scene->view(), kPreparedConeCount);
     return *tracers_;
   }
 
@@ -143,7 +145,7 @@ struct Scene::State {
   Result compute(const CheckedOptions& options, std::span<const uint8_t> region, const JudgedSurface* former,
                  const RunControl& control) {
     requireNoConflict(*options, orientation, !region.empty());
-    session.named.backend->requireSolver(options->solver);
+    (*session.backend)->requireSolver(options->solver);
     control.checkpoint(0);
     return session.compute(!solverNeedsDevice(options->solver), control, [&](const RunControl& rest) {
       Result result;
@@ -206,7 +208,7 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
     StageClock clock(seconds, rest.stageBegan);
     const std::shared_ptr<KeptTracer> tracer = state_->tracers().get(cone, {}, clock);
     std::vector<double> values = valuesWith(*tracer, *state_->scene, points, normals, rest);
-    state_->session.named.backend->requireSilentValidation();
+    (*state_->session.backend)->requireSilentValidation();
     return values;
   });
 }

@@ -7,21 +7,14 @@
 
 namespace asdfvk {
 
-/// A CPU device needs more time than the CPU for the same predictions (bench/experiments.md). The number of storage
-/// buffers is not tested, because the prediction needs fewer than any solver.
-bool SeedPrediction::predictsOnDevice() const {
-  const SolverChoice solver = computation_.options.solver;
-  return computation_.keepsHits() && computation_.backend.hasDevice() && !hasFailed_ &&
-         (solver == SolverChoice::Automatic ? !computation_.backend.runsOnCpu() : solverOf(solver).needsDevice);
-}
-
 /// Returns null if the CPU predicts.
 DevicePredictor* SeedPrediction::devicePredictor() {
-  if (!predictsOnDevice()) return nullptr;
+  Backend& backend = *computation_.backend;
+  if (!computation_.keepsHits() || hasFailed_ || !backend.predictsOnDevice(computation_.options.solver)) return nullptr;
   try {
     if (!predictor_) {
-      const auto scope = computation_.clock.time(setUpStage(computation_.backend));
-      predictor_ = computation_.backend.makePredictor(computation_.scene, computation_.cone);
+      const auto scope = computation_.clock.time(setUpStage(backend));
+      predictor_ = backend.makePredictor(computation_.scene, computation_.cone);
     }
     return predictor_.get();
   } catch (const Error& error) {

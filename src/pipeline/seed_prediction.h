@@ -29,7 +29,6 @@ class SeedPrediction {
   [[nodiscard]] const Prediction& last() const { return last_; }
 
  private:
-  [[nodiscard]] bool predictsOnDevice() const;
   DevicePredictor* devicePredictor();
   void continueOnCpu(const Error& failure);
   /// Calls run(device). device: null if the CPU predicts; after a failure of the device, run(null) is called.

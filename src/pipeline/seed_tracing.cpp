@@ -1,23 +1,56 @@
 #include "pipeline/seed_tracing.h"
 
+#include <utility>
+
 #include "core/free_memory.h"
 #include "core/parallel.h"
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
 
+namespace {
+
+/// Builds the hierarchy for the expected backend if there is none, encodes it, and then waits for the backend. Builds
+/// the hierarchy again if another backend was opened.
+std::unique_ptr<EncodedScene> encodeHierarchy(const Computation& computation, PreparedScene& scene,
+                                              const RunControl& control) {
+  LazyBackend& backend = computation.backend;
+  const BvhOptions expected = backend.expectedBvhOptions();
+  scene.requireHierarchy(expected, computation.clock, control);
+  std::unique_ptr<EncodedScene> encoded;
+  {
+    const auto scope = computation.clock.time(Stage::Encode);
+    encoded = backend.encode(computation.scene);
+  }
+  if (backend.isOpen()) return encoded;
+  {
+    const auto scope = computation.clock.time(Stage::Upload);
+    (void)backend.openFor(computation.options.solver, control.stop);
+  }
+  if (backend->bvhOptions() == expected) return encoded;
+  freeMemory(scene.bvh.nodes);
+  scene.requireHierarchy(backend->bvhOptions(), computation.clock, control);
+  return nullptr;
+}
+
+}  // namespace
+
 SeedTracing::SeedTracing(const Computation& computation, const RaySource& source, const RunControl& control)
     : computation_(computation), released_(source.keepsNodes ? nullptr : &source.scene.bvh) {
-  source.scene.requireHierarchy(computation.backend.bvhOptions(), computation.clock, control);
   const ConeOptions& cone = computation.options.cone;
   const TracerNeeds needs{.hits = computation.keepsHits()};
-  tracer_ = source.kept != nullptr
-                ? source.kept->get(cone, needs, computation.clock)
-                : std::make_shared<KeptTracer>(computation.backend, computation.scene, cone, needs, computation.clock);
+  if (source.kept != nullptr) {
+    (void)computation.backend.openFor(computation.options.solver, control.stop);  // Its thread may make kernels.
+    tracer_ = source.kept->get(cone, needs, computation.clock);
+    return;
+  }
+  std::unique_ptr<EncodedScene> encoded = encodeHierarchy(computation, source.scene, control);
+  tracer_ = std::make_shared<KeptTracer>(*computation.backend, computation.scene, cone, needs, computation.clock,
+                                         std::move(encoded));
 }
 
 SeedTracing::~SeedTracing() {
-  const auto scope = computation_.clock.time(setUpStage(computation_.backend));
+  const auto scope = computation_.clock.time(setUpStage(*computation_.backend));
   tracer_.reset();
   if (released_ != nullptr) freeMemory(released_->nodes);
 }

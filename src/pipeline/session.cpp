@@ -6,22 +6,25 @@
 
 namespace asdfvk {
 
-Session::Session(const SessionOptions& options) {
+Session::Session(const SessionOptions& options, SessionOpening opening) {
   requireValid(SessionSettings{options}, OptionSpelling::CamelCase);
-  state_ = std::make_unique<SessionState>(options);
+  state_ = std::make_unique<SessionState>(options, opening);
 }
 Session::~Session() = default;
 
-const std::vector<std::string>& Session::deviceLines() const { return state_->named.deviceLines; }
-const std::string& Session::backend() const { return state_->named.name; }
-bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
+bool Session::isOpen() const { return state_->backend->isOpen(); }
+void Session::requireOpen() const { (void)state_->backend->open(); }
+const std::vector<std::string>& Session::deviceLines() const { return state_->backend->open().deviceLines; }
+const std::string& Session::backend() const { return state_->backend->open().name; }
+bool Session::runsOnCpu() const { return state_->backend->open().backend->runsOnCpu(); }
 
 Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
   return compute(mesh, CheckedOptions(options), control);
 }
 
 Result Session::compute(const MeshView& mesh, const CheckedOptions& options, const RunControl& control) {
-  state_->named.backend->requireSolver(options->solver);  // Fails before the mesh is prepared.
+  if (state_->backend->isOpen())
+    state_->backend->open().backend->requireSolver(options->solver);  // Fails before the mesh is prepared.
   return state_->compute(!solverNeedsDevice(options->solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);

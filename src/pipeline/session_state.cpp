@@ -20,21 +20,20 @@ bool isFailureOfDevice(ErrorCode code) {
 }  // namespace
 
 bool SessionState::replaceBackend(const Error& failure) {
-  if (!isFailureOfDevice(failure.code())) return false;
-  std::optional<NamedBackend> next = openNextBackend(options_, named.choice);
+  if (!isFailureOfDevice(failure.code()) || !backend->isOpen()) return false;
+  const NamedBackend& failed = backend->open();
+  std::optional<NamedBackend> next = openNextBackend(options_, failed.choice);
   if (!next) return false;
-  warnings_.push_back(backendReplaced(named.name, next->name, failure));
-  next->deviceLines.push_back(fmt::format("{}: failed: {}", named.name, failure.what()));
-  solvers.clear();
-  replaced_.push_back(std::exchange(named, std::move(*next)));
+  warnings_.push_back(backendReplaced(failed.name, next->name, failure));
+  next->deviceLines.push_back(fmt::format("{}: failed: {}", failed.name, failure.what()));
+  replaced_.push_back(std::exchange(backend, std::make_unique<LazyBackend>(std::move(*next))));
   lacksMemory_ = failure.code() == ErrorCode::OutOfDeviceMemory;
   return true;
 }
 
 void SessionState::returnToDevice() {
   if (!std::exchange(lacksMemory_, false)) return;
-  std::swap(named, replaced_.back());
-  solvers.clear();
+  std::swap(backend, replaced_.back());
   warnings_.pop_back();
 }
 

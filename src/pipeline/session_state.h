@@ -1,17 +1,19 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
-#include "pipeline/backend.h"
-#include "pipeline/computation.h"
+#include "asdf_vk/session.h"
+#include "pipeline/lazy_backend.h"
 
 namespace asdfvk {
 
 /// The state behind a Session.
 class SessionState {
  public:
-  explicit SessionState(const SessionOptions& options) : named(openBackend(options)), options_(options) {}
+  SessionState(const SessionOptions& options, SessionOpening opening)
+      : backend(std::make_unique<LazyBackend>(options, opening)), options_(options) {}
 
   /// Calls compute(control). If the device fails, is lost or is out of memory, and another backend may be used, calls
   /// compute() again with the other backend; the progress never decreases. The session continues with the other
@@ -23,8 +25,7 @@ class SessionState {
   /// Warnings for each computation on a backend that replaces another one.
   [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
-  NamedBackend named;
-  Solvers solvers;  ///< Destroyed before the device that they use.
+  std::unique_ptr<LazyBackend> backend;  ///< Never null.
 
  private:
   /// Opens the next backend of BackendChoice::Automatic. Returns false if there is none, or if the options request the
@@ -40,8 +41,8 @@ class SessionState {
 
   SessionOptions options_;
   std::vector<Warning> warnings_;
-  std::vector<NamedBackend> replaced_;  // Kept: tracers of scenes may refer to them.
-  bool lacksMemory_ = false;            // Whether the last of `replaced_` lacked memory for this mesh.
+  std::vector<std::unique_ptr<LazyBackend>> replaced_;  // Kept: tracers of scenes may refer to them.
+  bool lacksMemory_ = false;                            // Whether the last of `replaced_` lacked memory for this mesh.
 };
 
 template <typename Compute>

@@ -24,8 +24,8 @@ class SurfaceComputation {
   SurfaceComputation(const Computation& ofMesh, const JudgedSurface& surface, const InputFaceSet& region)
       : scene_(surface.scene().view()),
         domain_(wholeMesh(surface.scene().prepared)),
-        computation_{ofMesh.options, surface.scene().prepared, domain_,        region,       scene_,
-                     ofMesh.cone,    ofMesh.backend,           ofMesh.solvers, ofMesh.clock, ofMesh.warnings} {}
+        computation_{ofMesh.options, surface.scene().prepared, domain_,      region,         scene_,
+                     ofMesh.cone,    ofMesh.backend,           ofMesh.clock, ofMesh.warnings} {}
   SurfaceComputation(const SurfaceComputation&) = delete;
   SurfaceComputation& operator=(const SurfaceComputation&) = delete;
 

@@ -7,6 +7,8 @@ namespace asdfvk {
 
 std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions&) { throw Error(ErrorCode::NoUsableDevice, kNoVulkan); }
 
+std::unique_ptr<EncodedScene> encodeForVulkan(const TraceScene&) { return nullptr; }
+
 std::vector<DeviceInfo> listDevices(std::string* reason, bool) {
   if (reason != nullptr) *reason = kNoVulkan;
   return {};

@@ -1,7 +1,9 @@
 // Memory and submissions of a device: separate and poisoned memory, and the failures that the environment requests.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <thread>
 
 #include "state.h"
 
@@ -80,6 +82,15 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
   return device.next<PFN_vkQueueSubmit>("vkQueueSubmit")(queue, count, infos, fence);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice handle, VkPipelineCache cache, uint32_t count,
+                                                      const VkComputePipelineCreateInfo* infos,
+                                                      const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+  const DeviceState& device = devices().of(handle);
+  std::this_thread::sleep_for(std::chrono::milliseconds(count * device.settings.pipelineMilliseconds));
+  const auto create = device.next<PFN_vkCreateComputePipelines>("vkCreateComputePipelines");
+  return create(handle, cache, count, infos, allocator, pipelines);
+}
+
 /// The result that a lost device has instead of `result`.
 VkResult unlessLost(const DeviceState& device, VkResult result) {
   return device.isLost ? VK_ERROR_DEVICE_LOST : result;
@@ -141,6 +152,7 @@ PFN_vkVoidFunction findDeviceFunction(const char* name) {
       named("vkAllocateMemory", allocate),
       named("vkFreeMemory", release),
       named("vkMapMemory", map),
+      named("vkCreateComputePipelines", createComputePipelines),
       named("vkQueueSubmit", submit),
       named("vkWaitForFences", waitForFences),
       named("vkGetFenceStatus", getFenceStatus),

@@ -1,9 +1,11 @@
 // A Vulkan layer for tests: a device of the driver looks like another one, and fails on request. settings.h has the
 // environment variables. It stands between the validation layer and the driver, so that the validation layer sees the
 // same device as the program.
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <thread>
 
 #include "state.h"
 
@@ -63,6 +65,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
   const PFN_vkGetInstanceProcAddr nextOfInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   const PFN_vkGetDeviceProcAddr next = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+  std::this_thread::sleep_for(std::chrono::milliseconds(instance.settings.openingMilliseconds));
   const auto create = reinterpret_cast<PFN_vkCreateDevice>(nextOfInstance(instance.handle, "vkCreateDevice"));
   const VkResult result = create(physical, info, allocator, handle);
   if (result != VK_SUCCESS) return result;

@@ -61,9 +61,12 @@ Settings readSettings() {
   read("ASDF_VK_FAKE_WORKGROUP_SIZE", settings.workgroupSize);
   read("ASDF_VK_FAKE_SHARED_MEMORY", settings.sharedMemoryByteCount);
   read("ASDF_VK_FAKE_MAX_ALLOCATION", settings.maxAllocationByteCount);
-  std::optional<uint32_t> separate;
-  read("ASDF_VK_FAKE_SEPARATE_MEMORY", separate);
-  settings.hasSeparateMemory = separate.value_or(0) != 0;
+  const auto numberOrZero = [](const char* variable) {
+    return numberOf<uint32_t>(variable, valueOf(variable)).value_or(0);
+  };
+  settings.hasSeparateMemory = numberOrZero("ASDF_VK_FAKE_SEPARATE_MEMORY") != 0;
+  settings.openingMilliseconds = numberOrZero("ASDF_VK_FAKE_OPENING_MS");
+  settings.pipelineMilliseconds = numberOrZero("ASDF_VK_FAKE_PIPELINE_MS");
   read("ASDF_VK_FAKE_POISON", settings.poison);
   return settings;
 }

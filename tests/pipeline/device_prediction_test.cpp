@@ -40,8 +40,9 @@ class GpuBackend final : public Backend {
     return vulkan_->makeSolver(choice);
   }
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds& needs) override {
-    return vulkan_->makeTracer(scene, cone, needs);
+                                                       const TracerNeeds& needs,
+                                                       std::unique_ptr<EncodedScene> encoded) override {
+    return vulkan_->makeTracer(scene, cone, needs, std::move(encoded));
   }
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
     ++requestCount;
@@ -85,17 +86,17 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, SolverChoice solver) {
   PreparedScene prepared(prepareMesh(mesh, Orientation::Keep));
   const TraceScene scene = prepared.view();
   const Cone cone = makeCone(options.cone);
-  GpuBackend backend(predictor);
-  Solvers solvers;
+  auto gpu = std::make_unique<GpuBackend>(predictor);
+  const int& predictorCount = gpu->requestCount;
+  LazyBackend backend({BackendChoice::Vulkan, "vulkan", std::move(gpu), {}});
   StageSeconds seconds;
   StageClock clock(seconds);
   const FaceDomain domain = wholeMesh(prepared.prepared);
   const InputFaceSet all;
-  const Computation computation{options, prepared.prepared, domain,  all,   scene,
-                                cone,    backend,           solvers, clock, outcome.warnings};
+  const Computation computation{options, prepared.prepared, domain, all, scene, cone, backend, clock, outcome.warnings};
   const RoundsResult result = runRounds(computation, {prepared, nullptr, true}, {});
   outcome.values = result.interpolated.values;
-  outcome.predictorCount = backend.requestCount;
+  outcome.predictorCount = predictorCount;
   return outcome;
 }
 

@@ -70,9 +70,12 @@ class RecordingBackend final : public Backend {
 
   [[nodiscard]] std::string deviceName() const override { return "recording"; }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds&) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, const TracerNeeds&,
+                                                       std::unique_ptr<EncodedScene>) override {
     return std::make_unique<RecordingTracer>(makeReferenceTracer(scene, cone), events_);
+  }
+  [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice) const override {
+    return std::make_unique<RecordingSolver>(events_);
   }
 
  private:
@@ -96,16 +99,13 @@ Outcome run(Options options, bool keepsNodes = false) {
   PreparedScene prepared(prepareMesh(mesh, Orientation::Keep));
   const TraceScene scene = prepared.view();
   const Cone cone = makeCone(options.cone);
-  RecordingBackend backend(outcome.events);
-  Solvers solvers;
-  solvers[SolverChoice::Cpu] = std::make_unique<RecordingSolver>(outcome.events);
+  LazyBackend backend({BackendChoice::Cpu, "recording", std::make_unique<RecordingBackend>(outcome.events), {}});
   StageSeconds seconds;
   StageClock clock(seconds);
   std::vector<Warning> warnings;
   const FaceDomain domain = wholeMesh(prepared.prepared);
   const InputFaceSet all;
-  const Computation computation{options, prepared.prepared, domain,  all,   scene,
-                                cone,    backend,           solvers, clock, warnings};
+  const Computation computation{options, prepared.prepared, domain, all, scene, cone, backend, clock, warnings};
   const RoundsResult result = runRounds(computation, {prepared, nullptr, keepsNodes}, {});
   outcome.faceCount = mesh.faces.size();
   outcome.roundCount = result.roundCount;

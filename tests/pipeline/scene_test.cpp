@@ -95,8 +95,8 @@ class CountingBackend final : public Backend {
  public:
   [[nodiscard]] std::string deviceName() const override { return "counting"; }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return {}; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds&) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, const TracerNeeds&,
+                                                       std::unique_ptr<EncodedScene>) override {
     ++madeCount;
     return makeReferenceTracer(scene, cone);
   }

@@ -104,7 +104,7 @@ void testOther(DeviceReport& report, const std::string& name, const TestTorus& t
   TracerReport tracer{.backend = name};
   runTest(tracer, [&] {
     Backend& backend = open();
-    testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}), test, control);
+    testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}, nullptr), test, control);
   });
   report.tracers.push_back(std::move(tracer));
 }

@@ -2,15 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "core/parallel.h"
 #include "core/text.h"
+#include "pipeline/lavapipe_threads.h"
 #include "pipeline/vk/kernel_check.h"
 #include "predict/vk/vulkan_prediction.h"
 #include "trace/vk/vulkan_cone_kernel.h"
@@ -20,33 +18,6 @@
 
 namespace asdfvk {
 namespace {
-
-/// While this object exists, lavapipe creates devices with the number of threads that ThreadLimit allows, if this
-/// number is below the default.
-class LavapipeThreads {
- public:
-  LavapipeThreads() : lock_(mutex()) {
-    const size_t limit = threadLimit();
-    isSet_ = limit < defaultThreadCount() && std::getenv(kVariable) == nullptr;
-    if (isSet_) setenv(kVariable, std::to_string(limit).c_str(), 1);
-  }
-  ~LavapipeThreads() {
-    if (isSet_) unsetenv(kVariable);
-  }
-  LavapipeThreads(const LavapipeThreads&) = delete;
-  LavapipeThreads& operator=(const LavapipeThreads&) = delete;
-
- private:
-  static constexpr const char* kVariable = "LP_NUM_THREADS";
-
-  static std::mutex& mutex() {
-    static std::mutex instance;
-    return instance;
-  }
-
-  std::scoped_lock<std::mutex> lock_;
-  bool isSet_ = false;
-};
 
 class VulkanBackend final : public Backend {
  public:
@@ -66,29 +37,21 @@ class VulkanBackend final : public Backend {
   [[nodiscard]] bool hasDevice() const override { return true; }
   [[nodiscard]] const Device& device() const { return *opened_.device; }
 
+  void prepare(const KernelNeeds& needs) override {
+    (void)tracing({needs.rayCount, needs.hits, choice_, needs.definition});
+    if (needs.predicts && predictsOnDevice(needs.solver)) (void)prediction(needs.definition, needs.rayCount);
+  }
+
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds& needs) override {
+                                                       const TracerNeeds& needs,
+                                                       std::unique_ptr<EncodedScene> encoded) override {
     choice_ = traceChoiceFor(facts(), request_, scene.bvh);
-    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), needs.hits, choice_,
-                                    cone.definition};
-    std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
-    if (!kernel) {
-      auto compiled = std::make_unique<VulkanConeKernel>(*opened_.device, request);
-      requireRight(checkKernel(*compiled), "values");
-      kernel = std::move(compiled);
-    }
-    return makeVulkanTracer(*kernel, scene, cone);
+    const auto rayCount = static_cast<uint32_t>(cone.directions.size());
+    return makeVulkanTracer(tracing({rayCount, needs.hits, choice_, cone.definition}), scene, cone, std::move(encoded));
   }
 
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
-    const auto rayCount = static_cast<uint32_t>(cone.directions.size());
-    std::unique_ptr<VulkanPredictionKernels>& kernels = predictionKernels_[{cone.definition, rayCount}];
-    if (!kernels) {
-      auto compiled = std::make_unique<VulkanPredictionKernels>(*opened_.device, cone.definition, rayCount);
-      requireRight(checkKernels(*compiled), "predictions");
-      kernels = std::move(compiled);
-    }
-    return makeVulkanPredictor(*kernels, scene, cone);
+    return makeVulkanPredictor(prediction(cone.definition, static_cast<uint32_t>(cone.directions.size())), scene, cone);
   }
 
   [[nodiscard]] const Solver& automaticSolver() const override {
@@ -110,6 +73,26 @@ class VulkanBackend final : public Backend {
 
  private:
   [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
+
+  /// The kernels for a request, which are made and checked at the first request.
+  const VulkanConeKernel& tracing(const ConeKernelRequest& request) {
+    std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
+    if (!kernel) {
+      auto compiled = std::make_unique<VulkanConeKernel>(*opened_.device, request);
+      requireRight(checkKernel(*compiled), "values");
+      kernel = std::move(compiled);
+    }
+    return *kernel;
+  }
+  const VulkanPredictionKernels& prediction(Definition definition, uint32_t rayCount) {
+    std::unique_ptr<VulkanPredictionKernels>& kernels = predictionKernels_[{definition, rayCount}];
+    if (!kernels) {
+      auto compiled = std::make_unique<VulkanPredictionKernels>(*opened_.device, definition, rayCount);
+      requireRight(checkKernels(*compiled), "predictions");
+      kernels = std::move(compiled);
+    }
+    return *kernels;
+  }
 
   /// Throws Error{NoUsableDevice} if the results of a kernel are wrong. computed: the word for these results.
   void requireRight(const TracerCheck& check, const char* computed) const {

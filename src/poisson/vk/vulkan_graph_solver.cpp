@@ -82,8 +82,7 @@ class VulkanGraphSolver final : public GraphSolver {
 }  // namespace
 
 std::unique_ptr<GraphSolver> VulkanSolver::onGraph(const DualGraph& graph, std::span<const double> weights) {
-  if (!equationKernels_) equationKernels_.emplace(device_);
-  return std::make_unique<VulkanGraphSolver>(*this, *equationKernels_, graph, weights);
+  return std::make_unique<VulkanGraphSolver>(*this, equationKernels_, graph, weights);
 }
 
 }  // namespace asdfvk

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "poisson/poisson_solver.h"
 #include "poisson/vk/vulkan_equation.h"
@@ -13,7 +12,7 @@ namespace asdfvk {
 class VulkanSolver : public PoissonSolver {
  public:
   /// The device must outlive this object.
-  explicit VulkanSolver(const Device& device) : device_(device) {}
+  explicit VulkanSolver(const Device& device) : device_(device), equationKernels_(device) {}
 
   std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) final;
 
@@ -24,7 +23,7 @@ class VulkanSolver : public PoissonSolver {
 
  private:
   const Device& device_;
-  std::optional<VulkanEquationKernels> equationKernels_;  ///< Created by the first onGraph().
+  VulkanEquationKernels equationKernels_;
 };
 
 }  // namespace asdfvk

@@ -25,10 +25,24 @@ namespace {
 constexpr uint64_t kFirstChunkRayCount = 1u << 16;
 constexpr size_t kChunksInFlight = 2;
 
+struct VulkanScene final : EncodedScene {
+  explicit VulkanScene(const TraceScene& scene) : bvh(encodeWideBvh(scene.bvh)), seeds(scene, bvh.primitiveFaces) {}
+
+  WideBvh bvh;
+  DeviceSeeds seeds;
+};
+
 class VulkanTracer final : public ConeTracer {
  public:
-  VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
-      : kernel_(kernel), scene_(scene), cone_(cone), buffers_(kernel, scene, encode(), cone) {
+  /// encodeSeconds: those of `encoded`, if the constructor's caller waited for it.
+  VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone, VulkanScene&& encoded,
+               double encodeSeconds)
+      : kernel_(kernel),
+        scene_(scene),
+        cone_(cone),
+        encodeSeconds_(encodeSeconds),
+        seeds_(std::move(encoded.seeds)),
+        buffers_(kernel, scene, encoded.bvh, cone) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
     ASDFVK_CHECK(cone.definition == kernel.definition());
   }
@@ -46,7 +60,7 @@ class VulkanTracer final : public ConeTracer {
       chunk.submit(pushFor(cones.size()), ConeChunk::Input::Seeds, !results.hits.empty());
     };
     return traceAll(
-        seedFaces.size(), [&] { return seeds_->inDeviceOrder(seedFaces); }, submit, startOf, results, control);
+        seedFaces.size(), [&] { return seeds_.inDeviceOrder(seedFaces); }, submit, startOf, results, control);
   }
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
@@ -69,14 +83,6 @@ class VulkanTracer final : public ConeTracer {
   double encodeSeconds() const override { return encodeSeconds_; }
 
  private:
-  WideBvh encode() {
-    const Stopwatch watch;
-    WideBvh bvh = encodeWideBvh(scene_.bvh);
-    seeds_.emplace(scene_, bvh.primitiveFaces);
-    encodeSeconds_ = watch.seconds();
-    return bvh;
-  }
-
   /// sorted(): all cones, in the order of the device. submit(chunk, cones): writes the input of these cones and submits
   /// the chunk. startOf(i): the start of cone i.
   template <typename Sorted, typename Submit, typename StartOf>
@@ -200,16 +206,22 @@ class VulkanTracer final : public ConeTracer {
   const VulkanConeKernel& kernel_;
   TraceScene scene_;
   const Cone& cone_;
-  double encodeSeconds_ = 0;
-  std::optional<DeviceSeeds> seeds_;
+  double encodeSeconds_;
+  DeviceSeeds seeds_;
   ConeBuffers buffers_;
 };
 
 }  // namespace
 
-std::unique_ptr<ConeTracer> makeVulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene,
-                                             const Cone& cone) {
-  return std::make_unique<VulkanTracer>(kernel, scene, cone);
+std::unique_ptr<EncodedScene> encodeForVulkan(const TraceScene& scene) { return std::make_unique<VulkanScene>(scene); }
+
+std::unique_ptr<ConeTracer> makeVulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone,
+                                             std::unique_ptr<EncodedScene> encoded) {
+  const Stopwatch watch;
+  const bool isEncoded = encoded != nullptr;
+  if (!isEncoded) encoded = encodeForVulkan(scene);
+  return std::make_unique<VulkanTracer>(kernel, scene, cone, std::move(dynamic_cast<VulkanScene&>(*encoded)),
+                                        isEncoded ? 0 : watch.seconds());
 }
 
 }  // namespace asdfvk
