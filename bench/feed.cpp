@@ -27,7 +27,6 @@
 #include "support/program.h"
 #include "trace/vk/vulkan_cone_kernel.h"
 #include "trace/vk/vulkan_tracer.h"
-#include "vk/buffer_pool.h"
 
 namespace {
 
@@ -249,7 +248,7 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
     for (const bool withHits : {false, true}) {
       std::vector<ConeHit> hits(withHits ? seeds.size() * cone.directions.size() : 0);
       const auto tracer = backend.makeTracer(mesh.scene(), cone, {.hits = withHits}, nullptr);
-      backend.device().pool().clear();
+      backend.device().memory().clear();
       const IdleDevice idle;
       std::vector<double> seconds, coneRates, rayRates;
       for (uint32_t round = 0; round <= arguments.roundCount; ++round) {
@@ -263,7 +262,7 @@ std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Ar
       text += fmt::format("| {} % | {} | {:>14} | {:>14} | {:>14} |\n", percent, withHits ? "yes" : "no",
                           toText(dispersionOf(seconds), 4), toText(dispersionOf(coneRates), 1),
                           toText(dispersionOf(rayRates), 3));
-      backend.device().pool().clear();
+      backend.device().memory().clear();
     }
   }
   return text;

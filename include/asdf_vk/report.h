@@ -219,6 +219,13 @@ struct TraceVariant {
       fetch;  ///< Kind of buffers that the kernels read; unset in options: the default of the device.
 };
 
+/// Times of a Vulkan device, by its own clock.
+struct DeviceTimes {
+  StageSeconds kernels;      ///< Seconds of kernels by the stage that waits for them.
+  StageSeconds copies;       ///< Seconds of copies and fills by the stage that waits for them.
+  double raysPerSecond = 0;  ///< Rays divided by the seconds of kernels in the stage "trace".
+};
+
 /// Facts about a computation: mesh, device, times, errors and warnings.
 struct Report {
   uint64_t faceCount = 0;        ///< Input faces.
@@ -247,6 +254,7 @@ struct Report {
   std::optional<TraceVariant> traceChoice;       ///< The variant of the Vulkan kernels; unset if no kernel ran.
   StageSeconds stageSeconds;                     ///< Seconds by stage; 0 for a stage that did not run.
   double raysPerSecond = 0;                      ///< Rays divided by the seconds of the stage "trace".
+  std::optional<DeviceTimes> deviceTimes;        ///< Unset if no device with timestamps computed.
   SolverReport solver;                           ///< The solution of the Poisson equation.
   ValueRange sdf;                                ///< Range and quantiles of the shape diameter.
   std::optional<PostprocessReport> postprocess;  ///< Set if the result has the field "normalized".

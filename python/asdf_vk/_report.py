@@ -36,6 +36,18 @@ class TraceVariant:
 
 
 @dataclass(frozen=True)
+class DeviceTimes:
+    """Times of a Vulkan device, by its own clock."""
+
+    kernels: dict[str, float]
+    """Seconds of kernels by the stage that waits for them."""
+    copies: dict[str, float]
+    """Seconds of copies and fills by the stage that waits for them."""
+    rays_per_second: float
+    """Rays divided by the seconds of kernels in the stage "trace"."""
+
+
+@dataclass(frozen=True)
 class SolverReport:
     """The solution of the Poisson equation."""
 
@@ -533,6 +545,8 @@ class Report:
     """Seconds by stage; 0 for a stage that did not run."""
     rays_per_second: float
     """Rays divided by the seconds of the stage "trace"."""
+    device_times: DeviceTimes | None
+    """Unset if no device with timestamps computed."""
     solver: SolverReport
     """The solution of the Poisson equation."""
     sdf: ValueRange

@@ -25,7 +25,8 @@ void to_json(Json& json, const TracerReport& tracer) {
           {"failure", tracer.failure},
           {"comparedCount", tracer.comparedCount},
           {"differingCount", tracer.differingCount},
-          {"raysPerSecond", std::round(tracer.raysPerSecond)}};
+          {"raysPerSecond", std::round(tracer.raysPerSecond)},
+          {"kernelRaysPerSecond", std::round(tracer.kernelRaysPerSecond)}};
 }
 ASDFVK_JSON(SolverCheckReport, name, passed, refusal, failure, unknownCount, iterations, finishedOnCpu, difference,
             seconds)

@@ -131,9 +131,10 @@ ASDFVK_KEYS(MeshDefects, zeroAreaFaceCount, duplicateFaceCount, nonFiniteVertexC
             boundaryEdgeCount, nonManifoldEdgeCount, inconsistentEdgeCount, weldedVertexCount, unreferencedVertexCount,
             shortPolygonCount)
 ASDFVK_KEYS(Warning, code, message, details)
+ASDFVK_KEYS(DeviceTimes, kernels, copies, raysPerSecond)
 ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, chordError,
             seedCount, rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount,
-            backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, solver, sdf, postprocess,
+            backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, deviceTimes, solver, sdf, postprocess,
             segmentCount, parts, thickness, gap, comparison, voids, contacts, estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
 #undef ASDFVK_VISIT

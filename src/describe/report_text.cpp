@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "core/text.h"
@@ -147,15 +148,23 @@ std::string solverRow(const SolverReport& solver) {
                      solver.finishedOnCpu ? ", finished on the CPU" : "");
 }
 
+double sumOf(const StageSeconds& seconds) {
+  return std::accumulate(seconds.seconds.begin(), seconds.seconds.end(), 0.0);
+}
+
 std::string timeRow(const StageSeconds& seconds) {
-  double sum = 0;
   std::string stages;
-  for (size_t i = 0; i < kStageCount; ++i) {
-    if (!(seconds.seconds[i] > 0)) continue;
-    sum += seconds.seconds[i];
-    stages += fmt::format(", {} {:.2g}", nameOf(static_cast<Stage>(i)), seconds.seconds[i]);
-  }
-  return fmt::format("{:.3g} s{}", sum, stages);
+  for (size_t i = 0; i < kStageCount; ++i)
+    if (seconds.seconds[i] > 0) stages += fmt::format(", {} {:.2g}", nameOf(static_cast<Stage>(i)), seconds.seconds[i]);
+  return fmt::format("{:.3g} s{}", sumOf(seconds), stages);
+}
+
+std::string deviceTimeRow(const DeviceTimes& times) {
+  std::string row = "kernels " + timeRow(times.kernels);
+  if (sumOf(times.copies) > 0) row += "; copies " + timeRow(times.copies);
+  if (times.raysPerSecond > 0)
+    row += fmt::format("; {:.3g} million rays per second of kernels", times.raysPerSecond / 1e6);
+  return row;
 }
 
 /// The rows of the full report without the lists of thin regions. Titles are capitalised. A row that continues another
@@ -165,7 +174,7 @@ ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spe
   constexpr std::array kListed{"walls", "gaps", "details", "edges"};
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
-    if (!showsTimes && (title == "time" || title == "rate")) continue;
+    if (!showsTimes && (title == "time" || title == "rate" || title == "on device")) continue;
     if (title == "device" && report.backend != nameOf(kBackendNames, BackendChoice::Vulkan))
       continue;  // The name of a CPU has the number of threads.
     if (!title.empty()) isThinRow = std::find(kListed.begin(), kListed.end(), title) != kListed.end();
@@ -263,6 +272,7 @@ ReportRows reportRows(const Report& report, OptionSpelling spelling) {
   if (report.raysPerSecond > 0)
     rows.emplace_back("rate", fmt::format("{:.3g} million rays per second", report.raysPerSecond / 1e6));
   rows.emplace_back("time", timeRow(report.stageSeconds));
+  if (report.deviceTimes && hasDiameter) rows.emplace_back("on device", deviceTimeRow(*report.deviceTimes));
   return rows;
 }
 

@@ -24,6 +24,8 @@ struct TracerReport {
   uint32_t comparedCount = 0, differingCount = 0;  ///< See TracerCheck; 64 faces are compared.
   bool passed = false;                             ///< The test ran and at most one face differs.
   double raysPerSecond = 0;                        ///< The best of a few runs; 0 if the test did not run.
+  double kernelRaysPerSecond =
+      0;  ///< The same for the kernels alone, by the clock of the device; 0 without timestamps.
 };
 
 /// Comparison of a solver on the device with the solver on the CPU.

@@ -9,6 +9,7 @@
 #include "asdf_vk/report.h"
 #include "asdf_vk/session.h"
 #include "bvh/bvh.h"
+#include "core/device_seconds.h"
 #include "poisson/poisson_solver.h"
 #include "predict/prediction.h"
 #include "trace/cone_tracer.h"
@@ -75,6 +76,8 @@ class Backend {
   [[nodiscard]] virtual std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const;
   /// Throws Error{NoDeviceForKernel} if the solver needs a device and hasDevice() is false.
   void requireSolver(SolverChoice choice) const;
+  /// The time of the device so far, by its own clock; unset without timestamps.
+  [[nodiscard]] virtual std::optional<DeviceSeconds> deviceSeconds() const { return std::nullopt; }
   /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
   virtual void requireSilentValidation() const {}
 };

@@ -276,6 +276,9 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
   const Computation computation{options, prepared, domain, region, scene, cone, backend, clock, report.warnings};
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
                           options.measuresGap() || options.segmentation == Segmentation::Parts;
+  DeviceTimes deviceTimes;
+  const StageClock::DeviceWatch watch(
+      clock, [&] { return backend.deviceSeconds(); }, deviceTimes);
   if (options.measuresDiameter()) {
     backend.prepare(kernelNeedsOf(computation));
     measureDiameter(result, computation, {*sharedScene, tracers, keepsNodes}, control);
@@ -287,6 +290,11 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
     sharedScene->requireHierarchy(opened.backend->bvhOptions(), clock, control.withoutProgress());
     measureSurfaces(result, computation, *sharedScene, former,
                     options.measuresDiameter() ? control.withoutProgress() : control);
+  }
+  if (opened.backend->deviceSeconds()) {
+    const double seconds = deviceTimes.kernels[Stage::Trace];
+    deviceTimes.raysPerSecond = seconds > 0 ? static_cast<double>(report.rayCount) / seconds : 0;
+    report.deviceTimes = deviceTimes;
   }
   addDerivedFields(result.fields, prepared, options);
   opened.backend->requireSilentValidation();

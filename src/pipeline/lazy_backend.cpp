@@ -58,7 +58,9 @@ Backend& LazyBackend::openFor(SolverChoice solver, const std::stop_token& stop) 
   return backend;
 }
 
-bool LazyBackend::usesDevice() const { return isOpen() ? opened_.backend->hasDevice() : mayUseDevice(options_.backend); }
+bool LazyBackend::usesDevice() const {
+  return isOpen() ? opened_.backend->hasDevice() : mayUseDevice(options_.backend);
+}
 
 BvhOptions LazyBackend::expectedBvhOptions() const {
   return isOpen() ? opened_.backend->bvhOptions() : BvhOptions{.maxLeafTriangleCount = kMaxWideLeafTriangleCount};
@@ -66,6 +68,11 @@ BvhOptions LazyBackend::expectedBvhOptions() const {
 
 std::unique_ptr<EncodedScene> LazyBackend::encode(const TraceScene& scene) const {
   return usesDevice() ? encodeForVulkan(scene) : nullptr;
+}
+
+DeviceSeconds LazyBackend::deviceSeconds() {
+  if (isOpen()) lastSeconds_ = opened_.backend->deviceSeconds().value_or(DeviceSeconds{});
+  return lastSeconds_;
 }
 
 void LazyBackend::prepare(const KernelNeeds& needs) {

@@ -39,6 +39,9 @@ class LazyBackend {
   /// Encodes a scene for tracers of the backend that expectedBvhOptions() describes; null if its tracers encode scenes.
   [[nodiscard]] std::unique_ptr<EncodedScene> encode(const TraceScene& scene) const;
 
+  /// Backend::deviceSeconds() when isOpen() was last true; without timestamps 0.
+  [[nodiscard]] DeviceSeconds deviceSeconds();
+
   /// Makes kernels and solvers in the thread. A failure has no effect here: the computation makes them again.
   void prepare(const KernelNeeds& needs);
   /// The solver of a choice, which is created at its first use. Throws the errors of Backend::makeSolver().
@@ -51,6 +54,7 @@ class LazyBackend {
   SessionOptions options_;
   std::optional<LavapipeThreads> lavapipeThreads_;
   NamedBackend opened_;
+  DeviceSeconds lastSeconds_;
   std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;  // Destroyed before the device that they use.
   std::shared_future<void> work_;  // The last work of the thread; invalid without any. Its destructor waits.
 };

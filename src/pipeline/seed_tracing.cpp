@@ -7,7 +7,6 @@
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
-
 namespace {
 
 /// Builds the hierarchy for the expected backend if there is none, encodes it, and then waits for the backend. Builds
@@ -22,12 +21,11 @@ std::unique_ptr<EncodedScene> encodeHierarchy(const Computation& computation, Pr
     const auto scope = computation.clock.time(Stage::Encode);
     encoded = backend.encode(computation.scene);
   }
-  if (backend.isOpen()) return encoded;
-  {
+  if (!backend.isOpen()) {
     const auto scope = computation.clock.time(Stage::Upload);
-    (void)backend.openFor(computation.options.solver, control.stop);
+    (void)backend.open(control.stop);
   }
-  if (backend->bvhOptions() == expected) return encoded;
+  if (backend.openFor(computation.options.solver, control.stop).bvhOptions() == expected) return encoded;
   freeMemory(scene.bvh.nodes);
   scene.requireHierarchy(backend->bvhOptions(), computation.clock, control);
   return nullptr;

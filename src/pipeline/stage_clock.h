@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "asdf_vk/report.h"
+#include "core/device_seconds.h"
 
 namespace asdfvk {
 
@@ -32,6 +33,23 @@ class StageClock {
   };
   [[nodiscard]] Scope time(Stage stage) { return {*this, stage}; }
 
+  /// While it exists, the clock adds the time of a device to the stages in which it passes.
+  class DeviceWatch {
+   public:
+    /// now(): the time of the device since any moment.
+    DeviceWatch(StageClock& clock, std::function<DeviceSeconds()> now, DeviceTimes& times) : clock_(clock) {
+      clock_.deviceNow_ = std::move(now);
+      clock_.deviceTimes_ = &times;
+      clock_.lastDevice_ = clock_.deviceNow_();
+    }
+    ~DeviceWatch() { clock_.deviceTimes_ = nullptr; }
+    DeviceWatch(const DeviceWatch&) = delete;
+    DeviceWatch& operator=(const DeviceWatch&) = delete;
+
+   private:
+    StageClock& clock_;
+  };
+
   void transfer(Stage from, Stage to, double seconds) {
     seconds_[from] -= seconds;
     seconds_[to] += seconds;
@@ -43,15 +61,26 @@ class StageClock {
   std::optional<Stage> switchTo(std::optional<Stage> stage) {
     const Clock::time_point now = Clock::now();
     if (current_) seconds_[*current_] += std::chrono::duration<double>(now - lastSwitch_).count();
+    if (deviceTimes_ != nullptr) addDeviceTimes();
     lastSwitch_ = now;
     if (stage && stage != current_ && began_) began_(*stage);
     return std::exchange(current_, stage);
+  }
+
+  void addDeviceTimes() {
+    const DeviceSeconds last = std::exchange(lastDevice_, deviceNow_());
+    if (!current_) return;
+    deviceTimes_->kernels[*current_] += lastDevice_.kernels - last.kernels;
+    deviceTimes_->copies[*current_] += lastDevice_.copies - last.copies;
   }
 
   StageSeconds& seconds_;
   std::function<void(Stage)> began_;
   Clock::time_point lastSwitch_ = Clock::now();
   std::optional<Stage> current_;
+  std::function<DeviceSeconds()> deviceNow_;
+  DeviceTimes* deviceTimes_ = nullptr;
+  DeviceSeconds lastDevice_;
 };
 
 }  // namespace asdfvk

@@ -3,29 +3,26 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/huge_pages.h"
 #include "core/parallel.h"
-#include "vk/buffer_pool.h"
 #include "vk/command_list.h"
 #include "vk/result.h"
+#include "vk/upload_queue.h"
 
 namespace asdfvk {
 namespace {
-
-constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 /// The memory types that may hold a buffer of the given kind, the best first.
 std::vector<uint32_t> rankMemoryTypes(const Device& device, uint32_t allowed, MemoryKind kind) {
   using Flags = VkMemoryPropertyFlags;
   const Flags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-  const Flags preferences[2][3] = {{local | kMappable | cached, local, 0}, {kMappable | cached, kMappable, kMappable}};
+  const Flags preferences[2][3] = {{local | kMappableMemory | cached, local, 0},
+                                   {kMappableMemory | cached, kMappableMemory, kMappableMemory}};
   std::vector<uint32_t> ranked;
   for (const Flags wanted : preferences[kind == MemoryKind::HostVisible ? 1 : 0])
     while (const auto type = device.findMemoryType(allowed, wanted)) {
@@ -37,18 +34,6 @@ std::vector<uint32_t> rankMemoryTypes(const Device& device, uint32_t allowed, Me
 
 MemoryKind kindOn(const Device& device, MemoryKind kind) {
   return kind == MemoryKind::DeviceLocal && !device.facts().mapsDeviceMemory ? MemoryKind::DeviceOnly : kind;
-}
-
-/// Allocates memory of the first type that has enough left. Returns the result of the last attempt.
-VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<const uint32_t> types,
-                  VkDeviceMemory& memory) {
-  VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  for (const uint32_t type : types) {
-    info.memoryTypeIndex = type;
-    result = vkAllocateMemory(device.handle(), &info, nullptr, &memory);
-    if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
-  }
-  return result;
 }
 
 /// Writes items on several threads. One thread does not saturate the memory, and the first write to a page of new
@@ -63,26 +48,18 @@ void writeInParallel(std::span<std::byte> bytes, size_t first, size_t itemByteCo
   });
 }
 
-/// Calls copyPiece(commands, staging, begin, byteCount) for each piece of whole items. staging: mapped memory for one
-/// piece.
-template <typename CopyPiece>
-void forEachPiece(const Device& device, uint64_t byteCount, size_t itemByteCount, const CopyPiece& copyPiece) {
-  constexpr uint64_t kMinPieceByteCount = 64u << 10;
-  if (byteCount == 0) return;
-  const uint64_t stagingByteCount = std::bit_ceil(std::clamp(byteCount, kMinPieceByteCount, kMaxPieceByteCount));
-  const PooledBuffer staging(device, stagingByteCount,
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                             MemoryKind::HostVisible);
-  CommandList commands(device);
+/// Calls visit(begin, byteCount) for pieces of whole items.
+template <typename Visit>
+void forEachPiece(uint64_t byteCount, size_t itemByteCount, const Visit& visit) {
   const uint64_t pieceByteCount = kMaxPieceByteCount / itemByteCount * itemByteCount;
   for (uint64_t begin = 0; begin < byteCount; begin += pieceByteCount)
-    copyPiece(commands, *staging, begin, std::min(pieceByteCount, byteCount - begin));
+    visit(begin, std::min(pieceByteCount, byteCount - begin));
 }
 
 }  // namespace
 
 Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, MemoryKind kind)
-    : device_(device.handle()), byteCount_(byteCount) {
+    : device_(&device), byteCount_(byteCount) {
   const uint64_t limit = device.facts().maxMemoryAllocationSize;
   if (limit > 0 && byteCount > limit)
     throw Error(ErrorCode::DeviceLimit, fmt::format("{} allows {} MiB in one buffer and the mesh needs {}",
@@ -90,39 +67,32 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = byteCount;
   info.usage = usage;
-  requireSuccess(vkCreateBuffer(device_, &info, nullptr, &buffer_), "creating a buffer");
+  requireSuccess(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "creating a buffer");
   Buffer guard = std::move(*this);  // If a later step throws, the guard frees the members that exist by then.
 
   VkMemoryRequirements requirements{};
-  vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);
+  vkGetBufferMemoryRequirements(device.handle(), guard.buffer_, &requirements);
   const std::vector<uint32_t> types = rankMemoryTypes(device, requirements.memoryTypeBits, kindOn(device, kind));
   if (types.empty())
     throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory type for this buffer", device.facts().name));
-  VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-  allocation.allocationSize = requirements.size;
-  VkResult allocated = allocate(device, allocation, types, guard.memory_);
-  if (allocated == VK_ERROR_OUT_OF_DEVICE_MEMORY && device.pool().idleByteCount() > 0) {
-    device.pool().clear();
-    allocated = allocate(device, allocation, types, guard.memory_);
-  }
-  requireSuccess(allocated, fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
-  const VkMemoryPropertyFlags flags = device.memoryFlags(allocation.memoryTypeIndex);
-  requireSuccess(vkBindBufferMemory(guard.device_, guard.buffer_, guard.memory_, 0), "binding memory");
-  if (kindOn(device, kind) != MemoryKind::DeviceOnly && (flags & kMappable) == kMappable) {
-    void* pointer = nullptr;
-    requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
-    guard.mapped_ = static_cast<std::byte*>(pointer);
-    guard.isCached_ = (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
-    // A CPU device uses memory of the process, which its driver allocates in small pages.
-    if (device.facts().kind == DeviceKind::Cpu) requestHugePages(pointer, byteCount);
+  MemoryArena::Range range;
+  requireSuccess(device.memory().take(requirements, types, range),
+                 fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
+  guard.memory_ = range;
+  requireSuccess(vkBindBufferMemory(device.handle(), guard.buffer_, range.block->memory, range.offset),
+                 "binding memory");
+  if (kindOn(device, kind) != MemoryKind::DeviceOnly && range.block->mapped != nullptr) {
+    guard.mapped_ = range.block->mapped + range.offset;
+    guard.isCached_ = (device.memoryFlags(range.block->type) & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
   }
   *this = std::move(guard);
 }
 
 Buffer::~Buffer() {
-  if (!device_) return;
-  vkDestroyBuffer(device_, buffer_, nullptr);
-  vkFreeMemory(device_, memory_, nullptr);
+  if (buffer_ == VK_NULL_HANDLE) return;
+  device_->uploads().finish(buffer_);
+  vkDestroyBuffer(device_->handle(), buffer_, nullptr);
+  if (memory_.block != nullptr) device_->memory().give(memory_);
 }
 
 Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
@@ -173,32 +143,33 @@ Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCoun
     writeInParallel({buffer.mapped(), byteCount}, 0, itemByteCount, write);
     return buffer;
   }
-  forEachPiece(device, byteCount, itemByteCount,
-               [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
-                 writeInParallel({staging.mapped(), count}, begin / itemByteCount, itemByteCount, write);
-                 commands.begin();
-                 commands.copy(staging, 0, buffer, begin, count);
-                 commands.barrier();
-                 commands.submitAndWait();
-               });
+  forEachPiece(byteCount, itemByteCount, [&](uint64_t begin, uint64_t count) {
+    device.uploads().add(buffer, begin, count, [&](std::span<std::byte> staging) {
+      writeInParallel(staging, begin / itemByteCount, itemByteCount, write);
+    });
+  });
   return buffer;
 }
 
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
   if (buffer.mapped() != nullptr) {
+    requireSuccess(vkQueueWaitIdle(device.queue()), "waiting for " + device.facts().name);
     std::ranges::copy(std::span(buffer.mapped(), bytes.size()), bytes.begin());
     return;
   }
-  forEachPiece(device, bytes.size(), 1,
-               [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
-                 commands.begin();
-                 commands.copy(buffer, begin, staging, 0, count);
-                 commands.barrier();
-                 commands.submitAndWait();
-                 writeInParallel(bytes.subspan(begin, count), 0, 1, [&](size_t first, std::span<std::byte> to) {
-                   std::memcpy(to.data(), staging.mapped() + first, to.size());
-                 });
-               });
+  if (bytes.empty()) return;
+  const Buffer staging(device, std::min<uint64_t>(bytes.size(), kMaxPieceByteCount), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       MemoryKind::HostVisible);
+  CommandList commands(device);
+  forEachPiece(bytes.size(), 1, [&](uint64_t begin, uint64_t count) {
+    commands.begin();
+    commands.copy(buffer, begin, staging, 0, count);
+    commands.barrier();
+    commands.submitAndWait();
+    writeInParallel(bytes.subspan(begin, count), 0, 1, [&](size_t first, std::span<std::byte> to) {
+      std::memcpy(to.data(), staging.mapped() + first, to.size());
+    });
+  });
 }
 
 }  // namespace asdfvk

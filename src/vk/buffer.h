@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "core/function_ref.h"
-#include "core/unset_vector.h"
 #include "vk/device.h"
 
 namespace asdfvk {
@@ -18,7 +17,8 @@ enum class MemoryKind {
   HostVisible,  ///< Mapped and coherent; cached if the device has such memory.
 };
 
-/// A buffer with memory of the best type that has enough left. Throws Error{OutOfDeviceMemory, DeviceLimit}.
+/// A buffer with memory of the best type that has enough left, and with unspecified contents. The destructor waits for
+/// uploads; no other submitted work may use the buffer. Throws Error{OutOfDeviceMemory, DeviceLimit}.
 class Buffer {
  public:
   Buffer() = default;
@@ -27,6 +27,7 @@ class Buffer {
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
 
+  [[nodiscard]] bool exists() const { return buffer_ != VK_NULL_HANDLE; }
   [[nodiscard]] VkBuffer handle() const { return buffer_; }
   [[nodiscard]] uint64_t byteCount() const { return byteCount_; }
   /// Null if the host cannot access the memory.
@@ -39,9 +40,9 @@ class Buffer {
   }
 
  private:
-  VkDevice device_ = VK_NULL_HANDLE;
+  const Device* device_ = nullptr;
   VkBuffer buffer_ = VK_NULL_HANDLE;
-  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  MemoryArena::Range memory_;
   uint64_t byteCount_ = 0;
   std::byte* mapped_ = nullptr;
   bool isCached_ = false;
@@ -90,17 +91,7 @@ template <typename Item, typename Write>
                        });
 }
 
-/// Copies the first bytes of a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT to the host.
+/// Copies the first bytes of a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT to the host, after all submitted work.
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
-
-/// The first items of such a buffer: its mapped memory if reads are cached, otherwise `copy`.
-template <typename Item>
-[[nodiscard]] std::span<const Item> readItems(const Device& device, const Buffer& buffer, size_t itemCount,
-                                              UnsetVector<Item>& copy) {
-  if (buffer.mapped() != nullptr && buffer.isCached()) return buffer.mappedAs<const Item>().first(itemCount);
-  copy.resize(itemCount);
-  downloadBuffer(device, buffer, std::as_writable_bytes(std::span(copy)));
-  return copy;
-}
 
 }  // namespace asdfvk

@@ -3,6 +3,7 @@
 #include <volk.h>
 
 #include <span>
+#include <vector>
 
 #include "vk/buffer.h"
 #include "vk/compute_pipeline.h"
@@ -20,8 +21,9 @@ class CommandList {
   CommandList(const CommandList&) = delete;
   CommandList& operator=(const CommandList&) = delete;
 
+  /// Waits like wait() for an earlier submission.
   void begin();
-  [[nodiscard]] VkCommandBuffer handle() const { return commands_; }
+  [[nodiscard]] VkCommandBuffer handle() const { return objects_.commands; }
   /// pushConstants: as many bytes as the pipeline describes.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);
@@ -36,8 +38,11 @@ class CommandList {
   void barrier();
   /// Throws Error{Device} if the device is lost.
   void submit();
-  /// Waits for the submitted commands, if any. Throws Error{Device} if the device is lost. There is no time limit, for
-  /// two reasons: a driver reports a hanging GPU as lost, and resources of running work cannot be freed.
+  /// Whether wait() would not wait.
+  [[nodiscard]] bool hasEnded() const;
+  /// Waits for the submitted commands, if any, and adds their time to Device::seconds(). Throws Error{Device} if the
+  /// device is lost. There is no time limit, for two reasons: a driver reports a hanging GPU as lost, and resources of
+  /// running work cannot be freed.
   void wait();
   /// Like wait(), but without exceptions. After the call, the device does not use the resources of the commands.
   void finish() noexcept;
@@ -49,9 +54,14 @@ class CommandList {
  private:
   void bind(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants);
 
+  enum class Work { Kernel, Copy };
+  /// Called before each command: writes a timestamp if the kind of work changes.
+  void enter(Work work);
+  void addSeconds() const;
+
   const Device& device_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  VkFence fence_ = VK_NULL_HANDLE;
+  SubmissionObjects objects_;
+  std::vector<Work> spans_;  // Between the timestamps.
   bool isPending_ = false;
 };
 

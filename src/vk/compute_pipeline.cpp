@@ -81,33 +81,16 @@ void ComputePipeline::destroy() {
 }
 
 BindingSet::BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings)
-    : device_(device.handle()) {
+    : sets_(device.descriptorSets()) {
   ASDFVK_CHECK_OP(bindings.size(), ==, pipeline.bindings().size());
   for (const Binding& binding : bindings) requireStorageRange(device, binding.byteCount);
-  std::vector<VkDescriptorPoolSize> sizes;
-  for (const VkDescriptorType type : pipeline.bindings()) sizes.push_back({type, 1});
-  VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-  poolInfo.maxSets = 1;
-  poolInfo.poolSizeCount = static_cast<uint32_t>(sizes.size());
-  poolInfo.pPoolSizes = sizes.data();
-  requireSuccess(vkCreateDescriptorPool(device_, &poolInfo, nullptr, &pool_), "creating a descriptor pool");
-
-  const VkDescriptorSetLayout layout = pipeline.setLayout();
-  VkDescriptorSetAllocateInfo allocation{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-  allocation.descriptorPool = pool_;
-  allocation.descriptorSetCount = 1;
-  allocation.pSetLayouts = &layout;
-  if (const VkResult result = vkAllocateDescriptorSets(device_, &allocation, &set_); result != VK_SUCCESS) {
-    vkDestroyDescriptorPool(device_, pool_, nullptr);
-    requireSuccess(result, "allocating descriptors");
-  }
-
+  set_ = sets_.take(pipeline.setLayout());
   std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
   std::vector<VkWriteDescriptorSet> writes(bindings.size());
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     buffers[i] = {bindings[i].buffer, 0, VK_WHOLE_SIZE};
     writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    writes[i].dstSet = set_;
+    writes[i].dstSet = set_.handle;
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
     writes[i].descriptorType = pipeline.bindings()[i];
@@ -117,9 +100,9 @@ BindingSet::BindingSet(const Device& device, const ComputePipeline& pipeline, st
       writes[i].pBufferInfo = &buffers[i];
     }
   }
-  vkUpdateDescriptorSets(device_, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+  vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
-BindingSet::~BindingSet() { vkDestroyDescriptorPool(device_, pool_, nullptr); }
+BindingSet::~BindingSet() { sets_.give(set_); }
 
 }  // namespace asdfvk

@@ -68,12 +68,11 @@ class BindingSet {
   BindingSet(const BindingSet&) = delete;
   BindingSet& operator=(const BindingSet&) = delete;
 
-  [[nodiscard]] VkDescriptorSet handle() const { return set_; }
+  [[nodiscard]] VkDescriptorSet handle() const { return set_.handle; }
 
  private:
-  VkDevice device_;
-  VkDescriptorPool pool_ = VK_NULL_HANDLE;
-  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  DescriptorSets& sets_;
+  DescriptorSets::Set set_;
 };
 
 }  // namespace asdfvk

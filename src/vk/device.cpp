@@ -8,8 +8,8 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
-#include "vk/buffer_pool.h"
 #include "vk/result.h"
+#include "vk/upload_queue.h"
 
 namespace asdfvk {
 namespace {
@@ -86,7 +86,10 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   facts.kind = kindOf(basic.deviceType);
   facts.vendor = vendorOf(basic.vendorID);
   facts.apiVersion = basic.apiVersion;
-  facts.computeQueueFamily = chooseComputeQueueFamily(queueFamilies(device));
+  const std::vector<VkQueueFamilyProperties> families = queueFamilies(device);
+  facts.computeQueueFamily = chooseComputeQueueFamily(families);
+  if (facts.computeQueueFamily) facts.timestampBits = families[*facts.computeQueueFamily].timestampValidBits;
+  facts.secondsPerTimestamp = static_cast<double>(basic.limits.timestampPeriod) * 1e-9;
   facts.maxWorkgroupInvocations = basic.limits.maxComputeWorkGroupInvocations;
   facts.maxWorkgroupSize = basic.limits.maxComputeWorkGroupSize[0];
   facts.maxStorageBuffersPerStage = basic.limits.maxPerStageDescriptorStorageBuffers;
@@ -114,7 +117,7 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
 }
 
 Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(facts)) {
-  vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+  vkGetPhysicalDeviceMemoryProperties(physical, &memoryTypes_);
   const float priority = 1;
   VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queueInfo.queueFamilyIndex = facts_.computeQueueFamily.value();
@@ -126,31 +129,24 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
   const std::vector<const char*> extensions = requiredExtensions(physical);
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  requireSuccess(vkCreateDevice(physical, &info, nullptr, &device_), "opening " + facts_.name);
-  vkGetDeviceQueue(device_, *facts_.computeQueueFamily, 0, &queue_);
-
-  VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-  poolInfo.queueFamilyIndex = *facts_.computeQueueFamily;
-  if (const VkResult result = vkCreateCommandPool(device_, &poolInfo, nullptr, &commandPool_); result != VK_SUCCESS) {
-    vkDestroyDevice(device_, nullptr);
-    requireSuccess(result, "creating a command pool");
-  }
-  pool_ = std::make_unique<BufferPool>(*this);
+  VkDevice device = VK_NULL_HANDLE;
+  requireSuccess(vkCreateDevice(physical, &info, nullptr, &device), "opening " + facts_.name);
+  device_.reset(device);
+  vkGetDeviceQueue(device, *facts_.computeQueueFamily, 0, &queue_);
+  memory_ = std::make_unique<MemoryArena>(*this);
+  descriptorSets_ = std::make_unique<DescriptorSets>(device);
+  commandPool_ = std::make_unique<CommandPool>(device, facts_);
+  uploads_ = std::make_unique<UploadQueue>(*this);
 }
 
-Device::~Device() {
-  pool_.reset();
-  vkDestroyCommandPool(device_, commandPool_, nullptr);
-  vkDestroyDevice(device_, nullptr);
-}
+Device::~Device() = default;
 
 std::optional<uint32_t> Device::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
   // Memory with these properties needs a feature that is not enabled, or is for other resources.
   constexpr VkMemoryPropertyFlags kSpecial =
       VK_MEMORY_PROPERTY_PROTECTED_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
       VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD | VK_MEMORY_PROPERTY_RDMA_CAPABLE_BIT_NV;
-  for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+  for (uint32_t i = 0; i < memoryTypes_.memoryTypeCount; ++i)
     if (!(memoryFlags(i) & kSpecial) && (allowedTypes & (1u << i)) && (memoryFlags(i) & wanted) == wanted) return i;
   return {};
 }

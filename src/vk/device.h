@@ -8,12 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "core/device_seconds.h"
+#include "vk/command_pool.h"
+#include "vk/descriptor_sets.h"
 #include "vk/device_choice.h"
 #include "vk/instance.h"
+#include "vk/memory_arena.h"
 
 namespace asdfvk {
 
-class BufferPool;
+class UploadQueue;
+
+/// Flags of the memory types that the host accesses.
+inline constexpr VkMemoryPropertyFlags kMappableMemory =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 /// The first queue family with compute and without graphics; if there is none, the first family with compute. A family
 /// without graphics does not delay the desktop, and on some systems has a longer watchdog timeout.
@@ -30,24 +38,37 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  [[nodiscard]] VkDevice handle() const { return device_; }
+  [[nodiscard]] VkDevice handle() const { return device_.get(); }
   [[nodiscard]] VkQueue queue() const { return queue_; }
-  [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
-  [[nodiscard]] BufferPool& pool() const { return *pool_; }
+  [[nodiscard]] MemoryArena& memory() const { return *memory_; }
+  [[nodiscard]] DescriptorSets& descriptorSets() const { return *descriptorSets_; }
+  [[nodiscard]] CommandPool& commandPool() const { return *commandPool_; }
+  [[nodiscard]] UploadQueue& uploads() const { return *uploads_; }
+  /// The time of all submissions for which the host has waited; 0 on a device without timestamps.
+  [[nodiscard]] const DeviceSeconds& seconds() const { return seconds_; }
+  void addSeconds(const DeviceSeconds& further) const { seconds_ += further; }
   /// The first type among `allowedTypes` with all flags of `wanted`.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
-    return memory_.memoryTypes[type].propertyFlags;
+    return memoryTypes_.memoryTypes[type].propertyFlags;
   }
 
  private:
   DeviceFacts facts_;
-  VkPhysicalDeviceMemoryProperties memory_{};
-  VkDevice device_ = VK_NULL_HANDLE;
+  struct Destroy {
+    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+  };
+
+  VkPhysicalDeviceMemoryProperties memoryTypes_{};
+  std::unique_ptr<VkDevice_T, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;
-  VkCommandPool commandPool_ = VK_NULL_HANDLE;
-  std::unique_ptr<BufferPool> pool_;
+  mutable DeviceSeconds seconds_;
+  // Members are destroyed in reverse order: uploads use the others.
+  std::unique_ptr<MemoryArena> memory_;
+  std::unique_ptr<DescriptorSets> descriptorSets_;
+  std::unique_ptr<CommandPool> commandPool_;
+  std::unique_ptr<UploadQueue> uploads_;
 };
 
 struct OpenedDevice {

@@ -31,8 +31,10 @@ struct DeviceFacts {
   uint64_t maxStorageBufferRange = 0;  ///< In bytes.
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< In bytes.
-  bool mapsDeviceMemory = true;          ///< False imitates a device with separate memory, for tests.
-  bool endsLongLoops = false;  ///< Loops of kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
+  uint32_t timestampBits = 0;            ///< Valid bits of timestamps; 0: the queue has none.
+  double secondsPerTimestamp = 0;
+  bool mapsDeviceMemory = true;  ///< False imitates a device with separate memory, for tests.
+  bool endsLongLoops = false;    ///< Loops of kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
 
 /// Whether kernels read large read-only arrays as texels instead of from storage buffers. True on CPU devices, where

@@ -2,12 +2,12 @@
 
 #include <span>
 
-#include "vk/buffer_pool.h"
+#include "vk/buffer.h"
 #include "vk/command_list.h"
 
 namespace asdfvk {
 
-/// A pooled buffer on the device. The host accesses a mapped buffer directly. The host accesses any other buffer
+/// A buffer on the device. The host accesses a mapped buffer directly. The host accesses any other buffer
 /// through a mapped copy.
 class SharedBuffer {
  public:
@@ -19,10 +19,10 @@ class SharedBuffer {
         buffer_(device, byteCount,
                 usage | (host == Host::Writes ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : VK_BUFFER_USAGE_TRANSFER_SRC_BIT),
                 MemoryKind::DeviceLocal),
-        isDirect_(buffer_->mapped() != nullptr && (host == Host::Writes || buffer_->isCached())),
+        isDirect_(buffer_.mapped() != nullptr && (host == Host::Writes || buffer_.isCached())),
         host_(host) {}
 
-  [[nodiscard]] const Buffer& onDevice() const { return *buffer_; }
+  [[nodiscard]] const Buffer& onDevice() const { return buffer_; }
 
   /// Memory for the host. The first call of onHost() or recordCopy() creates the mapped copy if it is needed.
   template <typename T>
@@ -37,23 +37,23 @@ class SharedBuffer {
     if (isDirect_) return;
     const Buffer& host = hostBuffer();
     if (host_ == Host::Writes)
-      commands.copy(host, 0, *buffer_, 0, byteCount);
+      commands.copy(host, 0, buffer_, 0, byteCount);
     else
-      commands.copy(*buffer_, 0, host, 0, byteCount);
+      commands.copy(buffer_, 0, host, 0, byteCount);
   }
 
  private:
   [[nodiscard]] const Buffer& hostBuffer() {
-    if (isDirect_) return *buffer_;
+    if (isDirect_) return buffer_;
     if (!copy_.exists())
-      copy_ = PooledBuffer(device_, buffer_->byteCount(),
-                           host_ == Host::Writes ? VK_BUFFER_USAGE_TRANSFER_SRC_BIT : VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                           MemoryKind::HostVisible);
-    return *copy_;
+      copy_ = Buffer(device_, buffer_.byteCount(),
+                     host_ == Host::Writes ? VK_BUFFER_USAGE_TRANSFER_SRC_BIT : VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                     MemoryKind::HostVisible);
+    return copy_;
   }
 
   const Device& device_;
-  PooledBuffer buffer_, copy_;
+  Buffer buffer_, copy_;
   bool isDirect_;
   Host host_;
 };

@@ -246,7 +246,8 @@ TEST_CASE("a device makes the rows of a graph, and of any arcs, as the system ha
     std::vector<float> direction;
     for (uint32_t face = 0; face < graph.faceCount(); ++face)
       direction.push_back(weights[face] > 0 ? static_cast<float>(random.real()) : 0);
-    VulkanCg cg(*device, cgKernels, onDevice.matrix, uploadVector(*device, direction, kPoissonVectorUsage), 0);
+    const Buffer start = uploadVector(*device, direction, kPoissonVectorUsage);
+    VulkanCg cg(*device, cgKernels, onDevice.matrix, start, 0);
     (void)cg.advance(1);
     const std::vector<float> product = cg.product();
     const auto diagonalOf = [&](uint32_t face) {

@@ -132,7 +132,10 @@ TEST_CASE("a buffer is in another type of memory where one allocation fails, and
   const Instance instance;
   const OpenedDevice opened = openDevice(instance, {});
   const Device& device = *opened.device;
-  const auto allocate = [&](MemoryKind kind) { return Buffer(device, 4096, kUsage, kind); };
+  const auto allocate = [&](MemoryKind kind) {
+    device.memory().clear();
+    return Buffer(device, 64 << 20, kUsage, kind);
+  };
   {
     const ScopedVariable full("ASDF_VK_FAKE_NO_MEMORY_AT", "1");
     CHECK(allocate(MemoryKind::DeviceLocal).mapped() != nullptr);

@@ -46,9 +46,14 @@ void runTest(Report& report, const std::function<void()>& test) {
   }
 }
 
-/// Returns the rays per second. In a short run, the overhead takes most of the time. Therefore the number of faces is
+struct RunSeconds {
+  double host = 0, kernels = 0;  ///< kernels: by the clock of the device; 0 without timestamps.
+};
+
+/// Sets the rays per second. In a short run, the overhead takes most of the time. Therefore the number of faces is
 /// doubled until a run takes secondsPerRun. The faces are spread over the mesh.
-double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
+void measureRates(TracerReport& report, ConeTracer& tracer, const Device* device, const TestTorus& test,
+                  const RunControl& control) {
   constexpr size_t kFirstFaceCount = 2048;
   const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;
   std::vector<uint32_t> faces;
@@ -57,26 +62,35 @@ double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& 
     faces.resize(count);
     for (size_t i = 0; i < count; ++i) faces[i] = all[i * all.size() / count];
     values.resize(count);
+    const auto kernelSeconds = [&] { return device != nullptr ? device->seconds().kernels : 0; };
+    const double before = kernelSeconds();
     const Stopwatch watch;
     tracer.trace(faces, {values, {}}, control.withoutProgress());
-    return watch.seconds();
+    return RunSeconds{watch.seconds(), kernelSeconds() - before};
   };
   size_t count = std::min(kFirstFaceCount, all.size());
-  double best = secondsFor(count);
-  while (count < all.size() && best < test.secondsPerRun) {
+  RunSeconds best = secondsFor(count);
+  while (count < all.size() && best.host < test.secondsPerRun) {
     count = std::min(2 * count, all.size());
     best = secondsFor(count);
   }
-  for (int run = 1; run < kRunCount; ++run) best = std::min(best, secondsFor(count));
-  return static_cast<double>(count * test.cone.directions.size()) / std::max(best, 1e-9);
+  for (int run = 1; run < kRunCount; ++run) {
+    const RunSeconds seconds = secondsFor(count);
+    best = {std::min(best.host, seconds.host), std::min(best.kernels, seconds.kernels)};
+  }
+  const auto rayCount = static_cast<double>(count * test.cone.directions.size());
+  report.raysPerSecond = rayCount / std::max(best.host, 1e-9);
+  if (best.kernels > 0) report.kernelRaysPerSecond = rayCount / best.kernels;
 }
 
-void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
+/// device: that of the tracer, or null.
+void testTracer(TracerReport& report, ConeTracer& tracer, const Device* device, const TestTorus& test,
+                const RunControl& control) {
   const TracerCheck check = checkTracer(tracer, test.scene.view(), test.cone);
   report.comparedCount = check.comparedCount;
   report.differingCount = check.differingCount;
   report.passed = check.isConclusive() && check.differingCount <= kMaxDifferingCount;
-  report.raysPerSecond = measureRate(tracer, test, control);
+  measureRates(report, tracer, device, test, control);
 }
 
 void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
@@ -90,7 +104,7 @@ void testVariants(DeviceReport& report, const Device& device, const TestTorus& t
       runTest(tracer, [&] {
         const VulkanConeKernel compiled(
             device, {.rayCount = report.rayCount, .choice = choice, .definition = test.cone.definition});
-        testTracer(tracer, *makeVulkanTracer(compiled, test.scene.view(), test.cone), test, control);
+        testTracer(tracer, *makeVulkanTracer(compiled, test.scene.view(), test.cone), &device, test, control);
       });
       report.tracers.push_back(std::move(tracer));
     }
@@ -104,7 +118,7 @@ void testOther(DeviceReport& report, const std::string& name, const TestTorus& t
   TracerReport tracer{.backend = name};
   runTest(tracer, [&] {
     Backend& backend = open();
-    testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}, nullptr), test, control);
+    testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}, nullptr), nullptr, test, control);
   });
   report.tracers.push_back(std::move(tracer));
 }

@@ -63,6 +63,10 @@ class VulkanBackend final : public Backend {
     return asdfvk::makeSolver(choice, opened_.device.get());
   }
 
+  [[nodiscard]] std::optional<DeviceSeconds> deviceSeconds() const override {
+    return facts().timestampBits > 0 ? std::optional(opened_.device->seconds()) : std::nullopt;
+  }
+
   void requireSilentValidation() const override {
     if (!instance_.validationLog()) return;
     const std::vector<std::string> messages = instance_.validationLog()->messages();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/stopwatch.h"
 #include "poisson/vk/vulkan_solver.h"
@@ -16,7 +17,7 @@ namespace {
 // Rounding lets the residual of the recurrence differ from the true residual by about 1e-7 of the first residual.
 constexpr double kMinReduction = 1e-6;
 // Batches grow, because iterations after convergence do no work. A batch is still too short for a user to notice.
-constexpr uint32_t kFirstBatch = 8;
+constexpr uint32_t kFirstBatch = 16, kFirstBatchOnCpu = 8;
 constexpr uint32_t kMaxBatch = 64;
 constexpr double kMaxBatchSeconds = 0.05;
 
@@ -39,7 +40,7 @@ class VulkanCgSolver final : public VulkanSolver {
   [[nodiscard]] DevicePassResult solve(const DevicePass& pass) const override {
     VulkanCg cg(device(), kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
     CgState state{};
-    uint32_t batch = kFirstBatch;
+    uint32_t batch = device().facts().kind == DeviceKind::Cpu ? kFirstBatchOnCpu : kFirstBatch;
     for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.maxIterations;) {
       const Stopwatch stopwatch;
       const uint32_t iterationCount = std::min(batch, pass.maxIterations - recorded);
@@ -65,6 +66,7 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
                    const Buffer& rightHandSide, double reduction)
     : device_(device),
       kernels_(kernels),
+      rightHandSide_(rightHandSide),
       unknownCount_(matrix.rowCount),
       workgroupCount_(matrix.grid.workgroupCount),
       solution_(makePoissonVector(device, unknownCount_)),
@@ -80,17 +82,18 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
                                               matrix.residualWeights, residual_, direction_, product_, sums_}),
       stepBindings_(device, kernels.step,
                     std::array<Binding, 7>{product_, solution_, residual_, direction_, sums_, states_, size_}),
-      commands_(device) {
-  commands_.begin();
+      commands_(device) {}
+
+void VulkanCg::recordStart() {
   commands_.fillWithZeros(solution_);
   for (const Buffer* const vector : {&residual_, &direction_})
-    commands_.copy(rightHandSide, 0, *vector, 0, unknownCount_ * sizeof(float));
+    commands_.copy(rightHandSide_, 0, *vector, 0, unknownCount_ * sizeof(float));
   commands_.barrier();
-  commands_.submitAndWait();
 }
 
 CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.begin();
+  if (!std::exchange(hasStarted_, true)) recordStart();
   for (uint32_t i = 0; i < iterationCount; ++i) {
     const PoissonPush push{unknownCount_, stateIndex_, workgroupCount_};
     commands_.dispatchIndirect(kernels_.product, productBindings_, bytesOf(push), size_);

@@ -41,11 +41,14 @@ class VulkanCg {
 
  private:
   [[nodiscard]] std::vector<float> download(const Buffer& vector) const;
+  void recordStart();
 
   const Device& device_;
   const VulkanCgKernels& kernels_;
+  const Buffer& rightHandSide_;
   uint32_t unknownCount_;
   uint32_t workgroupCount_;
+  bool hasStarted_ = false;
   uint32_t stateIndex_ = 0;
   Buffer solution_, residual_, direction_, product_, states_, sums_;
   Buffer size_;  ///< DispatchSize of the following dispatches. The device sets this size to 0 at the end.

@@ -67,24 +67,26 @@ VulkanEquationKernels::VulkanEquationKernels(const Device& device)
 
 VulkanGraph::VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
                          std::span<const double> arcWeights)
-    : faceCount(graph.faceCount()), weightScale(scaleOfWeights(arcWeights)), matrix(makeMatrix(device, graph)) {
+    : faceCount(graph.faceCount()),
+      weightScale(scaleOfWeights(arcWeights)),
+      matrix(makeMatrix(device, graph)),
+      arcOffsets(uploadVector(device, graph.offsets)),
+      weights(uploadWeights(device, arcWeights, weightScale)),
+      // The residual weights of the matrix hold the inverse roots of its diagonal until an equation sets them.
+      diagonalBindings_(device, kernels.diagonal,
+                        std::array<Binding, 4>{matrix.residualWeights, arcOffsets, matrix.tailColumns, weights}),
+      rowBindings_(device, kernels.rows,
+                   std::array<Binding, 6>{matrix.rows, arcOffsets, matrix.tailColumns, weights, matrix.residualWeights,
+                                          matrix.tailCouplings}),
+      commands_(device) {
   ASDFVK_CHECK_OP(arcWeights.size(), ==, graph.neighbours.size());
-  arcOffsets = uploadVector(device, graph.offsets);
-  weights = uploadWeights(device, arcWeights, weightScale);
-  const Buffer inverseRoots = makePoissonVector(device, faceCount);
-  const BindingSet diagonalBindings(device, kernels.diagonal,
-                                    std::array<Binding, 4>{inverseRoots, arcOffsets, matrix.tailColumns, weights});
-  const BindingSet rowBindings(
-      device, kernels.rows,
-      std::array<Binding, 6>{matrix.rows, arcOffsets, matrix.tailColumns, weights, inverseRoots, matrix.tailCouplings});
   const EquationPush push{.faceCount = faceCount, .workgroupCount = matrix.grid.workgroupCount, .scale = 1};
-  CommandList commands(device);
-  commands.begin();
-  commands.dispatch(kernels.diagonal, diagonalBindings, bytesOf(push), push.workgroupCount);
-  commands.barrier();
-  commands.dispatch(kernels.rows, rowBindings, bytesOf(push), push.workgroupCount);
-  commands.barrier();
-  commands.submitAndWait();
+  commands_.begin();
+  commands_.dispatch(kernels.diagonal, diagonalBindings_, bytesOf(push), push.workgroupCount);
+  commands_.barrier();
+  commands_.dispatch(kernels.rows, rowBindings_, bytesOf(push), push.workgroupCount);
+  commands_.barrier();
+  commands_.submit();
 }
 
 VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels& kernels, const VulkanGraph& graph,
@@ -178,7 +180,7 @@ void VulkanEquation::recordResidual(uint32_t which, double scale) {
 const Buffer& VulkanEquation::scaledResidual() {
   commands_.begin();
   recordResidual(current_, 1 / residualNorm_);
-  commands_.submitAndWait();
+  commands_.submit();
   return scaledResidual_;
 }
 

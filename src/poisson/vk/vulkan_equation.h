@@ -33,10 +33,15 @@ struct VulkanGraph {
               std::span<const double> weights);
 
   uint32_t faceCount;
-  double weightScale;  ///< Factor of the weights on the device.
-  Buffer arcOffsets, weights;
+  double weightScale;   ///< Factor of the weights on the device.
   VulkanMatrix matrix;  ///< The tailColumns of the matrix are the neighbours of the graph. Each VulkanEquation sets the
                         ///< residual weights of the matrix.
+  Buffer arcOffsets, weights;
+
+ private:
+  // Of the kernels that make the rows; the constructor does not wait for them.
+  BindingSet diagonalBindings_, rowBindings_;
+  CommandList commands_;  // Destroyed first; its destructor waits.
 };
 
 /// One equation and its solution. The solution is stored in float32 as differences from a base: from the guide or,

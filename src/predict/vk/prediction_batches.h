@@ -30,6 +30,9 @@ class PredictionBatches {
     return doneCount_ < faceCount_ ? static_cast<double>(doneCount_) / static_cast<double>(faceCount_) : 1;
   }
 
+  /// Whether no face is left after the current batch.
+  [[nodiscard]] bool isLast() const { return doneCount_ + batchFaceCount_ == faceCount_; }
+
   /// Makes the next batch. Returns false if no face is left.
   bool next(const PredictionBatchSize& size);
   /// Counts and seeds of the current batch.

@@ -30,7 +30,8 @@ namespace {
 
 constexpr uint64_t kMaxPointByteCount = 32u << 20;
 // The time of a face is proportional to the number of rays.
-constexpr size_t kFirstBatchRayCount = size_t{1} << 18, kMaxBatchRayCount = size_t{1} << 23;
+constexpr size_t kFirstBatchRayCount = size_t{1} << 22, kFirstBatchRayCountOnCpu = size_t{1} << 18,
+                 kMaxBatchRayCount = size_t{1} << 23;
 constexpr size_t kMaxBatchFaceCount = size_t{1} << 18;
 // Every Vulkan device supports workgroups of 128 lanes.
 constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;
@@ -95,8 +96,8 @@ class VulkanPredictor final : public DevicePredictor {
         batchSize_(batchSize),
         rules_(PredictionKernel::rulesOf(cone)),
         faces_(uploadFaces(kernels.device(), scene)),
-        values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)),
-                kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::DeviceLocal),
+        values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)), kStorage,
+                SharedBuffer::Host::Reads),
         commands_(kernels.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernels.rayCount()});
     ASDFVK_CHECK(cone.definition == kernels.definition());
@@ -111,8 +112,7 @@ class VulkanPredictor final : public DevicePredictor {
     if (input.order.empty()) return;
     PredictionBatches batches(input);
     predictBatches(input, batches, control);
-    UnsetVector<uint32_t> copy;
-    const std::span<const uint32_t> lengths = readItems(kernels_.device(), values_, scene_.geometry.areas.size(), copy);
+    const std::span<const uint32_t> lengths = values_.onHost<uint32_t>();
     constexpr size_t kGrain = 64;  // Few cells per task, because a cell may have many faces.
     forEachRange(input.order.size(), kGrain, [&](size_t begin, size_t end) {
       for (const uint32_t cell : input.order.subspan(begin, end - begin))
@@ -157,7 +157,7 @@ class VulkanPredictor final : public DevicePredictor {
     const size_t faceCount = std::min(batchSize_.maxFaceCount, input.cells.entries.size());
     if (memory_ && memory_->seedCount >= seedCount && memory_->faceCount >= faceCount) return;
     memory_.reset();
-    memory_.emplace(kernels_, faces_, values_, seedCount, faceCount);
+    memory_.emplace(kernels_, faces_, values_.onDevice(), seedCount, faceCount);
     const std::span<PredictionRay> rays = memory_->table.onHost<PredictionRay>();
     for (size_t i = 0; i < cone_.directions.size(); ++i)
       rays[i] = {toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
@@ -165,7 +165,9 @@ class VulkanPredictor final : public DevicePredictor {
 
   void predictBatches(const PredictionInput& input, PredictionBatches& batches, const RunControl& control) {
     reserve(input);
-    ChunkSize size(std::max<size_t>(1, kFirstBatchRayCount / kernels_.rayCount()), memory_->faceCount);
+    const bool isCpu = kernels_.device().facts().kind == DeviceKind::Cpu;
+    const size_t firstRayCount = isCpu ? kFirstBatchRayCountOnCpu : kFirstBatchRayCount;
+    ChunkSize size(std::max<size_t>(1, firstRayCount / kernels_.rayCount()), memory_->faceCount);
     while (batches.next({memory_->seedCount, size.current()})) {
       control.checkpoint(batches.progress());
       writeSeeds(input, batches.seeds());
@@ -215,6 +217,10 @@ class VulkanPredictor final : public DevicePredictor {
     commands_.dispatch(kernels_.faces(), memory_->faceBindings, bytesOf(push),
                        divideUp(batch.faceCount(), VulkanPredictionKernels::kFaceLaneCount));
     commands_.barrier();
+    if (batch.isLast()) {
+      values_.recordCopy(commands_, scene_.geometry.areas.size() * sizeof(uint32_t));
+      commands_.barrier();
+    }
     commands_.submitAndWait();
   }
 
@@ -223,8 +229,8 @@ class VulkanPredictor final : public DevicePredictor {
   const Cone& cone_;
   PredictionBatchSize batchSize_;
   PredictionKernel::Rules rules_;
-  Buffer faces_;   // A PredictionFace per face.
-  Buffer values_;  // One value per face, see predict_faces.comp.
+  Buffer faces_;         // A PredictionFace per face.
+  SharedBuffer values_;  // One value per face, see predict_faces.comp.
   std::optional<Memory> memory_;
   CommandList commands_;
 };

@@ -38,14 +38,14 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
       originTexels_(kernel.device(), origins_.onDevice()),
       rayBindings_(kernel.device(), kernel.rays(),
                    joined(scene.hierarchyBindings(),
-                          {scene.rayTexels(), originTexels_, *lengths_, hits_ ? hits_->onDevice() : scene.nothing()})),
+                          {scene.rayTexels(), originTexels_, lengths_, hits_ ? hits_->onDevice() : scene.nothing()})),
       reductionBindings_(kernel.device(), kernel.reduction(),
-                         std::vector<Binding>{scene.rayTexels(), *lengths_, results_.onDevice()}),
+                         std::vector<Binding>{scene.rayTexels(), lengths_, results_.onDevice()}),
       commands_(kernel.device()) {
   if (kernel.origins() == nullptr) return;
-  seeds_ = PooledBuffer(kernel.device(), capacity * sizeof(ConeSeed), kChunkUsage, MemoryKind::HostVisible);
+  seeds_ = Buffer(kernel.device(), capacity * sizeof(ConeSeed), kChunkUsage, MemoryKind::HostVisible);
   originBindings_.emplace(kernel.device(), *kernel.origins(),
-                          joined(scene.hierarchyBindings(), {*seeds_, origins_.onDevice()}));
+                          joined(scene.hierarchyBindings(), {seeds_, origins_.onDevice()}));
 }
 
 void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {

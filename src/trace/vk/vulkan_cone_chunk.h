@@ -13,7 +13,7 @@
 namespace asdfvk {
 
 /// Memory and commands for one submission of cones: the host writes seeds() or starts(), submits, waits, and reads
-/// results() and hits(). The destructor waits for the device and returns the buffers to Device::pool().
+/// results() and hits(). The destructor waits for the device and releases the memory.
 class ConeChunk {
  public:
   /// capacity: number of cones, at most largestConeChunk(). All arguments must outlive this object.
@@ -24,7 +24,7 @@ class ConeChunk {
 
   [[nodiscard]] uint64_t capacity() const { return capacity_; }
   /// The cones of a submission with Input::Seeds. Precondition: the kernel has origins().
-  [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
+  [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_.mappedAs<ConeSeed>(); }
   /// The cones of a submission with Input::Starts.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
 
@@ -41,9 +41,9 @@ class ConeChunk {
  private:
   const VulkanConeKernel& kernel_;
   uint64_t capacity_;
-  PooledBuffer seeds_;    // Mapped: kernels read each entry once. Exists if the kernel has origins().
+  Buffer seeds_;          // Mapped: kernels read each entry once. Exists if the kernel has origins().
   SharedBuffer origins_;  // A ConeOrigin per cone.
-  PooledBuffer lengths_;  // The bits of a float for each ray of each cone.
+  Buffer lengths_;        // The bits of a float for each ray of each cone.
   SharedBuffer results_;
   std::optional<SharedBuffer> hits_;  // Exists if the kernel writes hits.
   TexelView originTexels_;

@@ -22,7 +22,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint64_t kFirstChunkRayCount = 1u << 16;
+constexpr uint64_t kFirstChunkRayCount = 1u << 20, kFirstChunkRayCountOnCpu = 1u << 16;
 constexpr size_t kChunksInFlight = 2;
 
 struct VulkanScene final : EncodedScene {
@@ -115,7 +115,9 @@ class VulkanTracer final : public ConeTracer {
   void traceOnDevice(std::span<const DeviceCone> cones, const Submit& submit, const ConeResults& results,
                      std::vector<uint32_t>& redone, const RunControl& control) {
     const uint64_t largest = largestConeChunk(kernel_);
-    const ChunkSize size(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largest,
+    const bool isCpu = kernel_.device().facts().kind == DeviceKind::Cpu;
+    const uint64_t firstRayCount = isCpu ? kFirstChunkRayCountOnCpu : kFirstChunkRayCount;
+    const ChunkSize size(std::max<uint64_t>(1, firstRayCount / kernel_.rayCount()), largest,
                          ChunkSize::kTargetSeconds / kChunksInFlight);
     std::array<std::optional<ConeChunk>, kChunksInFlight> chunks;  // Their destructors wait.
     const auto start = [&](size_t slot, size_t begin, size_t end) {

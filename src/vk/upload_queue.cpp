@@ -1,0 +1,59 @@
+#include "vk/upload_queue.h"
+
+#include <algorithm>
+
+#include "vk/command_list.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint64_t kMaxPendingByteCount = 8 * kMaxPieceByteCount;
+
+}  // namespace
+
+struct UploadQueue::Upload {
+  Upload(const Device& device, uint64_t byteCount, VkBuffer to)
+      : target(to), staging(device, byteCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::HostVisible), commands(device) {}
+
+  VkBuffer target;
+  Buffer staging;
+  CommandList commands;  // Destroyed first; its destructor waits.
+};
+
+UploadQueue::UploadQueue(const Device& device) : device_(device) {}
+
+UploadQueue::~UploadQueue() {
+  while (!pending_.empty()) takeFirst();
+}
+
+/// Removes the upload before it is destroyed, because the destructor of its buffer calls finish().
+void UploadQueue::takeFirst() {
+  const std::unique_ptr<Upload> first = std::move(pending_.front());
+  pending_.pop_front();
+  pendingByteCount_ -= first->staging.byteCount();
+}
+
+void UploadQueue::add(const Buffer& target, uint64_t offset, uint64_t byteCount,
+                      FunctionRef<void(std::span<std::byte>)> write) {
+  while (!pending_.empty() &&
+         (pendingByteCount_ + byteCount > kMaxPendingByteCount || pending_.front()->commands.hasEnded())) {
+    pending_.front()->commands.wait();
+    takeFirst();
+  }
+  auto upload = std::make_unique<Upload>(device_, byteCount, target.handle());
+  write({upload->staging.mapped(), byteCount});
+  upload->commands.begin();
+  upload->commands.copy(upload->staging, 0, target, offset, byteCount);
+  upload->commands.barrier();
+  upload->commands.submit();
+  pendingByteCount_ += byteCount;
+  pending_.push_back(std::move(upload));
+}
+
+void UploadQueue::finish(VkBuffer target) noexcept {
+  const auto last = std::find_if(pending_.rbegin(), pending_.rend(),
+                                 [&](const std::unique_ptr<Upload>& upload) { return upload->target == target; });
+  if (last != pending_.rend()) (*last)->commands.finish();
+}
+
+}  // namespace asdfvk
