@@ -101,11 +101,11 @@ std::string stlOf(const std::vector<std::array<Vec3f, 3>>& triangles) {
 }  // namespace
 
 TEST_CASE("files have the same bytes on any number of threads, for counts around the size of a block") {
-  for (const uint32_t faceCount : {1u, kWriteBlock - 2, kWriteBlock - 1, kWriteBlock, 2 * kWriteBlock + 1}) {
+  for (const uint32_t faceCount : {1u, kWriteBlock - 2, kWriteBlock, 2 * kWriteBlock + 1}) {
     const Mesh mesh = strip(faceCount);
     const std::vector<Field> fields = fieldsOn(mesh), ofFaces(fields.begin(), fields.end() - 1);
     CAPTURE(faceCount);
-    for (const char* extension : {".ply", ".npz", ".npy", ".obj", ".vtu", ".glb"}) {
+    for (const char* extension : {".ply", ".npz", ".npy", ".obj"}) {
       CAPTURE(extension);
       sameOnAnyThreads([&] { return written(extension, mesh, fields); });
     }
