@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <bit>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -18,7 +17,12 @@
 
 namespace asdfvk {
 
-static_assert(std::endian::native == std::endian::little, "the binary formats are written as they lie in memory");
+namespace {
+
+constexpr size_t kBufferSize = size_t{1} << 20;
+static_assert(kBufferSize >= ByteOutput::kMaxReserve);
+
+}  // namespace
 
 std::filesystem::path followLinks(std::filesystem::path path) {
   constexpr int kMaxLinks = 40;  // The limit of Linux.
@@ -29,7 +33,7 @@ std::filesystem::path followLinks(std::filesystem::path path) {
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target)
-    : target_(target), isStandardOutput_(target == "-"), buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
+    : ByteOutput(kBufferSize), target_(target), isStandardOutput_(target == "-") {
   if (isStandardOutput_) {
     descriptor_ = STDOUT_FILENO;
     return;
@@ -80,20 +84,16 @@ void AtomicFile::openTemporary() {
   fail(reason, fmt::format("creating a temporary file in {}", folder.string()));
 }
 
-void AtomicFile::write(const void* bytes, size_t size) {
-  const char* next = static_cast<const char*>(bytes);
-  while (size > 0) {
-    const size_t step = size < kMaxReserve ? size : kMaxReserve;
-    std::memcpy(reserve(step), next, step);
-    advance(step);
-    next += step;
-    size -= step;
-  }
+void AtomicFile::makeRoom(size_t) { flush(); }
+
+void AtomicFile::writeLong(std::string_view bytes) {
+  flush();
+  if (const int error = writeAll(descriptor_, bytes); error != 0) failAndRemove(error);
 }
 
 void AtomicFile::flush() {
-  if (const int error = writeAll(descriptor_, {buffer_.get(), used_}); error != 0) failAndRemove(error);
-  used_ = 0;
+  if (const int error = writeAll(descriptor_, written()); error != 0) failAndRemove(error);
+  clear();
 }
 
 /// Checks the result of ::close(), because some full network disks report the error only in this call.

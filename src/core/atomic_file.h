@@ -1,16 +1,13 @@
 #pragma once
 
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
+#include "core/byte_output.h"
 #include "core/unfinished_files.h"
 
 namespace asdfvk {
@@ -20,46 +17,18 @@ namespace asdfvk {
 /// existing file keeps its mode. Symbolic links are followed, also to a target that does not exist. Targets that are
 /// not regular files (/dev/null, a FIFO) and "-" (standard output) are written directly. Every failure throws
 /// Error{OutputNotWritable} with the error text of the operating system.
-class AtomicFile {
+class AtomicFile final : public ByteOutput {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-
-  /// Returns memory for `size` bytes, at most kMaxReserve, into which the caller writes. advance() appends the written
-  /// bytes.
-  [[nodiscard]] char* reserve(size_t size) {
-    if (size > kBufferSize - used_) flush();
-    return buffer_.get() + used_;
-  }
-  void advance(size_t size) { used_ += size; }
-
-  void write(const void* bytes, size_t size);
-  void write(std::string_view text) { write(text.data(), text.size()); }
-  /// Appends the bytes of a number in little-endian order, the order of every supported machine.
-  template <typename T>
-  void put(const T& value) {
-    std::memcpy(reserve(sizeof(T)), &value, sizeof(T));
-    advance(sizeof(T));
-  }
-  /// Appends the shortest text that reads back as the same number, or "nan" for NaN of either sign.
-  template <typename T>
-  void putNumber(T number) {
-    if constexpr (std::is_floating_point_v<T>)
-      if (std::isnan(number)) return write("nan");
-    constexpr size_t kMaxTextSize = 32;
-    char* const begin = reserve(kMaxTextSize);
-    advance(static_cast<size_t>(std::to_chars(begin, begin + kMaxTextSize, number).ptr - begin));
-  }
 
   void commit();
 
-  static constexpr size_t kMaxReserve = size_t{1} << 16;
-
  private:
   friend class AtomicFiles;
-  static constexpr size_t kBufferSize = size_t{1} << 20;
+
+  void makeRoom(size_t size) override;
+  void writeLong(std::string_view bytes) override;
 
   void openTemporary();
   void flush();
@@ -72,8 +41,6 @@ class AtomicFile {
   UnfinishedFile unfinished_;                 ///< The temporary file.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
-  std::unique_ptr<char[]> buffer_;
-  size_t used_ = 0;
 };
 
 /// Files that appear together or not at all. All temporary files are complete before commit() renames the first. If a

@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/median.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 
@@ -43,9 +44,14 @@ FieldSummary summarize(const Field& field) {
 
 void requireSingles(std::span<const double> numbers, std::string_view name) {
   using Limits = std::numeric_limits<float>;
-  double largest = 0;
-  for (const double number : numbers)
-    if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
+  const auto largestOf = [&](size_t begin, size_t end) {
+    double largest = 0;
+    for (const double number : numbers.subspan(begin, end - begin))
+      if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
+    return largest;
+  };
+  const double largest =
+      foldInParallel<double>(numbers.size(), largestOf, [](double a, double b) { return std::max(a, b); });
   if (largest <= Limits::max() && (largest == 0 || largest >= Limits::denorm_min())) return;
   throw Error(ErrorCode::ValueOutOfRange,
               fmt::format("a value of {} in the unit of the mesh does not fit into float32: {:g}; scale the mesh", name,

@@ -6,6 +6,7 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -34,6 +35,23 @@ void RepeatedLoop::forEachRange(size_t count, FunctionRef<void(size_t, size_t)> 
   tbb::parallel_for(
       tbb::blocked_range<size_t>(0, count),
       [&](const tbb::blocked_range<size_t>& range) { body(range.begin(), range.end()); }, state_->partitioner);
+}
+
+void forEachInOrder(size_t count, size_t slotCount, FunctionRef<void(size_t, size_t)> make,
+                    FunctionRef<void(size_t, size_t)> use) {
+  if (count == 0) return;
+  size_t next = 0;
+  const auto begin = tbb::make_filter<void, size_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+    if (next == count) flow.stop();
+    return next++;
+  });
+  const auto middle = tbb::make_filter<size_t, size_t>(tbb::filter_mode::parallel, [&](size_t item) {
+    make(item, item % slotCount);
+    return item;
+  });
+  const auto end = tbb::make_filter<size_t, void>(tbb::filter_mode::serial_in_order,
+                                                  [&](size_t item) { use(item, item % slotCount); });
+  tbb::parallel_pipeline(slotCount, begin & middle & end);
 }
 
 void callBoth(FunctionRef<void()> first, FunctionRef<void()> second) { tbb::parallel_invoke(first, second); }

@@ -39,6 +39,12 @@ class RepeatedLoop {
   std::unique_ptr<State> state_;
 };
 
+/// Calls make(item, slot) for every item in [0, count), in parallel, and after each of these calls use(item, slot). The
+/// calls of `use` are in ascending order and never at the same time. At most slotCount items have begun and are not yet
+/// used. These items have different slots in [0, slotCount).
+void forEachInOrder(size_t count, size_t slotCount, FunctionRef<void(size_t item, size_t slot)> make,
+                    FunctionRef<void(size_t item, size_t slot)> use);
+
 void callBoth(FunctionRef<void()> first, FunctionRef<void()> second);
 
 /// Calls `body` on this thread. While a parallel loop of `body` waits, this thread runs only tasks that `body` created.

@@ -10,35 +10,36 @@
 #include "io/field_columns.h"
 #include "io/formats.h"
 #include "io/result_view.h"
+#include "io/row_blocks.h"
 
 namespace asdfvk {
 namespace {
 
-void writeRows(AtomicFile& file, std::string_view keyName, uint64_t rowCount, std::span<const FieldColumn> columns) {
+void writeTable(AtomicFile& file, std::string_view keyName, uint64_t rowCount, std::span<const FieldColumn> columns) {
   file.write(keyName);
   for (const FieldColumn& column : columns) file.write("," + column.name);
   file.put('\n');
-  for (uint64_t row = 0; row < rowCount; ++row) {
-    file.putNumber(row);
+  writeRows(file, rowCount, [&](ByteBuffer& to, uint64_t row) {
+    to.putNumber(row);
     for (const FieldColumn& column : columns) {
-      file.put(',');
-      column.putEntry(row, [&](auto entry) { file.putNumber(entry); });
+      to.put(',');
+      column.putEntry(row, [&](auto entry) { to.putNumber(entry); });
     }
-    file.put('\n');
-  }
+    to.put('\n');
+  });
 }
 
 void writeCsv(AtomicFile& file, const ResultView& result) {
   const std::vector<FieldColumn> faceColumns = columnsOf(result.fields(), FieldLocation::PerFace, nullptr, {"face"});
   const std::vector<FieldColumn> vertexColumns =
       columnsOf(result.fields(), FieldLocation::PerVertex, nullptr, {"vertex"});
-  if (vertexColumns.empty()) return writeRows(file, "face", result.faceCount(), faceColumns);
+  if (vertexColumns.empty()) return writeTable(file, "face", result.faceCount(), faceColumns);
   if (!faceColumns.empty())
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("field {} is per vertex and field {} per face; a .csv has rows of one kind, so write two "
                             "files, or a .npz",
                             vertexColumns.front().field->name, faceColumns.front().field->name));
-  writeRows(file, "vertex", result.vertexCount(), vertexColumns);
+  writeTable(file, "vertex", result.vertexCount(), vertexColumns);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "io/input_failure.h"
 
 namespace asdfvk {
@@ -48,6 +49,22 @@ class Descriptor {
     return done;
   }
 
+  /// Reads from `offset` on, in blocks by all threads. Returns less than `size` only at the end of the file.
+  size_t readBlocks(char* to, size_t offset, size_t size) const {
+    constexpr size_t kBlockSize = size_t{1} << 20;
+    const auto missingAfter = [&](size_t begin, size_t end) {
+      while (begin < end) {
+        const ssize_t count = ::pread(value_, to + begin, end - begin, static_cast<off_t>(offset + begin));
+        if (count < 0 && errno != EINTR) failRead();
+        if (count == 0) return size - begin;
+        if (count > 0) begin += static_cast<size_t>(count);
+      }
+      return size_t{0};
+    };
+    return size -
+           foldInParallel<size_t, kBlockSize>(size, missingAfter, [](size_t a, size_t b) { return std::max(a, b); });
+  }
+
  private:
   [[noreturn]] static void failRead() {
     failInput(fmt::format("cannot be read: {}", std::generic_category().message(errno)));
@@ -65,10 +82,12 @@ UnsetVector<char> fileBytes(const std::filesystem::path& path) {
   // Rejected, because a device such as /dev/zero has no end.
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && !file.isTerminal())) failInput("is a device, not a file");
   constexpr size_t kFirstOfPipe = size_t{1} << 16;
+  const bool isNamedFile = S_ISREG(status.st_mode) && path != "-";  // Standard input may begin inside of a file.
   // One byte more than the file, so that the read that detects the end needs no larger buffer.
   UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
   for (size_t size = 0;;) {
-    size += file.read(bytes.data() + size, bytes.size() - size);
+    const size_t room = bytes.size() - size;
+    size += isNamedFile ? file.readBlocks(bytes.data() + size, size, room) : file.read(bytes.data() + size, room);
     const bool isAtEnd = size < bytes.size();
     bytes.resize(isAtEnd ? size : 2 * size);
     if (isAtEnd) return bytes;

@@ -36,7 +36,10 @@ class ResultTriangles {
  public:
   explicit ResultTriangles(const ResultView& result) {
     vertices_.reserve(result.vertexCount());
-    result.putPoints<double>([&](uint64_t, const auto& p) { vertices_.push_back({p[0], p[1], p[2]}); });
+    for (uint64_t vertex = 0; vertex < result.vertexCount(); ++vertex) {
+      const auto [x, y, z] = result.pointAt<double>(vertex);
+      vertices_.push_back({x, y, z});
+    }
     bool hasTriangles = false;
     for (uint64_t face = 0; face < result.faceCount(); ++face)
       hasTriangles = hasTriangles || result.cornersOf(face).size() >= 3;

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "core/atomic_file.h"
 #include "io/formats.h"
 #include "io/result_view.h"
+#include "io/row_blocks.h"
 
 namespace asdfvk {
 namespace {
@@ -40,19 +40,18 @@ std::string npyHeader(const Field& field) {
 
 uint64_t npyEntriesSize(const Field& field) { return field.size() * kEntrySizes[field.values.index()]; }
 
-void putNpyEntries(const Field& field, const std::function<void(std::span<const char>)>& put) {
-  const auto putBytes = [&](const void* data, size_t size) { put({static_cast<const char*>(data), size}); };
+void putNpyEntries(const Field& field, ByteBuffer& to, uint64_t begin, uint64_t end) {
   std::visit(
       [&]<typename T>(const std::vector<T>& entries) {
-        if constexpr (!std::is_same_v<T, double>) return putBytes(entries.data(), entries.size() * sizeof(T));
-        std::array<float, 4096> part;
-        for (size_t first = 0; first < entries.size(); first += part.size()) {
-          const size_t count = std::min(part.size(), entries.size() - first);
-          for (size_t i = 0; i < count; ++i) part[i] = static_cast<float>(entries[first + i]);
-          putBytes(part.data(), count * sizeof(float));
-        }
+        if constexpr (!std::is_same_v<T, double>) return to.write(entries.data() + begin, (end - begin) * sizeof(T));
+        for (uint64_t i = begin; i < end; ++i) to.put(static_cast<float>(entries[i]));
       },
       field.values);
+}
+
+void writeNpyEntries(AtomicFile& file, const Field& field) {
+  writeRowBlocks(file, field.size(),
+                 [&](ByteBuffer& to, uint64_t begin, uint64_t end) { putNpyEntries(field, to, begin, end); });
 }
 
 namespace {
@@ -61,7 +60,7 @@ void writeNpy(AtomicFile& file, const ResultView& result) {
   if (result.fields().empty()) throw Error(ErrorCode::OptionConflict, "a .npy holds one field, and there is none");
   const Field& field = result.fields().front();
   file.write(npyHeader(field));
-  putNpyEntries(field, [&](std::span<const char> part) { file.write(part.data(), part.size()); });
+  writeNpyEntries(file, field);
 }
 
 }  // namespace

@@ -7,10 +7,12 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 #include "io/formats.h"
 #include "io/npy_file.h"
 #include "io/result_view.h"
@@ -26,10 +28,32 @@ constexpr uint16_t kZipVersion = 20;
 // 1980-01-01, the first date of the format. The current date would make the bytes of a result vary.
 constexpr uint16_t kFirstDate = 0x21;
 
-/// Returns the checksum of all parts up to `part`. earlier: the checksum of the previous parts.
-uint32_t checksumOf(std::span<const char> part, uint32_t earlier = 0) {
-  if (part.empty()) return earlier;  // zlib would start again at a null pointer.
-  return static_cast<uint32_t>(::crc32_z(earlier, reinterpret_cast<const Bytef*>(part.data()), part.size()));
+struct Checksum {
+  uint32_t value = 0;
+  uint64_t size = 0;  ///< Number of bytes.
+};
+
+Checksum checksumOf(std::string_view bytes) {
+  return {static_cast<uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size())),
+          bytes.size()};
+}
+
+/// The checksum of the bytes of a, followed by those of b.
+Checksum joinedChecksum(const Checksum& a, const Checksum& b) {
+  const auto size = static_cast<z_off_t>(b.size);
+  return {static_cast<uint32_t>(::crc32_combine(a.value, b.value, size)), a.size + b.size};
+}
+
+/// The checksum of the .npy of a field.
+Checksum npyChecksum(const Field& field) {
+  constexpr size_t kEntriesPerBlock = size_t{1} << 16;
+  const auto checksumOfEntries = [&](size_t begin, size_t end) {
+    ByteBuffer entries;
+    putNpyEntries(field, entries, begin, end);
+    return checksumOf(entries.written());
+  };
+  return joinedChecksum(checksumOf(npyHeader(field)),
+                        foldInParallel<Checksum, kEntriesPerBlock>(field.size(), checksumOfEntries, joinedChecksum));
 }
 
 struct ZipMember {
@@ -98,15 +122,12 @@ void writeNpz(AtomicFile& file, const ResultView& result) {
                 "the fields exceed the limits of .npz, 4 GiB and 65,535 members; write .npy");
   for (size_t i = 0; i < members.size(); ++i) {
     const Field& field = result.fields()[i];
-    const std::string header = npyHeader(field);
-    uint32_t checksum = checksumOf(header);
-    putNpyEntries(field, [&](std::span<const char> part) { checksum = checksumOf(part, checksum); });
-    members[i].checksum = checksum;
+    members[i].checksum = npyChecksum(field).value;
     file.put(kLocalSignature);
     putCommonHeader(file, members[i]);
     file.write(members[i].name);
-    file.write(header);
-    putNpyEntries(field, [&](std::span<const char> part) { file.write(part.data(), part.size()); });
+    file.write(npyHeader(field));
+    writeNpyEntries(file, field);
   }
   for (const ZipMember& member : members) putCentralHeader(file, member);
   file.put(kEndSignature);

@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "io/formats.h"
 #include "io/result_colours.h"
+#include "io/row_blocks.h"
 
 namespace asdfvk {
 namespace {
@@ -20,21 +21,21 @@ std::string materialOf(uint32_t part) {
   return name;
 }
 
-void putColour(AtomicFile& file, const Rgba& colour) {
+void putColour(ByteOutput& file, const Rgba& colour) {
   for (size_t channel = 0; channel < 3; ++channel) file.write(fmt::format(" {:.4f}", colour[channel] / 255.0));
 }
 
+template <typename T>
 void writeVertices(AtomicFile& file, const ResultView& result, const std::vector<Rgba>& colours) {
-  const auto put = [&](uint64_t vertex, const auto& point) {
-    file.put('v');
-    for (const auto coordinate : point) {
-      file.put(' ');
-      file.putNumber(coordinate);
+  writeRows(file, result.vertexCount(), [&](ByteBuffer& to, uint64_t vertex) {
+    to.put('v');
+    for (const T coordinate : result.pointAt<T>(vertex)) {
+      to.put(' ');
+      to.putNumber(coordinate);
     }
-    if (!colours.empty()) putColour(file, colours[vertex]);
-    file.put('\n');
-  };
-  result.hasFloatVertices() ? result.putPoints<float>(put) : result.putPoints<double>(put);
+    if (!colours.empty()) putColour(to, colours[vertex]);
+    to.put('\n');
+  });
 }
 
 }  // namespace
@@ -45,18 +46,20 @@ void writeObj(AtomicFile& file, const ResultView& result) {
                          shown == nullptr ? "" : shown->name));
   if (!result.besideName().empty()) file.write(fmt::format("mtllib {}\n", result.besideName()));
   file.write("o asdf-vk\n");
-  writeVertices(file, result, shown == nullptr ? std::vector<Rgba>() : vertexColoursOf(result, *shown));
+  const std::vector<Rgba> colours = shown == nullptr ? std::vector<Rgba>() : vertexColoursOf(result, *shown);
+  result.hasFloatVertices() ? writeVertices<float>(file, result, colours)
+                            : writeVertices<double>(file, result, colours);
   const std::vector<uint32_t>* const parts = result.parts();
-  for (uint64_t face = 0; face < result.faceCount(); ++face) {
+  writeRows(file, result.faceCount(), [&](ByteBuffer& to, uint64_t face) {
     if (parts != nullptr && (face == 0 || (*parts)[face] != (*parts)[face - 1]))
-      file.write(fmt::format("usemtl {}\n", materialOf((*parts)[face])));
-    file.put('f');
+      to.write(fmt::format("usemtl {}\n", materialOf((*parts)[face])));
+    to.put('f');
     for (const uint32_t corner : result.cornersOf(face)) {
-      file.put(' ');
-      file.putNumber(uint64_t{corner} + 1);
+      to.put(' ');
+      to.putNumber(uint64_t{corner} + 1);
     }
-    file.put('\n');
-  }
+    to.put('\n');
+  });
 }
 
 void writeObjMaterials(AtomicFile& file, const ResultView& result) {

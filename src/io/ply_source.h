@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "asdf_vk/mesh.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "io/input_failure.h"
 #include "io/ply_header.h"
@@ -142,22 +143,24 @@ class PlyBinarySource {
       return true;
     });
   }
-  /// Appends the triangles of rows whose only list has a length of one byte and three indices of four bytes, all below
+  /// Sets the triangles of rows whose only list has a length of one byte and three indices of four bytes, all below
   /// vertexCount.
   uint64_t takeTriangles(const PlyElement& element, uint64_t vertexCount, std::vector<Face>& triangles) {
     const PlyProperty& list = element.properties[element.indices];
     if (element.listCount != 1 || sizeOf(*list.list) != 1 || sizeOf(list.type) != 4) return 0;
-    triangles.reserve(std::min(element.count, remaining() / (element.rowSize + sizeof(Face))));
+    const uint64_t maxCount = std::min(element.count, remaining() / (element.rowSize + sizeof(Face)));
+    if (maxCount == 0 || bytes_[at_ + list.offset] != 3) return 0;
+    triangles.resize(maxCount);
     // From 2^31 on, an index of a signed type is negative.
     const uint64_t end = std::min(vertexCount, uint64_t{1} << 31);
-    return takeRows(element, sizeof(Face), [&](uint64_t, const char* row) {
+    const uint64_t count = takeRows(element, sizeof(Face), [&](uint64_t index, const char* row) {
       const char* const length = row + list.offset;
-      Face face;
+      Face& face = triangles[index];
       for (size_t i = 0; i < 3; ++i) face[i] = loadScalar<uint32_t, kIsSwapped>(length + 1 + i * sizeof(uint32_t));
-      if (*length != 3 || face[0] >= end || face[1] >= end || face[2] >= end) return false;
-      triangles.push_back(face);
-      return true;
+      return *length == 3 && face[0] < end && face[1] < end && face[2] < end;
     });
+    triangles.resize(count);
+    return count;
   }
 
   [[noreturn]] void fail(std::string_view reason) const { failAtByte(last_, reason); }
@@ -174,13 +177,21 @@ class PlyBinarySource {
     return value;
   }
 
-  /// Reads rows, each with the same number of bytes in lists, as long as read(index, row) returns true.
+  /// Calls read(index, row) in parallel for rows that each have the same number of bytes in lists. Takes the rows
+  /// before the first row for which read() returns false, and returns their number. May also call read() for later
+  /// rows.
   template <typename Read>
   uint64_t takeRows(const PlyElement& element, uint64_t listBytes, const Read& read) {
     const uint64_t rowSize = element.rowSize + listBytes;
     const uint64_t maxCount = std::min(element.count, remaining() / rowSize);
-    uint64_t count = 0;
-    for (const char* row = bytes_.data() + at_; count < maxCount && read(count, row); row += rowSize) ++count;
+    const char* const first = bytes_.data() + at_;
+    const auto untakenCount = [&](size_t begin, size_t end) -> uint64_t {
+      for (size_t row = begin; row < end; ++row)
+        if (!read(row, first + row * rowSize)) return maxCount - row;
+      return 0;
+    };
+    const uint64_t count = maxCount - foldInParallel<uint64_t>(maxCount, untakenCount,
+                                                               [](uint64_t a, uint64_t b) { return std::max(a, b); });
     at_ += count * rowSize;
     if (count > 0) last_ = at_ - sizeOf(element.properties.back().type);
     return count;

@@ -15,12 +15,14 @@
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "io/field_columns.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/result_colours.h"
 #include "io/result_view.h"
+#include "io/row_blocks.h"
 
 namespace asdfvk {
 namespace {
@@ -89,10 +91,9 @@ class PlyWriter {
         vertexFields_(result, FieldLocation::PerVertex, {"x", "y", "z", "quality", "red", "green", "blue", "alpha"}),
         faceFields_(result, FieldLocation::PerFace,
                     {"vertex_indices", "vertex_index", "quality", "red", "green", "blue", "alpha"}) {
-    size_t maxCornerCount = 0;
-    for (uint64_t face = 0; face < result.faceCount(); ++face)
-      maxCornerCount = std::max(maxCornerCount, result.cornersOf(face).size());
-    hasByteLengths_ = maxCornerCount <= std::numeric_limits<uint8_t>::max();
+    hasByteLengths_ = maxInParallel<size_t>(result.faceCount(), [&](uint32_t face) {
+                        return result.cornersOf(face).size();
+                      }) <= std::numeric_limits<uint8_t>::max();
   }
 
   void write() {
@@ -118,8 +119,9 @@ class PlyWriter {
 
   template <typename T>
   void writeVertices() {
-    result_.putPoints<T>([&](uint64_t vertex, const std::array<T, 3>& point) {
-      writeRow(sizeof(point) + vertexFields_.maxRowSize(), [&](const auto& put) {
+    writeRows(file_, result_.vertexCount(), [&](ByteBuffer& to, uint64_t vertex) {
+      const std::array<T, 3> point = result_.pointAt<T>(vertex);
+      putRow(to, sizeof(point) + vertexFields_.maxRowSize(), [&](const auto& put) {
         for (const T coordinate : point) put(coordinate);
         vertexFields_.putRow(vertex, put);
       });
@@ -128,37 +130,36 @@ class PlyWriter {
 
   template <typename Length>
   void writeFaces() {
-    for (uint64_t face = 0; face < result_.faceCount(); ++face) {
+    writeRows(file_, result_.faceCount(), [&](ByteBuffer& to, uint64_t face) {
       const std::span<const uint32_t> corners = result_.cornersOf(face);
-      writeRow(sizeof(Length) + corners.size_bytes() + faceFields_.maxRowSize(), [&](const auto& put) {
+      putRow(to, sizeof(Length) + corners.size_bytes() + faceFields_.maxRowSize(), [&](const auto& put) {
         put(static_cast<Length>(corners.size()));
         for (const uint32_t corner : corners) put(corner);
         faceFields_.putRow(face, put);
       });
-    }
+    });
   }
 
-  /// Writes the numbers for which putAll(put) calls put(number), as bytes or as words separated by blanks.
+  /// Appends the numbers for which putAll(put) calls put(number), as bytes or as words separated by blanks. maxSize:
+  /// upper limit of the number of bytes.
   template <typename PutAll>
-  void writeRow(size_t maxSize, const PutAll& putAll) {
+  void putRow(ByteBuffer& to, size_t maxSize, const PutAll& putAll) const {
     if (result_.isAscii()) {
       bool isFirst = true;
       putAll([&](auto number) {
-        if (!isFirst) file_.put(' ');
-        file_.putNumber(number);
+        if (!isFirst) to.put(' ');
+        to.putNumber(number);
         isFirst = false;
       });
-      file_.put('\n');
-    } else if (maxSize > AtomicFile::kMaxReserve) {
-      putAll([&](auto number) { file_.put(number); });
+      to.put('\n');
     } else {
-      char* const row = file_.reserve(maxSize);
+      char* const row = to.reserve(maxSize);
       char* next = row;
       putAll([&](auto number) {
         std::memcpy(next, &number, sizeof(number));
         next += sizeof(number);
       });
-      file_.advance(static_cast<size_t>(next - row));
+      to.advance(static_cast<size_t>(next - row));
     }
   }
 

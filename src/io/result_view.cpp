@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <variant>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "io/input_failure.h"
 #include "mesh/validation.h"
@@ -63,8 +65,13 @@ ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, std:
 }
 
 bool ResultView::hasFloatVertices() const {
-  return std::all_of(mesh_.doubles().begin(), mesh_.doubles().end(),
-                     [](double c) { return !std::isfinite(c) || static_cast<double>(static_cast<float>(c)) == c; });
+  const std::span<const double> numbers = mesh_.doubles();
+  const auto isFloat = [](double c) { return !std::isfinite(c) || static_cast<double>(static_cast<float>(c)) == c; };
+  const auto hasDouble = [&](size_t begin, size_t end) -> uint64_t {
+    return !std::all_of(numbers.begin() + static_cast<std::ptrdiff_t>(begin),
+                        numbers.begin() + static_cast<std::ptrdiff_t>(end), isFloat);
+  };
+  return foldInParallel<uint64_t>(numbers.size(), hasDouble, std::plus<>()) == 0;
 }
 
 const std::vector<uint32_t>* ResultView::parts() const {

@@ -55,16 +55,13 @@ class ResultView {
 
   /// Whether float represents every finite coordinate exactly.
   [[nodiscard]] bool hasFloatVertices() const;
-  /// Calls put(vertex, std::array<T, 3>) for each vertex.
-  template <typename T, typename Put>
-  void putPoints(const Put& put) const {
-    const auto putAll = [&](auto numbers) {
-      for (size_t i = 0; i < numbers.size(); i += 3)
-        put(i / 3,
-            std::array{static_cast<T>(numbers[i]), static_cast<T>(numbers[i + 1]), static_cast<T>(numbers[i + 2])});
+  template <typename T>
+  [[nodiscard]] std::array<T, 3> pointAt(uint64_t vertex) const {
+    const auto at = [first = 3 * vertex](auto numbers) {
+      return std::array{static_cast<T>(numbers[first]), static_cast<T>(numbers[first + 1]),
+                        static_cast<T>(numbers[first + 2])};
     };
-    putAll(mesh_.doubles());
-    putAll(mesh_.floats());
+    return mesh_.floats().empty() ? at(mesh_.doubles()) : at(mesh_.floats());
   }
 
   /// The field that viewers show by default: the first field at `location` with real values and one component.

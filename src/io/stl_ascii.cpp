@@ -11,8 +11,10 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "core/text.h"
+#include "io/corner_welder.h"
 #include "io/input_failure.h"
 #include "io/object_names.h"
 #include "io/stl_reader.h"
@@ -48,7 +50,7 @@ class AsciiStlReader {
       readSolid();
     }
     std::vector<NamedFaces> objects = names_.finish(triangles_.size());
-    Mesh mesh = weldedStl(welder_, std::move(triangles_));
+    Mesh mesh = stlMesh(std::move(welder_.points()), std::move(triangles_));
     mesh.objects = std::move(objects);
     if (commentCount_ > 0) mesh.skipped.push_back(counted(commentCount_, "comment"));
     if (textLineCount_ > 0) mesh.skipped.push_back(counted(textLineCount_, "line") + " of text between the faces");

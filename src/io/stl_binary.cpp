@@ -13,11 +13,18 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/parallel.h"
 #include "core/text.h"
+#include "core/unset_vector.h"
 #include "core/vec3.h"
+#include "io/corner_welder.h"
 #include "io/input_failure.h"
 #include "io/stl_reader.h"
+#include "mesh/coincident_faces.h"
+#include "mesh/mesh.h"
 
 namespace asdfvk {
 namespace {
@@ -170,6 +177,62 @@ std::optional<StlLayout> findStlLayout(std::span<const char> bytes) {
   return StlLayout{faceCount, false, counted(rest.size(), "byte") + " after the last face"};
 }
 
+/// Faces whose corners are indices of the points of their block.
+struct StlBlock {
+  std::span<Face> faces;
+  std::vector<Vec3d> points;
+  size_t firstPoint = 0;  ///< Number of points of the blocks before.
+};
+
+/// Reads and welds blocks of faces. triangles: receives all faces.
+std::vector<StlBlock> weldedBlocks(const char* at, const StlLayout& layout, std::span<Face> triangles) {
+  constexpr uint64_t kFacesPerBlock = uint64_t{1} << 15;  // The table of the welder fits into the cache of a processor.
+  std::vector<const char*> begins;
+  uint64_t index = 0;
+  forEachFacet(at, layout.faceCount, layout.hasPayloads, [&](const char* facet) {
+    if (index++ % kFacesPerBlock == 0) begins.push_back(facet);
+  });
+  std::vector<StlBlock> blocks(begins.size());
+  forEachTask(blocks.size(), [&](size_t i) {
+    const uint64_t first = i * kFacesPerBlock;
+    blocks[i].faces = triangles.subspan(first, std::min(kFacesPerBlock, triangles.size() - first));
+    CornerWelder welder(blocks[i].faces.size() / 2);
+    Face* face = blocks[i].faces.data();
+    forEachFacet(begins[i], blocks[i].faces.size(), layout.hasPayloads, [&](const char* bytes) {
+      const StlFacet facet = stlFacetAt(bytes);
+      for (size_t c = 0; c < 3; ++c) (*face)[c] = welder.indexOf(static_cast<Vec3d>(facet.corners[c]));
+      ++face;
+    });
+    blocks[i].points = std::move(welder.points());
+  });
+  for (size_t i = 1; i < blocks.size(); ++i)
+    blocks[i].firstPoint = blocks[i - 1].firstPoint + blocks[i - 1].points.size();
+  return blocks;
+}
+
+/// Welds the points of all blocks, and lets the faces have the indices of the returned points. These ascend in the
+/// order of first appearance, as by one CornerWelder.
+std::vector<Vec3d> joinedPoints(std::span<const StlBlock> blocks) {
+  UnsetVector<Vec3d> all(blocks.back().firstPoint + blocks.back().points.size());
+  forEachTask(blocks.size(), [&](size_t i) {
+    std::copy(blocks[i].points.begin(), blocks[i].points.end(), all.data() + blocks[i].firstPoint);
+  });
+  const UnsetVector<uint32_t> lowest = coincidentVertices(all, true);
+  const std::vector<uint32_t> firsts =
+      indicesInParallel(all.size(), [&](uint32_t point) { return lowest[point] == point; });
+  std::vector<Vec3d> points(firsts.size());
+  UnsetVector<uint32_t> indexOf(all.size());  // Set for `firsts`.
+  forEachInParallel(firsts.size(), [&](uint32_t i) {
+    points[i] = all[firsts[i]];
+    indexOf[firsts[i]] = i;
+  });
+  forEachTask(blocks.size(), [&](size_t i) {
+    for (Face& face : blocks[i].faces)
+      for (uint32_t& corner : face) corner = indexOf[lowest[blocks[i].firstPoint + corner]];
+  });
+  return points;
+}
+
 [[noreturn]] void refuseStl(std::span<const char> bytes) {
   if (bytes.size() < kHeaderSize)
     failInput(
@@ -199,15 +262,13 @@ bool isBinaryStl(std::span<const char> bytes) { return findStlLayout(bytes).has_
 Mesh parseBinaryStl(std::span<const char> bytes) {
   const std::optional<StlLayout> layout = findStlLayout(bytes);
   if (!layout) refuseStl(bytes);
-  CornerWelder welder(layout->faceCount / 2);
-  std::vector<Face> triangles;
-  triangles.reserve(layout->faceCount);
-  forEachFacet(bytes.data() + kHeaderSize, layout->faceCount, layout->hasPayloads, [&](const char* at) {
-    const StlFacet facet = stlFacetAt(at);
-    Face& face = triangles.emplace_back();
-    for (size_t c = 0; c < 3; ++c) face[c] = welder.indexOf(static_cast<Vec3d>(facet.corners[c]));
-  });
-  Mesh mesh = weldedStl(welder, std::move(triangles));
+  requireAtMost(kMaxTriangleCount, layout->faceCount, "faces");
+  std::vector<Face> triangles(layout->faceCount);
+  std::vector<StlBlock> blocks = weldedBlocks(bytes.data() + kHeaderSize, *layout, triangles);
+  std::vector<Vec3d> points = blocks.size() > 1 ? joinedPoints(blocks)
+                              : blocks.empty()  ? std::vector<Vec3d>()
+                                                : std::move(blocks.front().points);
+  Mesh mesh = stlMesh(std::move(points), std::move(triangles));
   if (!layout->skipped.empty()) mesh.skipped.push_back(layout->skipped);
   return mesh;
 }

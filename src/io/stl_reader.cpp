@@ -13,9 +13,9 @@
 
 namespace asdfvk {
 
-Mesh weldedStl(CornerWelder& welder, std::vector<Face>&& triangles) {
+Mesh stlMesh(std::vector<Vec3d>&& vertices, std::vector<Face>&& triangles) {
   Mesh mesh;
-  mesh.vertices = std::move(welder.points());
+  mesh.vertices = std::move(vertices);
   InputFaces faces;
   faces.addTriangles(std::move(triangles));
   faces.moveTo(mesh);

@@ -3,12 +3,11 @@
 #include <vector>
 
 #include "asdf_vk/mesh.h"
-#include "io/corner_welder.h"
 
 namespace asdfvk {
 
-/// STL has no indices. Corners at the same point become one vertex, because without common vertices no face would have
-/// a neighbour.
-[[nodiscard]] Mesh weldedStl(CornerWelder& welder, std::vector<Face>&& triangles);
+/// STL has no indices. Its readers weld corners at the same point to one vertex, because without common vertices no
+/// face would have a neighbour. Throws as InputFaces::moveTo().
+[[nodiscard]] Mesh stlMesh(std::vector<Vec3d>&& vertices, std::vector<Face>&& triangles);
 
 }  // namespace asdfvk

@@ -77,7 +77,8 @@ class VtuWriter {
   template <typename T>
   void writePoints() {
     writeArray<T>("Name=\"Points\" NumberOfComponents=\"3\"", 3 * result_.vertexCount(), [&](auto put) {
-      result_.putPoints<T>([&](uint64_t, const auto& point) { std::for_each(point.begin(), point.end(), put); });
+      for (uint64_t vertex = 0; vertex < result_.vertexCount(); ++vertex)
+        for (const T coordinate : result_.pointAt<T>(vertex)) put(coordinate);
     });
   }
 

@@ -24,20 +24,20 @@ struct FaceKey {
 
 /// Replaces each vertex of a face by the lowest vertex at the same point, and returns the least of the three rotations.
 /// A face with two corners at one point keeps its own vertices. No ray hits such a face, because its area is 0.
-Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
+Face placeOf(const Face& face, std::span<const uint32_t> lowestVertices) {
   Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
   if (!hasDistinctVertices(place)) place = face;
   const auto& [a, b, c] = place;
   return std::min({place, Face{b, c, a}, Face{c, a, b}});
 }
 
-std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<uint32_t>& lowestVertices) {
+UnsetVector<uint32_t> lowestAmong(const TriangleMesh& mesh, std::span<const uint32_t> lowestVertices) {
   const Buckets<FaceKey> byLowestVertex =
       sortIntoBuckets<FaceKey>(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
         const auto [a, b, c] = placeOf(mesh.faces[f], lowestVertices);
         put(a, FaceKey{uint64_t{b} << 32 | c, f});
       });
-  std::vector<uint32_t> representatives(mesh.faces.size());
+  UnsetVector<uint32_t> representatives(mesh.faces.size());
   forEachInParallel(byLowestVertex.bucketCount(), [&](uint32_t vertex) {
     const FaceKey* first = nullptr;
     for (const FaceKey& key : byLowestVertex[vertex]) {
@@ -58,13 +58,14 @@ bool hasCopyByVertices(const DualGraph& closedGraph) {
 
 }  // namespace
 
-std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
-  std::vector<uint32_t> lowest(mesh.vertices.size());
+UnsetVector<uint32_t> coincidentVertices(std::span<const Vec3d> vertices, bool joinsInfinite) {
+  UnsetVector<uint32_t> lowest(vertices.size());
   forEachInParallel(lowest.size(), [&](uint32_t vertex) { lowest[vertex] = vertex; });
-  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 8 + 1);
-  const StagedEntries<Fingerprint> points(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
-    if (!isFinite(mesh.vertices[vertex])) return;
-    const uint64_t hash = hashOf(mesh.vertices[vertex] + Vec3d{});  // -0 becomes 0.
+  const size_t bucketCount = std::bit_ceil(vertices.size() / 8 + 1);
+  const StagedEntries<Fingerprint> points(bucketCount, vertices.size(), [&](uint32_t vertex, auto&& put) {
+    const Vec3d& point = vertices[vertex];
+    if (!isFinite(point) && !(joinsInfinite && point == point)) return;  // A NaN does not equal itself.
+    const uint64_t hash = hashOf(point + Vec3d{});                       // -0 becomes 0.
     put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
   });
   points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
@@ -73,19 +74,19 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
       if (bucket[i].hash != bucket[first].hash) first = i;
       // `same` is nearly always `first`; different points may have the same hash.
       size_t same = first;
-      while (same < i && !(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
+      while (same < i && !(vertices[bucket[same].vertex] == vertices[bucket[i].vertex])) ++same;
       lowest[bucket[i].vertex] = bucket[same].vertex;
     }
   });
   return lowest;
 }
 
-std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges) {
-  const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
+UnsetVector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges) {
+  const UnsetVector<uint32_t> lowestVertices = coincidentVertices(mesh.vertices);
   const auto isCopy = [&](uint32_t vertex) { return lowestVertices[vertex] != vertex; };
   if (!edges.isManifold || hasCopyByVertices(edges.graph) || countInParallel(lowestVertices.size(), isCopy) > 0)
     return lowestAmong(mesh, lowestVertices);
-  std::vector<uint32_t> representatives(mesh.faces.size());
+  UnsetVector<uint32_t> representatives(mesh.faces.size());
   forEachInParallel(representatives.size(), [&](uint32_t f) { representatives[f] = f; });
   return representatives;
 }

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/bucket_sort.h"
+#include "core/unset_vector.h"
 #include "core/vec3.h"
 #include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
@@ -26,8 +26,8 @@ namespace asdfvk {
 }
 
 /// For each vertex the lowest vertex at exactly the same point; the vertex itself where there is no other. #V. -0
-/// equals 0. A vertex with a non-finite coordinate equals only itself.
-[[nodiscard]] std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh);
+/// equals 0. A vertex with a NaN equals only itself, and so does one with an infinite coordinate unless joinsInfinite.
+[[nodiscard]] UnsetVector<uint32_t> coincidentVertices(std::span<const Vec3d> vertices, bool joinsInfinite = false);
 
 /// #F: the representative of each face, which is the face of lowest index with its corners at the same three points in
 /// the same winding. Vertex indices may differ. Points are the same where their coordinates are equal and finite; -0
@@ -35,7 +35,7 @@ namespace asdfvk {
 /// face is a copy. If a ray hits a copy, the hit is reported as a hit of the representative, so that every backend
 /// reports the same face. Faces at the same points in opposite winding, for example where parts touch, are not copies.
 /// edges: the survey of the mesh, which often proves quickly that there are no copies.
-[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
+[[nodiscard]] UnsetVector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 /// For each representative its own index and those of its copies; nothing for any other face.
 [[nodiscard]] Buckets<uint32_t> groupCopies(std::span<const uint32_t> representatives);

@@ -23,15 +23,18 @@ void label(const DualGraph& graph, Components& result) {
     for (const uint32_t neighbour : graph.neighboursOf(face))
       if (neighbour < face) sets.join(face, neighbour);
   });
-  std::vector<uint32_t>& componentOf = result.componentOf;
+  const std::vector<uint32_t> firstFaces =
+      indicesInParallel(faceCount, [&](uint32_t f) { return sets.lowestOf(f) == f; });
+  UnsetVector<uint32_t>& componentOf = result.componentOf;
+  if (firstFaces.size() == 1) {
+    componentOf = filledInParallel(faceCount, uint32_t{0});
+    result.components.push_back({.firstFace = firstFaces.front(), .faceCount = faceCount});
+    return;
+  }
   componentOf.resize(faceCount);
-  for (const uint32_t face : indicesInParallel(faceCount, [&](uint32_t f) { return sets.lowestOf(f) == f; })) {
+  for (const uint32_t face : firstFaces) {
     componentOf[face] = static_cast<uint32_t>(result.components.size());
     result.components.push_back({.firstFace = face});
-  }
-  if (result.components.size() == 1) {
-    result.components.front().faceCount = faceCount;
-    return;
   }
   forEachInParallel(faceCount, [&](uint32_t face) {
     if (const uint32_t lowest = sets.lowestOf(face); lowest != face) componentOf[face] = componentOf[lowest];

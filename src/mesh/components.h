@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
 
@@ -20,7 +21,7 @@ struct Component {
 };
 
 struct Components {
-  std::vector<uint32_t> componentOf;  ///< #F
+  UnsetVector<uint32_t> componentOf;  ///< #F
   std::vector<Component> components;  ///< Sorted by their lowest face.
 };
 

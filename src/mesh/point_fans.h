@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/bucket_sort.h"
+#include "core/unset_vector.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -22,7 +22,7 @@ class PointFans {
   [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(pointOf_.size()); }
 
  private:
-  std::vector<uint32_t> pointOf_;  // #V
+  UnsetVector<uint32_t> pointOf_;  // #V
   Buckets<uint32_t> corners_;      // 3 #F, by point.
 };
 

@@ -62,9 +62,9 @@ void requireTriangulation(const Mesh& mesh) {
 void requireIndices(const MeshView& view) {
   const std::span<const uint32_t> corners = view.corners();
   const size_t vertexCount = view.vertexCount();
-  if (const Mesh* mesh = view.mesh()) {
+  if (const Mesh* mesh = view.mesh(); mesh != nullptr && !mesh->polygons.isEmpty()) {
     if (const uint64_t count = countFacesWithIndexOutOfRange(*mesh); count > 0)
-      failIndex(count, mesh->polygons.isEmpty() ? "face" : "triangle", vertexCount);
+      failIndex(count, "triangle", vertexCount);
   }
   constexpr size_t kBlockSize = 1 << 16;
   // The number of blocks fits into 32 bits; the number of corners may not.
@@ -128,14 +128,27 @@ MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
 }
 
 double float32StepOf(std::span<const Vec3d> vertices) {
-  float greatest = 0;
-  for (const Vec3d& p : vertices)
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const auto coordinate = static_cast<float>(p[axis]);
-      if (!std::isfinite(p[axis])) continue;
-      if (static_cast<double>(coordinate) != p[axis]) return 0;
-      greatest = std::max(greatest, std::abs(coordinate));
-    }
+  struct Coordinates {
+    float greatest = 0;
+    bool areFloats = true;
+  };
+  const auto coordinatesOf = [&](size_t begin, size_t end) {
+    Coordinates all;
+    for (size_t v = begin; v < end && all.areFloats; ++v)
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double c = vertices[v][axis];
+        if (!std::isfinite(c)) continue;
+        const auto coordinate = static_cast<float>(c);
+        all.areFloats = all.areFloats && static_cast<double>(coordinate) == c;
+        all.greatest = std::max(all.greatest, std::abs(coordinate));
+      }
+    return all;
+  };
+  const auto joined = [](const Coordinates& a, const Coordinates& b) {
+    return Coordinates{std::max(a.greatest, b.greatest), a.areFloats && b.areFloats};
+  };
+  const auto [greatest, areFloats] = foldInParallel<Coordinates>(vertices.size(), coordinatesOf, joined);
+  if (!areFloats) return 0;
   return static_cast<double>(greatest) - static_cast<double>(std::nextafter(greatest, 0.0f));
 }
 

@@ -21,7 +21,7 @@ constexpr double kMinFacesPerAggregate = 1.5;
 
 /// #components: AggregateLimits::lengths.
 std::vector<double> lengthLimits(const PreparedMesh& prepared) {
-  const std::vector<uint32_t>& componentOf = prepared.components.componentOf;
+  const std::span<const uint32_t> componentOf = prepared.components.componentOf;
   const std::vector<Component>& components = prepared.components.components;
   const std::vector<uint32_t> large =
       indicesInParallel(components.size(), [&](uint32_t i) { return components[i].faceCount >= kMinComponentSize; });

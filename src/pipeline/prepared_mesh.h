@@ -9,6 +9,7 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
+#include "core/unset_vector.h"
 #include "mesh/components.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
@@ -22,7 +23,7 @@ struct PreparedMesh {
   Mesh storage;       ///< Arrays of `mesh` that differ from the caller's: converted, triangulated, welded or reversed.
   TriangleMesh mesh;  ///< Views of `storage` and of the arrays of the caller.
   FaceGeometry geometry;
-  std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
+  UnsetVector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   /// #V: the vertex that replaces each vertex in `mesh` (closed_surface.h). Empty if no vertex was welded.
   std::vector<uint32_t> vertexOf;
   bool hasTJunctions = false;  ///< See SurfaceEdges::hasTJunctions.

@@ -13,11 +13,11 @@ namespace {
 
 /// For each face, a face of lower index on which its barycentre lies, with the same normal; itself if there is none.
 /// Where bodies overlap and have a plane in common, both have a face there.
-std::vector<uint32_t> findRepeated(const PreparedScene& scene) {
+UnsetVector<uint32_t> findRepeated(const PreparedScene& scene) {
   constexpr double kSameNormal = 1 - 1e-6;
   const TraceScene view = scene.view();
   const auto& normals = scene.prepared.geometry.normals;
-  std::vector<uint32_t> onFace = scene.prepared.representatives;
+  UnsetVector<uint32_t> onFace = scene.prepared.representatives;
   forEachInParallel(onFace.size(), [&](uint32_t face) {
     if (scene.prepared.geometry.isDegenerate(face) || onFace[face] != face) return;
     const Vec3d middle = view.originOf(face);
@@ -70,7 +70,7 @@ std::vector<Face> weldedAtPoints(const TriangleMesh& mesh, const Normalization& 
 SpaceParts findSpaceParts(const PreparedScene& scene, FunctionRef<bool(uint32_t)> boundsMaterial, bool mayOverlap) {
   const PreparedMesh& prepared = scene.prepared;
   const uint32_t faceCount = prepared.mesh.faceCount();
-  const std::vector<uint32_t> onFace = mayOverlap ? findRepeated(scene) : prepared.representatives;
+  const UnsetVector<uint32_t> onFace = mayOverlap ? findRepeated(scene) : prepared.representatives;
   std::vector<Face> faces;
   std::vector<uint32_t> faceOf, indexOf(faceCount);
   for (uint32_t face = 0; face < faceCount; ++face) {

@@ -35,14 +35,21 @@ std::atomic<bool> hasReserve = false;
 #if ASDFVK_HAS_OWN_OPERATORS
 constexpr size_t kMinAdvisedBytes = 128 << 10;
 
+// The heap has been advised up to this address. Each call locks the address space against the page faults of all
+// threads, so that a call per allocation would cost time.
+std::atomic<uintptr_t> advisedEnd = 0;
+
 /// Requests huge pages from the first huge page of the memory to the last huge page of the memory or of the heap.
 void adviseHugePages(void* memory, size_t byteCount) {
   if (byteCount < kMinAdvisedBytes) return;
   constexpr uintptr_t kMask = kHugePageBytes - 1;
-  const auto address = reinterpret_cast<uintptr_t>(memory);
-  const uintptr_t heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0)) & ~kMask, begin = address & ~kMask,
-                  end = std::max((address + byteCount + kMask) & ~kMask, heapEnd);
-  requestHugePages(reinterpret_cast<void*>(begin), end - begin);
+  const auto heapEnd = reinterpret_cast<uintptr_t>(::sbrk(0)), begin = reinterpret_cast<uintptr_t>(memory),
+             end = begin + byteCount;
+  // The heap ends below the advised end after it has shrunk.
+  if (end <= advisedEnd && advisedEnd <= heapEnd) return;
+  const uintptr_t first = begin & ~kMask, last = std::max((end + kMask) & ~kMask, heapEnd & ~kMask);
+  requestHugePages(reinterpret_cast<void*>(first), last - first);
+  if (end <= heapEnd) advisedEnd = last;
 }
 
 /// Requests huge pages for the unused part of the heap, and lets this part begin at the boundary of a huge page. The

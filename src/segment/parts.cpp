@@ -271,7 +271,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   Parts parts;
   parts.areas.assign(surface.areas.begin(), surface.areas.end());
   if (roles.firstSeeds.empty()) {
-    parts.partOf = input.components.componentOf;
+    parts.partOf.assign(input.components.componentOf.begin(), input.components.componentOf.end());
     parts.partCount = parts.fewest = parts.most = static_cast<uint32_t>(shapes.areas.size());
     numberByValue(surface, parts);
     return parts;

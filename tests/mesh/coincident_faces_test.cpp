@@ -13,7 +13,10 @@ using namespace asdfvk;
 
 namespace {
 
-std::vector<uint32_t> representativesOf(const Mesh& mesh) { return coincidentRepresentatives(mesh, surveyEdges(mesh)); }
+std::vector<uint32_t> representativesOf(const Mesh& mesh) {
+  const UnsetVector<uint32_t> representatives = coincidentRepresentatives(mesh, surveyEdges(mesh));
+  return {representatives.begin(), representatives.end()};
+}
 
 }  // namespace
 

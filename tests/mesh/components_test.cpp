@@ -267,7 +267,7 @@ TEST_CASE("components of many faces in any order equal those of a breadth-first 
     const std::vector<uint32_t> expected = componentsByWalking(buildDualGraph(mesh));
     for (const size_t threadCount : {1, 4}) {
       const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, threadCount);
-      CHECK(componentsOf(mesh).componentOf == expected);
+      CHECK(std::ranges::equal(componentsOf(mesh).componentOf, expected));
     }
   };
   check();

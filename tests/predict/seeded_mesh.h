@@ -17,7 +17,7 @@ namespace asdfvk::test {
 struct SeededMesh {
   Mesh mesh;
   FaceGeometry geometry;
-  std::vector<uint32_t> representatives;
+  UnsetVector<uint32_t> representatives;
   Bvh bvh;
   DualGraph graph;
   Cone cone;

@@ -1,7 +1,11 @@
 #include "process/heap.h"
 
 #include <doctest/doctest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +14,18 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+namespace {
+
+std::atomic<size_t> adviceCount = 0;
+
+}  // namespace
+
+// Replaces the function of the C library in this program, to count its calls.
+extern "C" int madvise(void* memory, size_t byteCount, int advice) {
+  ++adviceCount;
+  return static_cast<int>(::syscall(SYS_madvise, memory, byteCount, advice));
+}
 
 namespace asdfvk {
 namespace {
@@ -50,6 +66,15 @@ TEST_CASE("large memory, with and without an alignment, and the heap from its st
   CHECK(mappingFlagsAt(mapped->data() + mapped->size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(plain->data() + plain->size() / 2).find(" hg ") != std::string::npos);
   CHECK(mappingFlagsAt(aligned->data() + aligned->size() / 2).find(" hg ") != std::string::npos);
+}
+
+TEST_CASE("memory that the heap reuses is not advised again") {
+  configureHeap();
+  const auto allocate = [](size_t byteCount) { ::operator delete(::operator new(byteCount)); };
+  allocate(8 << 20);
+  const size_t countBefore = adviceCount;
+  for (int i = 0; i < 100; ++i) allocate(1 << 20);
+  CHECK(adviceCount == countBefore);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct DrawnMesh {
 
   TriangleMesh mesh;
   FaceGeometry geometry;
-  std::vector<uint32_t> representatives;
+  UnsetVector<uint32_t> representatives;
   Bvh bvh;
   TraceScene scene{mesh, geometry, representatives, bvh};
 };

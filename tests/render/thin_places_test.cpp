@@ -46,7 +46,7 @@ struct DrawnPlaces {
   Mesh owned;
   TriangleMesh mesh{owned};
   FaceGeometry geometry;
-  std::vector<uint32_t> representatives;
+  UnsetVector<uint32_t> representatives;
   Bvh bvh;
   TraceScene scene{mesh, geometry, representatives, bvh};
   std::vector<std::array<Vec3d, 3>> surface;
