@@ -32,8 +32,8 @@ OptionRows sessionRows(SessionSettings& settings) {
                 .text =
                     "Vulkan: rays that neighbouring lanes trace. seed: the same ray of neighbouring seeds. ray: the "
                     "rays of one seed. packet: as ray, but the lanes traverse the hierarchy together",
-                .more = "For `{kernel}` and `{fetch}`, `auto` depends on the class of the device and the size of the "
-                        "mesh ([devices.md](devices.md)).",
+                .more = "With `{kernel}`, `auto` is `seed`. With `{fetch}`, `auto` depends on the class of the device and "
+                        "the size of the mesh ([devices.md](devices.md)).",
                 .where = OptionPlace::Program},
       OptionRow{.name = "fetch",
                 .member = memberAs<AutoChoiceCodec<kFetches>>(&settings.variant.fetch),

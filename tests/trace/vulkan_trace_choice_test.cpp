@@ -19,7 +19,7 @@
 
 using namespace asdfvk;
 
-TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices postpone triangles") {
+TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and all devices postpone triangles") {
   const auto shapeOf = [](DeviceKind kind, DeviceVendor vendor) {
     DeviceFacts facts;
     facts.kind = kind;
@@ -28,13 +28,12 @@ TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices pos
   };
   const VulkanWalkShape amd = shapeOf(DeviceKind::Integrated, DeviceVendor::Amd);
   CHECK(amd.stackSize > 64);
-  CHECK_FALSE(amd.postponesTriangles);
+  CHECK(amd.postponesTriangles);
   for (const VulkanWalkShape& shape :
        {shapeOf(DeviceKind::Cpu, DeviceVendor::Other), shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia)}) {
     CHECK(shape.stackSize == kMaxBvhDepth);
+    CHECK(shape.postponesTriangles);
   }
-  CHECK(shapeOf(DeviceKind::Cpu, DeviceVendor::Other).postponesTriangles);
-  CHECK_FALSE(shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia).postponesTriangles);
 }
 
 TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
@@ -92,6 +91,8 @@ TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
     facts.subgroupSize = size;
     CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
     const VulkanTraceChoice best = defaultTraceChoice(facts);
+    CHECK(best.kernel == TraceKernel::Seed);
+    CHECK(traceChoiceFor(facts, {.kernel = TraceKernel::Ray}) == VulkanTraceChoice{TraceKernel::Ray, best.fetch});
     CHECK(traceChoiceFor(facts, {}) == best);
     CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) == VulkanTraceChoice{best.kernel, BvhFetch::Storage});
     CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Texel}).fetch == BvhFetch::Texel);
@@ -106,21 +107,6 @@ TEST_CASE("each specialization constant of the tracing shaders has an id of its 
   CHECK(test::hasDistinctSpecializationIds(k_trace_packet_comp));
   CHECK(test::hasDistinctSpecializationIds(k_trace_rays_comp));
   CHECK(test::hasDistinctSpecializationIds(k_trace_reduce_comp));
-}
-
-TEST_CASE("the vendor decides where the reported subgroup size is not that of the kernels") {
-  DeviceFacts facts;
-  facts.kind = DeviceKind::Integrated;
-  facts.subgroupSize = 32;
-  facts.vendor = DeviceVendor::Intel;
-  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
-  facts.subgroupSize = 8;
-  for (const DeviceVendor vendor : {DeviceVendor::Nvidia, DeviceVendor::Amd}) {
-    facts.vendor = vendor;
-    CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Ray);
-  }
-  facts.vendor = DeviceVendor::Other;
-  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
 }
 
 TEST_CASE("a device that does not end long loops has no iteration guard of its own") {

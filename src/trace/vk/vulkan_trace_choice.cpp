@@ -7,19 +7,13 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint32_t kMaxSmallSubgroup = 16;
-
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 }  // namespace
 
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
-  if (device.kind == DeviceKind::Cpu)  // Measured on lavapipe only.
-    return {TraceKernel::Seed, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
-  // Compilers choose the size of subgroups, which may differ from the reported size: 8 or 16 lanes on GPUs of Intel.
-  const bool hasLargeSubgroups = device.vendor == DeviceVendor::Nvidia || device.vendor == DeviceVendor::Amd ||
-                                 (device.vendor == DeviceVendor::Other && device.subgroupSize > kMaxSmallSubgroup);
-  return {hasLargeSubgroups ? TraceKernel::Ray : TraceKernel::Seed, BvhFetch::Storage};
+  const bool readsTexels = device.kind == DeviceKind::Cpu && prefersTexels(device);
+  return {TraceKernel::Seed, readsTexels ? BvhFetch::Texel : BvhFetch::Storage};
 }
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const TraceVariant& request) {
@@ -64,7 +58,6 @@ VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   constexpr uint32_t kLongStack = 65;  // In words of 4 bytes; the stack is larger than 256 bytes.
   static_assert(kLongStack >= kMaxBvhDepth);
   VulkanWalkShape shape;
-  shape.postponesTriangles = device.kind == DeviceKind::Cpu;
   if (device.kind != DeviceKind::Cpu && device.vendor == DeviceVendor::Amd) shape.stackSize = kLongStack;
   return shape;
 }

@@ -11,13 +11,14 @@
 namespace asdfvk {
 
 struct VulkanTraceChoice {
-  TraceKernel kernel = TraceKernel::Ray;
+  TraceKernel kernel = TraceKernel::Seed;
   BvhFetch fetch = BvhFetch::Texel;
   auto operator<=>(const VulkanTraceChoice&) const = default;
   [[nodiscard]] TraceVariant variant() const { return {kernel, fetch}; }
 };
 
-/// The fastest variant for the class of the device (docs/speed.md).
+/// The variant for the class of the device. The kernel `seed` is the fastest on lavapipe (docs/speed.md) and needs the
+/// fewest instructions on GPUs (docs/devices.md).
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
 /// request: unset members take the default of the device.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const TraceVariant& request);
@@ -44,9 +45,8 @@ struct VulkanWalkShape {
   bool postponesTriangles = true;
 };
 
-/// CPU devices postpone triangles. GPUs test them at once, which saves registers. On AMD GPUs the stack of a lane is
-/// larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but smaller arrays into registers.
-/// Packets share a stack.
+/// On AMD GPUs the stack of a lane is larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but
+/// smaller arrays into registers. Packets share a stack.
 [[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk
