@@ -123,8 +123,7 @@ void RayLane::test(const DeviceTriangle& triangle, uint32_t primitive, float con
   const auto edge = [&](const Vec3f& a, const Vec3f& b) { return dot(u_, a) * dot(w_, b) - dot(w_, a) * dot(u_, b); };
   const float a = edge(v2, v1), b = edge(v0, v2), c = edge(v1, v0);
   const float det = a + b + c;
-  const bool isInside =
-      det > 0 ? std::min({a, b, c}) >= 0 : det < 0 && std::max({a, b, c}) <= 0;
+  const bool isInside = det > 0 ? std::min({a, b, c}) >= 0 : det < 0 && std::max({a, b, c}) <= 0;
   const Vec3f normal = octahedralDirection(triangle.normalU, triangle.normalV);
   const float slope = dot(normal, ray_.direction), t = dot(normal, v0) / slope;
   if (!isInside || !(t >= contactDistance) || triangle.faceIndex == ray_.excludedFace) return;

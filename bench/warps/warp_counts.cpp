@@ -22,14 +22,11 @@ class Warp {
   }
 
  private:
-  /// The inner loop over nodes. A lane leaves it if it has no node left. Postponed triangles: all lanes leave it as soon
-  /// as the queue of a lane is full. Otherwise, a lane with triangles leaves it.
+  /// The inner loop over nodes. A lane leaves it if it has no node left. Postponed triangles: all lanes leave it as
+  /// soon as the queue of a lane is full. Otherwise, a lane with triangles leaves it.
   void visitNodes(std::span<RayLane> lanes) {
-    const auto isInLoop = [&](const RayLane& lane) {
-      return lane.hasNodes() && (postpones_ || !lane.hasTriangles());
-    };
-    while (std::ranges::any_of(lanes, isInLoop) &&
-           !(postpones_ && std::ranges::any_of(lanes, &RayLane::isQueueFull))) {
+    const auto isInLoop = [&](const RayLane& lane) { return lane.hasNodes() && (postpones_ || !lane.hasTriangles()); };
+    while (std::ranges::any_of(lanes, isInLoop) && !(postpones_ && std::ranges::any_of(lanes, &RayLane::isQueueFull))) {
       for (RayLane& lane : lanes)
         if (isInLoop(lane)) lane.visitNode(scene_);
       ++counts_.nodeStepCount;
@@ -99,8 +96,8 @@ WarpCounts countWarps(const TraceScene& scene, const DeviceScene& device, const 
       const Place place{firstCone + lane / lanesPerCone, firstRay + lane % lanesPerCone};
       if (lane >= lanesPerCone * conesPerGroup || place.cone >= faces.size() || place.ray >= rayCount) continue;
       const ConeStart& start = starts[place.cone];
-      lanes[count].start({Vec3f(start.origin), Vec3f(start.frame.toWorld(cone.directions[place.ray])),
-                          start.skippedFace});
+      lanes[count].start(
+          {Vec3f(start.origin), Vec3f(start.frame.toWorld(cone.directions[place.ray])), start.skippedFace});
       places[count++] = place;
     }
     warp.trace(std::span(lanes).first(count));

@@ -26,7 +26,7 @@ struct WarpCounts {
   uint64_t rayCount = 0;
   /// Steps of subgroups: iterations of the loop over nodes, and of the loop over triangles.
   uint64_t nodeStepCount = 0, triangleStepCount = 0;
-  uint64_t nodeCount = 0, triangleCount = 0;  ///< Visits of rays.
+  uint64_t nodeCount = 0, triangleCount = 0;            ///< Visits of rays.
   std::array<uint64_t, kMaxBvhDepth + 1> stackSizes{};  ///< Rays by the greatest size of their stack.
 
   [[nodiscard]] double perRay(uint64_t count) const {

@@ -64,7 +64,7 @@ Hit findNearestHit(Query query) {
 
   while (group.bits != 0u) {
     while (group.bits != 0u) {
-      const uint index = takeNearest(group, query.isNegative);
+      const uint index = takeNearest(group, query.octantShift);
       if (hasMore(group)) {
         stackBases[stackSize] = group.base;
         stackBits[stackSize] = group.bits;

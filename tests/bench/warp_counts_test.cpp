@@ -89,13 +89,11 @@ TEST_CASE("simulated lanes find the hits of the reference, by every schedule") {
         WarpSchedule schedule = scheduleFor(device, kernel, 30);
         schedule.postponesTriangles = postpones;
         uint64_t differingCount = 0;
-        const WarpCounts counts =
-            mesh.count(faces, schedule, [&](uint32_t cone, uint32_t ray, const RayLane& lane) {
-              const uint32_t primitive = lane.hitPrimitive();
-              const uint32_t face =
-                  primitive == kNoPrimitive ? kNoFace : mesh.device.triangles[primitive].faceIndex;
-              differingCount += face != hits[cone * rayCount + ray].face;
-            });
+        const WarpCounts counts = mesh.count(faces, schedule, [&](uint32_t cone, uint32_t ray, const RayLane& lane) {
+          const uint32_t primitive = lane.hitPrimitive();
+          const uint32_t face = primitive == kNoPrimitive ? kNoFace : mesh.device.triangles[primitive].faceIndex;
+          differingCount += face != hits[cone * rayCount + ray].face;
+        });
         CHECK(counts.rayCount == hits.size());
         CHECK(differingCount <= hits.size() / 500);
         CHECK(counts.nodeCount <= counts.nodeStepCount * subgroupSize);

@@ -131,7 +131,8 @@ ComputePipelineDescription describeRays(const ConeKernelRequest& request, const 
                                       {kFetchesTexelsId, toBool32(choice.fetch == BvhFetch::Texel)},
                                       {kIsCgalId, isCgal(request)},
                                       {kStackSizeId, walk.stackSize},
-                                      {kPostponesTrianglesId, toBool32(walk.postponesTriangles)}}};
+                                      {kPostponesTrianglesId, toBool32(walk.postponesTriangles)},
+                                      {kNodeArithmeticId, static_cast<uint32_t>(walk.arithmetic)}}};
 }
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,

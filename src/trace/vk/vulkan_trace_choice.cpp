@@ -58,7 +58,10 @@ VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   constexpr uint32_t kLongStack = 65;  // In words of 4 bytes; the stack is larger than 256 bytes.
   static_assert(kLongStack >= kMaxBvhDepth);
   VulkanWalkShape shape;
-  if (device.kind != DeviceKind::Cpu && device.vendor == DeviceVendor::Amd) shape.stackSize = kLongStack;
+  if (device.kind == DeviceKind::Cpu) return shape;
+  const bool isAmd = device.vendor == DeviceVendor::Amd;
+  if (isAmd) shape.stackSize = kLongStack;
+  shape.arithmetic = isAmd ? NodeArithmetic::ShiftedBytes : NodeArithmetic::MantissaBytes;
   return shape;
 }
 

@@ -6,6 +6,7 @@
 #include "asdf_vk/report.h"
 #include "bvh/bvh.h"
 #include "shared/bvh_layout.h"
+#include "shared/node_arithmetic.h"
 #include "vk/device_choice.h"
 
 namespace asdfvk {
@@ -36,6 +37,13 @@ struct VulkanWorkgroupShape {
 
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel);
 
+/// The values of shared/node_arithmetic.h.
+enum class NodeArithmetic : uint32_t {
+  MaskedBytes = kMaskedBytes,
+  ShiftedBytes = kShiftedBytes,
+  MantissaBytes = kMantissaBytes,
+};
+
 /// Traversal by single lanes (shaders/trace/trace_rays.comp). Results depend on the shape only if a ray hits equally
 /// near triangles.
 struct VulkanWalkShape {
@@ -43,6 +51,7 @@ struct VulkanWalkShape {
   /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one
   /// node are tested one by one. The tests begin when each lane has triangles or no node left (Aila and Laine 2009).
   bool postponesTriangles = true;
+  NodeArithmetic arithmetic = NodeArithmetic::MaskedBytes;  ///< Also of packets.
 };
 
 /// On AMD GPUs the stack of a lane is larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but
