@@ -42,6 +42,31 @@ TEST_CASE("long stacks and triangles that are not postponed give the same bits" 
   }
 }
 
+TEST_CASE("a hierarchy of more levels than the stack has entries is traced with a larger stack") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(generateShape("animal", 3000).mesh);
+  const uint32_t depth = encodeWideBvh(traced.bvh).depth;
+  REQUIRE(depth > 2);
+  for (const TraceKernel kernel : {TraceKernel::Ray, TraceKernel::Seed, TraceKernel::Packet}) {
+    CAPTURE(static_cast<int>(kernel));
+    const TraceResults expected = traceWith(*device, kernel, {}, traced);
+    for (const uint32_t stackSize : {1u, depth}) {
+      CAPTURE(stackSize);
+      CHECK(haveSameHits(traceWith(*device, kernel, {.stackSize = stackSize}, traced).hits, expected.hits));
+    }
+  }
+}
+
+TEST_CASE("each kernel has one pipeline for all hierarchies within its stack, and one for all others") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, requestFor(TraceKernel::Seed), {}, VulkanWalkShape{.stackSize = 8});
+  CHECK(&kernel.rays(0) == &kernel.rays(8));
+  CHECK(&kernel.rays(9) != &kernel.rays(8));
+  CHECK(&kernel.rays(9) == &kernel.rays(kMaxBvhDepth));
+  const VulkanConeKernel packets(*device, requestFor(TraceKernel::Packet), {}, VulkanWalkShape{.stackSize = 8});
+  CHECK(&packets.rays(0) == &packets.rays(kMaxBvhDepth));
+}
+
 TEST_CASE("each arithmetic of nodes gives the values of the reference") {
   const test::ValidatedDevice device;
   const std::pair<const char*, Mesh> meshes[]{{"animal", generateShape("animal", 3000).mesh},

@@ -57,10 +57,13 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
 VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   constexpr uint32_t kLongStack = 65;  // In words of 4 bytes; the stack is larger than 256 bytes.
   static_assert(kLongStack >= kMaxBvhDepth);
+  // 1.5 million faces have 8 levels below the root, and need 8 entries at most. Each level more has about five times as
+  // many faces.
+  constexpr uint32_t kShortStack = 16;
   VulkanWalkShape shape;
   if (device.kind == DeviceKind::Cpu) return shape;
   const bool isAmd = device.vendor == DeviceVendor::Amd;
-  if (isAmd) shape.stackSize = kLongStack;
+  shape.stackSize = isAmd ? kLongStack : kShortStack;
   shape.arithmetic = isAmd ? NodeArithmetic::ShiftedBytes : NodeArithmetic::MantissaBytes;
   return shape;
 }

@@ -47,15 +47,17 @@ enum class NodeArithmetic : uint32_t {
 /// Traversal by single lanes (shaders/trace/trace_rays.comp). Results depend on the shape only if a ray hits equally
 /// near triangles.
 struct VulkanWalkShape {
-  uint32_t stackSize = kMaxBvhDepth;  ///< Number of entries, at least kMaxBvhDepth.
+  /// Number of entries. A hierarchy of more levels is traced with kMaxBvhDepth entries instead.
+  uint32_t stackSize = kMaxBvhDepth;
   /// True: a lane postpones the triangles of up to three nodes and tests two at a time. False: the triangles of one
   /// node are tested one by one. The tests begin when each lane has triangles or no node left (Aila and Laine 2009).
   bool postponesTriangles = true;
   NodeArithmetic arithmetic = NodeArithmetic::MaskedBytes;  ///< Also of packets.
 };
 
-/// On AMD GPUs the stack of a lane is larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but
-/// smaller arrays into registers. Packets share a stack.
+/// GPUs have a short stack, because its memory is reserved for every lane that can run. On AMD GPUs the stack of a lane
+/// is larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but smaller arrays into registers.
+/// Packets share a stack of kMaxBvhDepth entries.
 [[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk
