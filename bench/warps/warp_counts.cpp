@@ -49,7 +49,9 @@ class Warp {
 }  // namespace
 
 WarpSchedule scheduleFor(const DeviceFacts& device, TraceKernel kernel, uint32_t rayCount) {
-  return {workgroupShapeFor(device, rayCount, kernel), walkShapeFor(device).postponesTriangles, device.subgroupSize};
+  const VulkanWalkShape walk = walkShapeFor(device);
+  return {workgroupShapeFor(device, rayCount, kernel), walk.postponesTriangles,
+          walk.subgroupSize > 0 ? walk.subgroupSize : device.subgroupSize};
 }
 
 uint32_t WarpCounts::greatestStackSize() const {

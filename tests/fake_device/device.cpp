@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 #include "state.h"
 
@@ -115,6 +116,25 @@ VKAPI_ATTR VkResult VKAPI_CALL waitForDevice(VkDevice handle) {
   return unlessLost(device, device.next<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(handle));
 }
 
+/// With fake subgroup sizes, checks required sizes and hides them from the driver.
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice handle, VkPipelineCache cache, uint32_t count,
+                                               const VkComputePipelineCreateInfo* infos,
+                                               const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+  const DeviceState& device = devices().of(handle);
+  std::vector<VkComputePipelineCreateInfo> changed(infos, infos + count);
+  for (VkComputePipelineCreateInfo& info : changed) {
+    const auto* size = findStructure<VkPipelineShaderStageRequiredSubgroupSizeCreateInfoEXT>(
+        info.stage.pNext, VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT);
+    if (size == nullptr || !device.settings.maxSubgroupSize) continue;
+    const bool isInRange = size->requiredSubgroupSize >= device.settings.minSubgroupSize.value_or(1) &&
+                           size->requiredSubgroupSize <= *device.settings.maxSubgroupSize;
+    if (!device.canRequireSubgroupSize || !isInRange) return VK_ERROR_FEATURE_NOT_PRESENT;
+    info.stage.pNext = size->pNext;
+  }
+  const auto create = device.next<PFN_vkCreateComputePipelines>("vkCreateComputePipelines");
+  return create(handle, cache, count, changed.data(), allocator, pipelines);
+}
+
 VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice handle, const VkAllocationCallbacks* allocator) {
   if (handle == VK_NULL_HANDLE) return;
   const std::unique_ptr<DeviceState> device = devices().take(handle);
@@ -141,6 +161,7 @@ PFN_vkVoidFunction findDeviceFunction(const char* name) {
       named("vkAllocateMemory", allocate),
       named("vkFreeMemory", release),
       named("vkMapMemory", map),
+      named("vkCreateComputePipelines", createPipelines),
       named("vkQueueSubmit", submit),
       named("vkWaitForFences", waitForFences),
       named("vkGetFenceStatus", getFenceStatus),

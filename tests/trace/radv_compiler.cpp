@@ -69,6 +69,14 @@ RadvCompiler::RadvCompiler(const std::string& manifest, const std::string& famil
   VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR feature{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
   feature.pipelineExecutableInfo = VK_TRUE;
+  VkPhysicalDeviceSubgroupSizeControlFeaturesEXT subgroupSizes{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT};
+  subgroupSizes.subgroupSizeControl = VK_TRUE;
+  std::vector<const char*> extensions{kExtension};
+  if (facts_.maxRequiredSubgroupSize > 0) {
+    feature.pNext = &subgroupSizes;
+    extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+  }
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = *facts_.computeQueueFamily;
@@ -78,8 +86,8 @@ RadvCompiler::RadvCompiler(const std::string& manifest, const std::string& famil
   info.pNext = &feature;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = 1;
-  info.ppEnabledExtensionNames = &kExtension;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   requireSuccess(vkCreateDevice(devices[0], &info, nullptr, &device_), "opening RADV");
 }
 
@@ -127,6 +135,10 @@ RadvKernel RadvCompiler::compile(const ComputePipelineDescription& description) 
   info.stage.module = module;
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
+  VkPipelineShaderStageRequiredSubgroupSizeCreateInfoEXT subgroups{
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT};
+  subgroups.requiredSubgroupSize = description.requiredSubgroupSize;
+  if (description.requiredSubgroupSize > 0) info.stage.pNext = &subgroups;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
   requireSuccess(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), description.name);

@@ -50,8 +50,8 @@ TEST_CASE("the stacks of a lane leave AMD GPUs their occupancy" * doctest::test_
     MESSAGE(radv.facts().driver);
     families = {{"vega10", 3, 3}, {"navi21", 10, 12}};
     // The name of the family Navi 31 changed between these versions.
-    if (radv.majorVersion() == 22) families.push_back({"gfx1100", 16, 18});
-    if (radv.majorVersion() >= 25) families.push_back({"navi31", 16, 18});
+    if (radv.majorVersion() == 22) families.push_back({"gfx1100", 16, 16});
+    if (radv.majorVersion() >= 25) families.push_back({"navi31", 16, 16});
   }
   for (const Family& family : families) {
     CAPTURE(family.name);

@@ -40,6 +40,27 @@ TEST_CASE("the walk has the stack and the arithmetic of the class of the device,
   CHECK(nvidia.arithmetic == NodeArithmetic::MantissaBytes);
 }
 
+TEST_CASE("AMD GPUs run subgroups of 32 lanes where a kernel can require them") {
+  DeviceFacts facts;
+  facts.kind = DeviceKind::Discrete;
+  facts.subgroupSize = 64;
+  const auto sizeOn = [&](DeviceVendor vendor, uint32_t least, uint32_t greatest) {
+    facts.vendor = vendor;
+    facts.minRequiredSubgroupSize = least;
+    facts.maxRequiredSubgroupSize = greatest;
+    const VulkanTraceChoice choice = defaultTraceChoice(facts);
+    return describeRays({30}, choice, workgroupShapeFor(facts, 30, choice.kernel), walkShapeFor(facts))
+        .requiredSubgroupSize;
+  };
+  CHECK(sizeOn(DeviceVendor::Amd, 32, 64) == 32);
+  CHECK(sizeOn(DeviceVendor::Amd, 64, 64) == 0);  // GCN
+  CHECK(sizeOn(DeviceVendor::Amd, 0, 0) == 0);
+  CHECK(sizeOn(DeviceVendor::Nvidia, 32, 32) == 0);
+  CHECK(sizeOn(DeviceVendor::Intel, 8, 32) == 0);
+  facts.kind = DeviceKind::Cpu;
+  CHECK(sizeOn(DeviceVendor::Amd, 8, 32) == 0);
+}
+
 TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
   // llvmpipe would end loops without a word at 65,535 iterations: the shape must stop before.
   DeviceFacts cpu;

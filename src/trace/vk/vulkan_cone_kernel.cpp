@@ -133,7 +133,8 @@ ComputePipelineDescription describeRays(const ConeKernelRequest& request, const 
                                       {kIsCgalId, isCgal(request)},
                                       {kStackSizeId, walk.stackSize},
                                       {kPostponesTrianglesId, toBool32(walk.postponesTriangles)},
-                                      {kNodeArithmeticId, static_cast<uint32_t>(walk.arithmetic)}}};
+                                      {kNodeArithmeticId, static_cast<uint32_t>(walk.arithmetic)}},
+          .requiredSubgroupSize = walk.subgroupSize};
 }
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,

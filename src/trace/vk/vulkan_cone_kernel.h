@@ -39,8 +39,8 @@ class VulkanConeKernel {
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
   /// Traces rays in a hierarchy with `depth` levels below the root (WideBvh::depth). The stack of a lane holds at most
-  /// one entry per level: the siblings of a node that the ray also enters. Therefore it cannot overflow. Bindings: nodes
-  /// and triangles (as texels, then as storage), rays, origins, lengths, hits. Thread-safe.
+  /// one entry per level: the siblings of a node that the ray also enters. Therefore it cannot overflow. Bindings:
+  /// nodes and triangles (as texels, then as storage), rays, origins, lengths, hits. Thread-safe.
   [[nodiscard]] const ComputePipeline& rays(uint32_t depth) const;
   /// Computes the starts of cones from their seeds. Null for Definition::Cgal, because its frames depend on corners in
   /// double precision. Bindings: nodes and triangles like rays(depth), seeds, starts.

@@ -60,11 +60,13 @@ VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   // 1.5 million faces have 8 levels below the root, and need 8 entries at most. Each level more has about five times as
   // many faces.
   constexpr uint32_t kShortStack = 16;
+  constexpr uint32_t kSmallAmdSubgroup = 32;
   VulkanWalkShape shape;
   if (device.kind == DeviceKind::Cpu) return shape;
   const bool isAmd = device.vendor == DeviceVendor::Amd;
   shape.stackSize = isAmd ? kLongStack : kShortStack;
   shape.arithmetic = isAmd ? NodeArithmetic::ShiftedBytes : NodeArithmetic::MantissaBytes;
+  if (isAmd && canRequireSubgroupSize(device, kSmallAmdSubgroup)) shape.subgroupSize = kSmallAmdSubgroup;
   return shape;
 }
 

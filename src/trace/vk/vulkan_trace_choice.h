@@ -53,11 +53,13 @@ struct VulkanWalkShape {
   /// node are tested one by one. The tests begin when each lane has triangles or no node left (Aila and Laine 2009).
   bool postponesTriangles = true;
   NodeArithmetic arithmetic = NodeArithmetic::MaskedBytes;  ///< Also of packets.
+  uint32_t subgroupSize = 0;  ///< ComputePipelineDescription::requiredSubgroupSize, also of packets.
 };
 
 /// GPUs have a short stack, because its memory is reserved for every lane that can run. On AMD GPUs the stack of a lane
 /// is larger than 256 bytes, because Mesa's compiler puts such arrays into memory, but smaller arrays into registers.
-/// Packets share a stack of kMaxBvhDepth entries.
+/// Packets share a stack of kMaxBvhDepth entries. AMD GPUs that have subgroups of 32 and 64 lanes run 32: their drivers
+/// would choose 64, of which fewer are busy (docs/devices.md).
 [[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk
