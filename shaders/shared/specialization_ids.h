@@ -24,6 +24,7 @@ const uint kFetchesTexelsId = 8u;        // True: BvhFetch::Texel. False: BvhFet
 const uint kIsCgalId = 9u;               // True: Definition::Cgal. False: Definition::Paper.
 const uint kStackSizeId = 10u;           // VulkanWalkShape::stackSize.
 const uint kPostponesTrianglesId = 11u;  // VulkanWalkShape::postponesTriangles.
+const uint kNodeArithmeticId = 12u;      // VulkanWalkShape::arithmetic.
 
 #ifdef __cplusplus
 }  // namespace asdfvk

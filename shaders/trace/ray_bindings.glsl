@@ -3,6 +3,7 @@
 // beginning with ray y * kLanesPerCone. With one lane per cone, neighbouring lanes trace the same ray of neighbouring
 // seeds; such rays visit nearly the same nodes.
 #include "shared/cone_layout.h"
+#include "shared/node_arithmetic.h"
 #include "shared/specialization_ids.h"
 
 layout(local_size_x_id = kLocalSizeXId) in;  // Equal to kLanesPerCone * kConesPerWorkgroup.
@@ -12,6 +13,7 @@ layout(constant_id = kRayCountId) const uint kRayCount = 30;
 layout(constant_id = kIterationLimitId) const uint kIterationLimit = 8000;
 layout(constant_id = kWritesHitsId) const bool kWritesHits = false;
 layout(constant_id = kIsCgalId) const bool kIsCgal = false;
+layout(constant_id = kNodeArithmeticId) const uint kNodeArithmetic = kMaskedBytes;
 
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;

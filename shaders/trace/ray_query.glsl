@@ -25,8 +25,14 @@ struct Query {
   RayFrame frame;
   vec3 origin, inverseDirection;
   bvec3 isNegative;  // Whether each component of the direction is negative.
+  uint octantShift;  // 4 * octant, where the bits of the octant are isNegative.
   uint excludedFace;
 };
+
+uint octantShiftOf(bvec3 isNegative) {
+  const uvec3 bits = uvec3(isNegative);
+  return bits.x << 2 | bits.y << 3 | bits.z << 4;
+}
 
 vec3 invert(vec3 direction) {
   const vec3 tiny = vec3(1e-20);
@@ -34,7 +40,8 @@ vec3 invert(vec3 direction) {
 }
 
 Query makeQuery(vec3 origin, vec3 direction, uint excludedFace) {
-  return Query(makeRayFrame(direction), origin, invert(direction), lessThan(direction, vec3(0.0)), excludedFace);
+  const bvec3 isNegative = lessThan(direction, vec3(0.0));
+  return Query(makeRayFrame(direction), origin, invert(direction), isNegative, octantShiftOf(isNegative), excludedFace);
 }
 
 float distanceTo(DeviceTriangle triangle, Query query) {
@@ -56,9 +63,16 @@ void testTriangles(Query query, uint slot0, uint slot1, inout Hit hit) {
   keepNearest(distance1, slot1, triangle1.faceIndex, query.excludedFace, hit);
 }
 
-// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted: the scale corrects the
-// missing shift. Signed conversions are faster than unsigned ones.
+// Distances to the planes of four boxes on one axis: byte * perByte + start. kMantissaBytes: the float with the byte as
+// the upper bits of its mantissa is 1 + byte / 256. kMaskedBytes: bytes 0 to 2 are masked but not shifted, and the
+// scale corrects the missing shift. Signed conversions are faster than unsigned ones.
 vec4 distancesTo(uint bytes, float perByte, float start) {
+  if (kNodeArithmetic == kMantissaBytes) {
+    const uvec4 mantissas = uvec4(bytes << 15, bytes << 7, bytes >> 1, bytes >> 9) & 0x007f8000u;
+    return uintBitsToFloat(mantissas | 0x3f800000u) * (256.0 * perByte) + (start - 256.0 * perByte);
+  }
+  if (kNodeArithmetic == kShiftedBytes)
+    return vec4(bytes & 0xffu, bytes >> 8 & 0xffu, bytes >> 16 & 0xffu, bytes >> 24) * perByte + start;
   const vec4 planes = vec4(int(bytes & 0xffu), int(bytes & 0xff00u), int(bytes & 0xff0000u), int(bytes >> 24));
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }

@@ -11,6 +11,7 @@
 // subgroup-uniform.
 Hit findNearestHit(Query query) {
   const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(query.isNegative)));
+  const uint octantShift = octantShiftOf(isNegative);
   uint stackBases[kMaxBvhDepth];
   uint stackBits[kMaxBvhDepth];
   uint stackSize = 0u;
@@ -18,7 +19,7 @@ Hit findNearestHit(Query query) {
   Hit hit = Hit(kFarAway, kNoPrimitive, true);
   uint iterationCount = 0u;
   while (group.bits != 0u && iterationCount <= kIterationLimit) {
-    const uint index = takeNearest(group, isNegative);
+    const uint index = takeNearest(group, octantShift);
     if (hasMore(group)) {
       stackBases[stackSize] = group.base;
       stackBits[stackSize] = group.bits;

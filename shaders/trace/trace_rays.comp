@@ -52,7 +52,7 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
 // Tests after each node would leave most lanes idle while a few lanes test triangles. Two triangles are tested at a
 // time, which hides the latency of loading them. Without kPostponesTriangles, a lane with triangles waits for the other
 // lanes of the subgroup, until each has triangles or no node left (Aila and Laine 2009). The second way needs fewer
-// registers.
+// registers, but more steps (docs/devices.md).
 Hit findNearestHit(Query query) {
   uint stackBases[kStackSize];
   uint stackBits[kStackSize];
@@ -64,7 +64,7 @@ Hit findNearestHit(Query query) {
 
   while (group.bits != 0u) {
     while (group.bits != 0u) {
-      const uint index = takeNearest(group, query.isNegative);
+      const uint index = takeNearest(group, query.octantShift);
       if (hasMore(group)) {
         stackBases[stackSize] = group.base;
         stackBits[stackSize] = group.bits;

@@ -16,7 +16,15 @@ uint permuteNibbles(uint bits, bvec3 isNegative) {
 }
 
 // The exponent of a power of two below 2^31.
-uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
+uint exponentOf(uint power) {
+  if (kNodeArithmetic != kMaskedBytes) return uint(findLSB(power));
+  return (floatBitsToUint(float(int(power))) >> 23) - 127u;
+}
+
+// The number of bits that are set. bits: at most the lowest bit of each nibble.
+uint countNibbles(uint bits) {
+  return kNodeArithmetic != kMaskedBytes ? uint(bitCount(bits)) : (bits * 0x11111111u) >> 28;
+}
 
 // Inner children of one node that are still to be entered. base: childBase of the node. bits: 0 if the ray enters no
 // inner child. For each of these children, bit 4 p + 3 is set, where p = slot of the child ^ octant of the ray. The
@@ -34,13 +42,11 @@ Group groupOf(DeviceWideNode node, uint children, bvec3 isNegative) {
 bool hasMore(Group group) { return (group.bits & kWideInnerBits) != 0u; }
 
 // Removes the nearest child from a non-empty group. Returns its node.
-uint takeNearest(inout Group group, bvec3 isNegative) {
+uint takeNearest(inout Group group, uint octantShift) {
   const uint rest = (group.bits & kWideInnerBits) >> 3;
   const uint nearest = rest & (~rest + 1u);
-  const uvec3 signBits = uvec3(isNegative);
-  const uint octantShift = signBits.x << 2 | signBits.y << 3 | signBits.z << 4;
   const uint below = (1u << (exponentOf(nearest) ^ octantShift)) - 1u;
-  const uint rank = ((group.bits >> 2 & 0x11111111u & below) * 0x11111111u) >> 28;
+  const uint rank = countNibbles(group.bits >> 2 & 0x11111111u & below);
   group.bits ^= nearest << 3;
   return group.base + rank;
 }

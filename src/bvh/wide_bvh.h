@@ -13,7 +13,7 @@ namespace asdfvk {
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
   UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh. A subtree has the range of primitives that it has in the Bvh.
-  uint32_t depth = 0;                    ///< Levels below the root, at most kMaxBvhDepth.
+  uint32_t depth = 0;                    ///< Levels of nodes below the root, at most kMaxBvhDepth.
 };
 
 /// Empty for an empty Bvh. Parallel, with the same result for any thread count.

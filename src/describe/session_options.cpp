@@ -26,15 +26,15 @@ OptionRows sessionRows(SessionSettings& settings) {
                 .text = "Number of CPU threads, also of lavapipe; 0: the number of cores. Results do not depend on the "
                         "number",
                 .placeholder = "N"},
-      OptionRow{.name = "kernel",
-                .group = kExperimentGroup,
-                .member = memberAs<AutoChoiceCodec<kKernels>>(&settings.variant.kernel),
-                .text =
-                    "Vulkan: rays that neighbouring lanes trace. seed: the same ray of neighbouring seeds. ray: the "
-                    "rays of one seed. packet: as ray, but the lanes traverse the hierarchy together",
-                .more = "For `{kernel}` and `{fetch}`, `auto` depends on the class of the device and the size of the "
-                        "mesh ([devices.md](devices.md)).",
-                .where = OptionPlace::Program},
+      OptionRow{
+          .name = "kernel",
+          .group = kExperimentGroup,
+          .member = memberAs<AutoChoiceCodec<kKernels>>(&settings.variant.kernel),
+          .text = "Vulkan: rays that neighbouring lanes trace. seed: the same ray of neighbouring seeds. ray: the "
+                  "rays of one seed. packet: as ray, but the lanes traverse the hierarchy together",
+          .more = "With `{kernel}`, `auto` is `seed`. With `{fetch}`, `auto` depends on the class of the device and "
+                  "the size of the mesh ([devices.md](devices.md)).",
+          .where = OptionPlace::Program},
       OptionRow{.name = "fetch",
                 .member = memberAs<AutoChoiceCodec<kFetches>>(&settings.variant.fetch),
                 .text = "Vulkan: kind of buffers from which the kernels read the hierarchy",

@@ -61,6 +61,10 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDesc
     info.stage.module = module;
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &specialization;
+    VkPipelineShaderStageRequiredSubgroupSizeCreateInfoEXT subgroups{
+        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT};
+    subgroups.requiredSubgroupSize = description.requiredSubgroupSize;
+    if (description.requiredSubgroupSize > 0) info.stage.pNext = &subgroups;
     info.layout = layout_;
     requireSuccess(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
                    "compiling " + description.name);

@@ -27,6 +27,8 @@ struct ComputePipelineDescription {
   std::vector<VkDescriptorType> bindings;  ///< Binding i of set 0 has type bindings[i].
   uint32_t pushConstantByteCount = 0;
   std::vector<SpecializationConstant> specializationConstants;  ///< Ids that the shader lacks have no effect.
+  /// Lanes per subgroup; 0: chosen by the driver. See canRequireSubgroupSize().
+  uint32_t requiredSubgroupSize = 0;
 };
 
 class ComputePipeline {

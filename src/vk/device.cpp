@@ -36,16 +36,42 @@ std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   return families;
 }
 
-/// A device with VK_KHR_portability_subset must be opened with this extension.
-std::vector<const char*> requiredExtensions(VkPhysicalDevice device) {
-  constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+bool hasExtension(VkPhysicalDevice device, const char* name) {
   uint32_t count = 0;
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-  for (const VkExtensionProperties& extension : extensions)
-    if (std::strcmp(extension.extensionName, kPortabilitySubset) == 0) return {kPortabilitySubset};
-  return {};
+  return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+    return std::strcmp(extension.extensionName, name) == 0;
+  });
+}
+
+/// Drivers of Vulkan 1.3 offer this extension too, so that instances of Vulkan 1.2 suffice.
+constexpr const char* kSubgroupSizeControl = VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME;
+
+bool requiresSubgroupSizes(const DeviceFacts& device) { return device.maxRequiredSubgroupSize > 0; }
+
+std::vector<const char*> extensionsFor(VkPhysicalDevice physical, const DeviceFacts& facts) {
+  constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";  // Must be enabled where it exists.
+  std::vector<const char*> names;
+  if (hasExtension(physical, kPortabilitySubset)) names.push_back(kPortabilitySubset);
+  if (requiresSubgroupSizes(facts)) names.push_back(kSubgroupSizeControl);
+  return names;
+}
+
+void describeSubgroupSizes(VkPhysicalDevice device, DeviceFacts& facts) {
+  if (!hasExtension(device, kSubgroupSizeControl)) return;
+  VkPhysicalDeviceSubgroupSizeControlFeaturesEXT feature{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT};
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &feature, {}};
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  VkPhysicalDeviceSubgroupSizeControlPropertiesEXT sizes{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES_EXT};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &sizes, {}};
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  if (!feature.subgroupSizeControl || !(sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT)) return;
+  facts.minRequiredSubgroupSize = sizes.minSubgroupSize;
+  facts.maxRequiredSubgroupSize = sizes.maxSubgroupSize;
 }
 
 }  // namespace
@@ -113,6 +139,7 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   facts.hasSubgroupVote = offers(VK_SUBGROUP_FEATURE_VOTE_BIT);
   facts.hasSubgroupArithmetic = offers(VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) && offers(VK_SUBGROUP_FEATURE_BALLOT_BIT);
   facts.maxMemoryAllocationSize = maintenance.maxMemoryAllocationSize;
+  describeSubgroupSizes(device, facts);
   return facts;
 }
 
@@ -126,7 +153,11 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queueInfo;
-  const std::vector<const char*> extensions = requiredExtensions(physical);
+  VkPhysicalDeviceSubgroupSizeControlFeaturesEXT subgroupSizes{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT};
+  subgroupSizes.subgroupSizeControl = VK_TRUE;
+  if (requiresSubgroupSizes(facts_)) info.pNext = &subgroupSizes;
+  const std::vector<const char*> extensions = extensionsFor(physical, facts_);
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
   VkDevice device = VK_NULL_HANDLE;

@@ -22,6 +22,8 @@ struct DeviceFacts {
   uint32_t apiVersion = 0;  ///< Packed like VK_MAKE_API_VERSION.
   std::optional<uint32_t> computeQueueFamily;
   uint32_t subgroupSize = 1;
+  /// Sizes that a compute pipeline can require: powers of two between these two. Both are 0 if it can require none.
+  uint32_t minRequiredSubgroupSize = 0, maxRequiredSubgroupSize = 0;
   bool hasSubgroupVote = true;  ///< Votes in compute shaders; true on all known devices with Vulkan 1.2.
   bool hasSubgroupArithmetic = true;
   uint32_t maxWorkgroupInvocations = 0;
@@ -36,6 +38,11 @@ struct DeviceFacts {
   bool mapsDeviceMemory = true;  ///< False imitates a device with separate memory, for tests.
   bool endsLongLoops = false;    ///< Loops of kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
+
+/// Whether a compute pipeline can require subgroups of this size.
+[[nodiscard]] constexpr bool canRequireSubgroupSize(const DeviceFacts& device, uint32_t size) {
+  return size >= device.minRequiredSubgroupSize && size <= device.maxRequiredSubgroupSize;
+}
 
 /// Whether kernels read large read-only arrays as texels instead of from storage buffers. True on CPU devices, where
 /// texels are faster; but false if storage buffers can be larger than arrays of texels. On NVIDIA GPUs since Volta,

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <thread>
+#include <vector>
 
 #include "state.h"
 
@@ -82,15 +83,6 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
   return device.next<PFN_vkQueueSubmit>("vkQueueSubmit")(queue, count, infos, fence);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice handle, VkPipelineCache cache, uint32_t count,
-                                                      const VkComputePipelineCreateInfo* infos,
-                                                      const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
-  const DeviceState& device = devices().of(handle);
-  std::this_thread::sleep_for(std::chrono::milliseconds(count * device.settings.pipelineMilliseconds));
-  const auto create = device.next<PFN_vkCreateComputePipelines>("vkCreateComputePipelines");
-  return create(handle, cache, count, infos, allocator, pipelines);
-}
-
 /// The result that a lost device has instead of `result`.
 VkResult unlessLost(const DeviceState& device, VkResult result) {
   return device.isLost ? VK_ERROR_DEVICE_LOST : result;
@@ -126,6 +118,26 @@ VKAPI_ATTR VkResult VKAPI_CALL waitForDevice(VkDevice handle) {
   return unlessLost(device, device.next<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(handle));
 }
 
+/// With fake subgroup sizes, checks required sizes and hides them from the driver.
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice handle, VkPipelineCache cache, uint32_t count,
+                                               const VkComputePipelineCreateInfo* infos,
+                                               const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+  const DeviceState& device = devices().of(handle);
+  std::this_thread::sleep_for(std::chrono::milliseconds(count * device.settings.pipelineMilliseconds));
+  std::vector<VkComputePipelineCreateInfo> changed(infos, infos + count);
+  for (VkComputePipelineCreateInfo& info : changed) {
+    const auto* size = findStructure<VkPipelineShaderStageRequiredSubgroupSizeCreateInfoEXT>(
+        info.stage.pNext, VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT);
+    if (size == nullptr || !device.settings.maxSubgroupSize) continue;
+    const bool isInRange = size->requiredSubgroupSize >= device.settings.minSubgroupSize.value_or(1) &&
+                           size->requiredSubgroupSize <= *device.settings.maxSubgroupSize;
+    if (!device.canRequireSubgroupSize || !isInRange) return VK_ERROR_FEATURE_NOT_PRESENT;
+    info.stage.pNext = size->pNext;
+  }
+  const auto create = device.next<PFN_vkCreateComputePipelines>("vkCreateComputePipelines");
+  return create(handle, cache, count, changed.data(), allocator, pipelines);
+}
+
 VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice handle, const VkAllocationCallbacks* allocator) {
   if (handle == VK_NULL_HANDLE) return;
   const std::unique_ptr<DeviceState> device = devices().take(handle);
@@ -152,7 +164,7 @@ PFN_vkVoidFunction findDeviceFunction(const char* name) {
       named("vkAllocateMemory", allocate),
       named("vkFreeMemory", release),
       named("vkMapMemory", map),
-      named("vkCreateComputePipelines", createComputePipelines),
+      named("vkCreateComputePipelines", createPipelines),
       named("vkQueueSubmit", submit),
       named("vkWaitForFences", waitForFences),
       named("vkGetFenceStatus", getFenceStatus),

@@ -74,6 +74,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
   device.nextProcedure = next;
   device.settings = instance.settings;
   device.driverMemoryType = findMappableType(instance, physical);
+  const auto* sizes = findStructure<VkPhysicalDeviceSubgroupSizeControlFeaturesEXT>(
+      info->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT);
+  device.canRequireSubgroupSize = sizes != nullptr && sizes->subgroupSizeControl == VK_TRUE;
   return VK_SUCCESS;
 }
 

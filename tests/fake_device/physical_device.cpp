@@ -40,6 +40,13 @@ void change(VkPhysicalDeviceProperties2& properties, const Settings& settings) {
         reduce(reinterpret_cast<VkPhysicalDeviceMaintenance3Properties*>(next)->maxMemoryAllocationSize,
                settings.maxAllocationByteCount);
         break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES_EXT: {
+        auto& sizes = *reinterpret_cast<VkPhysicalDeviceSubgroupSizeControlPropertiesEXT*>(next);
+        sizes.minSubgroupSize = settings.minSubgroupSize.value_or(sizes.minSubgroupSize);
+        sizes.maxSubgroupSize = settings.maxSubgroupSize.value_or(sizes.maxSubgroupSize);
+        if (settings.maxSubgroupSize) sizes.requiredSubgroupSizeStages |= VK_SHADER_STAGE_COMPUTE_BIT;
+        break;
+      }
       case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES: {
         auto& core = *reinterpret_cast<VkPhysicalDeviceVulkan11Properties*>(next);
         core.subgroupSize = settings.subgroupSize.value_or(core.subgroupSize);

@@ -12,11 +12,14 @@ namespace asdfvk::fake {
 /// environment when an instance is created. Numbers are decimal, or hexadecimal after "0x". A limit is never larger
 /// than that of the driver.
 struct Settings {
-  std::optional<uint32_t> minorVersion;            ///< ASDF_VK_FAKE_MINOR_VERSION: of Vulkan 1, with patch version 0
-  std::string name;                                ///< ASDF_VK_FAKE_NAME: of the device
-  std::optional<VkPhysicalDeviceType> type;        ///< ASDF_VK_FAKE_TYPE: integrated, discrete, virtual or cpu
-  std::optional<uint32_t> vendor;                  ///< ASDF_VK_FAKE_VENDOR: PCI id
-  std::optional<uint32_t> subgroupSize;            ///< ASDF_VK_FAKE_SUBGROUP_SIZE: reported only
+  std::optional<uint32_t> minorVersion;      ///< ASDF_VK_FAKE_MINOR_VERSION: of Vulkan 1, with patch version 0
+  std::string name;                          ///< ASDF_VK_FAKE_NAME: of the device
+  std::optional<VkPhysicalDeviceType> type;  ///< ASDF_VK_FAKE_TYPE: integrated, discrete, virtual or cpu
+  std::optional<uint32_t> vendor;            ///< ASDF_VK_FAKE_VENDOR: PCI id
+  std::optional<uint32_t> subgroupSize;      ///< ASDF_VK_FAKE_SUBGROUP_SIZE: reported only
+  /// ASDF_VK_FAKE_MIN_SUBGROUP_SIZE, ASDF_VK_FAKE_MAX_SUBGROUP_SIZE: sizes that compute pipelines can require. The
+  /// driver, which has one size, does not see the required size; other sizes fail.
+  std::optional<uint32_t> minSubgroupSize, maxSubgroupSize;
   std::optional<uint32_t> texelCount;              ///< ASDF_VK_FAKE_TEXELS: maxTexelBufferElements
   std::optional<uint32_t> storageBufferRange;      ///< ASDF_VK_FAKE_STORAGE_RANGE: bytes
   std::optional<uint32_t> storageBufferCount;      ///< ASDF_VK_FAKE_STORAGE_BUFFERS: per stage

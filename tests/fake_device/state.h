@@ -37,7 +37,8 @@ struct DeviceState {
   VkDevice handle = VK_NULL_HANDLE;
   PFN_vkGetDeviceProcAddr nextProcedure = nullptr;
   Settings settings;
-  uint32_t driverMemoryType = 0;  ///< Mappable; the one type of the driver that all memory is from.
+  uint32_t driverMemoryType = 0;        ///< Mappable; the one type of the driver that all memory is from.
+  bool canRequireSubgroupSize = false;  ///< Whether the program enabled the feature.
   std::atomic<uint64_t> submissionCount = 0;
   std::atomic<uint64_t> allocationCount = 0;
   std::atomic<bool> isLost = false;
@@ -50,6 +51,14 @@ struct DeviceState {
     return reinterpret_cast<Function>(nextProcedure(handle, name));
   }
 };
+
+/// The structure of that type in a chain of extensions, or null.
+template <typename Structure>
+[[nodiscard]] const Structure* findStructure(const void* chain, VkStructureType type) {
+  const auto* next = static_cast<const VkBaseInStructure*>(chain);
+  while (next != nullptr && next->sType != type) next = next->pNext;
+  return reinterpret_cast<const Structure*>(next);
+}
 
 /// States by dispatchable handle. The loader's pointer at the begin of a handle is the same for an instance and its
 /// physical devices, and for a device and its queues.

@@ -19,7 +19,7 @@
 
 using namespace asdfvk;
 
-TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices postpone triangles") {
+TEST_CASE("the walk has the stack and the arithmetic of the class of the device, and postpones triangles") {
   const auto shapeOf = [](DeviceKind kind, DeviceVendor vendor) {
     DeviceFacts facts;
     facts.kind = kind;
@@ -28,13 +28,37 @@ TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices pos
   };
   const VulkanWalkShape amd = shapeOf(DeviceKind::Integrated, DeviceVendor::Amd);
   CHECK(amd.stackSize > 64);
-  CHECK_FALSE(amd.postponesTriangles);
-  for (const VulkanWalkShape& shape :
-       {shapeOf(DeviceKind::Cpu, DeviceVendor::Other), shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia)}) {
-    CHECK(shape.stackSize == kMaxBvhDepth);
-  }
-  CHECK(shapeOf(DeviceKind::Cpu, DeviceVendor::Other).postponesTriangles);
-  CHECK_FALSE(shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia).postponesTriangles);
+  CHECK(amd.postponesTriangles);
+  const VulkanWalkShape cpu = shapeOf(DeviceKind::Cpu, DeviceVendor::Other),
+                        nvidia = shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia);
+  CHECK(cpu.stackSize == kMaxBvhDepth);  // A second pipeline would take longer to compile.
+  CHECK(nvidia.stackSize == 16);
+  CHECK(cpu.postponesTriangles);
+  CHECK(nvidia.postponesTriangles);
+  CHECK(amd.arithmetic == NodeArithmetic::ShiftedBytes);
+  CHECK(cpu.arithmetic == NodeArithmetic::MaskedBytes);
+  CHECK(nvidia.arithmetic == NodeArithmetic::MantissaBytes);
+}
+
+TEST_CASE("AMD GPUs run subgroups of 32 lanes where a kernel can require them") {
+  DeviceFacts facts;
+  facts.kind = DeviceKind::Discrete;
+  facts.subgroupSize = 64;
+  const auto sizeOn = [&](DeviceVendor vendor, uint32_t least, uint32_t greatest) {
+    facts.vendor = vendor;
+    facts.minRequiredSubgroupSize = least;
+    facts.maxRequiredSubgroupSize = greatest;
+    const VulkanTraceChoice choice = defaultTraceChoice(facts);
+    return describeRays({30}, choice, workgroupShapeFor(facts, 30, choice.kernel), walkShapeFor(facts))
+        .requiredSubgroupSize;
+  };
+  CHECK(sizeOn(DeviceVendor::Amd, 32, 64) == 32);
+  CHECK(sizeOn(DeviceVendor::Amd, 64, 64) == 0);  // GCN
+  CHECK(sizeOn(DeviceVendor::Amd, 0, 0) == 0);
+  CHECK(sizeOn(DeviceVendor::Nvidia, 32, 32) == 0);
+  CHECK(sizeOn(DeviceVendor::Intel, 8, 32) == 0);
+  facts.kind = DeviceKind::Cpu;
+  CHECK(sizeOn(DeviceVendor::Amd, 8, 32) == 0);
 }
 
 TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
@@ -92,6 +116,8 @@ TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
     facts.subgroupSize = size;
     CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
     const VulkanTraceChoice best = defaultTraceChoice(facts);
+    CHECK(best.kernel == TraceKernel::Seed);
+    CHECK(traceChoiceFor(facts, {.kernel = TraceKernel::Ray}) == VulkanTraceChoice{TraceKernel::Ray, best.fetch});
     CHECK(traceChoiceFor(facts, {}) == best);
     CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) == VulkanTraceChoice{best.kernel, BvhFetch::Storage});
     CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Texel}).fetch == BvhFetch::Texel);
@@ -106,21 +132,6 @@ TEST_CASE("each specialization constant of the tracing shaders has an id of its 
   CHECK(test::hasDistinctSpecializationIds(k_trace_packet_comp));
   CHECK(test::hasDistinctSpecializationIds(k_trace_rays_comp));
   CHECK(test::hasDistinctSpecializationIds(k_trace_reduce_comp));
-}
-
-TEST_CASE("the vendor decides where the reported subgroup size is not that of the kernels") {
-  DeviceFacts facts;
-  facts.kind = DeviceKind::Integrated;
-  facts.subgroupSize = 32;
-  facts.vendor = DeviceVendor::Intel;
-  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
-  facts.subgroupSize = 8;
-  for (const DeviceVendor vendor : {DeviceVendor::Nvidia, DeviceVendor::Amd}) {
-    facts.vendor = vendor;
-    CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Ray);
-  }
-  facts.vendor = DeviceVendor::Other;
-  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
 }
 
 TEST_CASE("a device that does not end long loops has no iteration guard of its own") {

@@ -99,21 +99,6 @@ TEST_CASE("any workgroup shape gives the same bits" * doctest::test_suite("slow"
   });
 }
 
-TEST_CASE("long stacks and triangles that are not postponed give the same bits" * doctest::test_suite("slow")) {
-  const test::ValidatedDevice device;
-  const TracedMesh traced(generateShape("animal", 1500).mesh);
-  const VulkanWalkShape gpu{.stackSize = 65, .postponesTriangles = false};
-  for (const TraceKernel kernel : {TraceKernel::Ray, TraceKernel::Seed}) {
-    CAPTURE(static_cast<int>(kernel));
-    const ConeKernelRequest request{30, false, VulkanTraceChoice{kernel}};
-    const VulkanWorkgroupShape shape = workgroupShapeFor(device->facts(), 30, kernel);
-    const TraceResults expected = traceWith(VulkanConeKernel(*device, request, shape, VulkanWalkShape{}), traced);
-    const TraceResults results = traceWith(VulkanConeKernel(*device, request, shape, gpu), traced);
-    CHECK(results.statistics.redoneConeCount == 0);
-    CHECK(test::haveSameBits(results.values, expected.values));
-  }
-}
-
 TEST_CASE("cones beyond the iteration guard are redone by the reference and counted" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "shared/specialization_ids.h"
+#include "spirv/fill.comp.h"
 #include "support/require_failure.h"
 #include "vk/buffer.h"
 #include "vk/command_list.h"
+#include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
 using namespace asdfvk;
@@ -73,6 +76,42 @@ TEST_CASE("a device of exactly Vulkan 1.2.0 is described to the end, and one of 
   const FakeDevice fake(variables);
   const Instance instance;
   requireFailure([&] { (void)openDevice(instance, {}); }, ErrorCode::NoUsableDevice, "supports Vulkan 1.1 only");
+}
+
+TEST_CASE("a pipeline requires a size of subgroups that the device offers") {
+  FakeDevice::Variables variables = kDiscrete;
+  variables.insert(variables.end(),
+                   {{"ASDF_VK_FAKE_MIN_SUBGROUP_SIZE", "32"}, {"ASDF_VK_FAKE_MAX_SUBGROUP_SIZE", "64"}});
+  const FakeDevice fake(variables);
+  const Instance instance;
+  const OpenedDevice opened = openDevice(instance, {});
+  const DeviceFacts& facts = opened.device->facts();
+  if (facts.maxRequiredSubgroupSize == 0) {
+    MESSAGE("skipped: the driver has no VK_EXT_subgroup_size_control");
+    return;
+  }
+  CHECK(facts.minRequiredSubgroupSize == 32);
+  CHECK(facts.maxRequiredSubgroupSize == 64);
+  CHECK_FALSE(canRequireSubgroupSize(facts, 16));
+  CHECK(canRequireSubgroupSize(facts, 32));
+  CHECK_FALSE(canRequireSubgroupSize(facts, 128));
+  const auto compile = [&](const Device& device, uint32_t subgroupSize) {
+    const ComputePipeline fill(device, {.name = "fill.comp",
+                                        .spirv = k_fill_comp,
+                                        .bindings = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                        .pushConstantByteCount = 8,
+                                        .specializationConstants = {{kLocalSizeXId, 64}},
+                                        .requiredSubgroupSize = subgroupSize});
+  };
+  CHECK_NOTHROW(compile(*opened.device, 0));
+  CHECK_NOTHROW(compile(*opened.device, 32));
+  CHECK_THROWS_AS(compile(*opened.device, 16), Error);
+  // A device that is opened without the feature.
+  DeviceFacts without = facts;
+  without.minRequiredSubgroupSize = without.maxRequiredSubgroupSize = 0;
+  const Device plain(instance.physicalDevices().front(), without);
+  CHECK_NOTHROW(compile(plain, 0));
+  CHECK_THROWS_AS(compile(plain, 32), Error);
 }
 
 TEST_CASE("memory of a fake device is separate and poisoned") {

@@ -29,6 +29,7 @@ std::optional<SharedBuffer> makeHits(const VulkanConeKernel& kernel, uint64_t ca
 
 ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity)
     : kernel_(kernel),
+      rays_(kernel.rays(scene.hierarchyDepth())),
       capacity_(capacity),
       origins_(kernel.device(), capacity * sizeof(ConeOrigin), kOriginUsage, SharedBuffer::Host::Writes),
       lengths_(kernel.device(), byteCountPerRay(kernel, capacity, sizeof(uint32_t)), kChunkUsage,
@@ -36,7 +37,7 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
       results_(kernel.device(), capacity * sizeof(uint32_t), kChunkUsage, SharedBuffer::Host::Reads),
       hits_(makeHits(kernel, capacity)),
       originTexels_(kernel.device(), origins_.onDevice()),
-      rayBindings_(kernel.device(), kernel.rays(),
+      rayBindings_(kernel.device(), rays_,
                    joined(scene.hierarchyBindings(),
                           {scene.rayTexels(), originTexels_, lengths_, hits_ ? hits_->onDevice() : scene.nothing()})),
       reductionBindings_(kernel.device(), kernel.reduction(),
@@ -57,7 +58,7 @@ void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
   else
     origins_.recordCopy(commands_, push.coneCount * sizeof(ConeOrigin));
   commands_.barrier();
-  commands_.dispatch(kernel_.rays(), rayBindings_, bytesOf(push), groupCount(push.coneCount, shape.conesPerWorkgroup),
+  commands_.dispatch(rays_, rayBindings_, bytesOf(push), groupCount(push.coneCount, shape.conesPerWorkgroup),
                      groupCount(kernel_.rayCount(), shape.lanesPerCone));
   commands_.barrier();
   commands_.dispatch(kernel_.reduction(), reductionBindings_, bytesOf(push),

@@ -40,6 +40,7 @@ class ConeChunk {
 
  private:
   const VulkanConeKernel& kernel_;
+  const ComputePipeline& rays_;
   uint64_t capacity_;
   Buffer seeds_;          // Mapped: kernels read each entry once. Exists if the kernel has origins().
   SharedBuffer origins_;  // A ConeOrigin per cone.

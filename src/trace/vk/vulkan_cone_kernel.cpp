@@ -7,6 +7,7 @@
 
 #include "asdf_vk/error.h"
 #include "bvh/device_bvh.h"
+#include "core/check.h"
 #include "shared/cone_hit.h"
 #include "shared/specialization_ids.h"
 #include "spirv/cone_origins.comp.h"
@@ -131,7 +132,9 @@ ComputePipelineDescription describeRays(const ConeKernelRequest& request, const 
                                       {kFetchesTexelsId, toBool32(choice.fetch == BvhFetch::Texel)},
                                       {kIsCgalId, isCgal(request)},
                                       {kStackSizeId, walk.stackSize},
-                                      {kPostponesTrianglesId, toBool32(walk.postponesTriangles)}}};
+                                      {kPostponesTrianglesId, toBool32(walk.postponesTriangles)},
+                                      {kNodeArithmeticId, static_cast<uint32_t>(walk.arithmetic)}},
+          .requiredSubgroupSize = walk.subgroupSize};
 }
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
@@ -141,9 +144,21 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
       request_(request),
       choice_(choiceFor(device, request)),
       shape_(shape.value_or(workgroupShapeFor(device.facts(), request.rayCount, choice_.kernel))),
-      rays_(device, describeRays(request_, choice_, shape_, walk.value_or(walkShapeFor(device.facts())))),
+      walk_(walk.value_or(walkShapeFor(device.facts()))),
+      rays_(device, describeRays(request_, choice_, shape_, walk_)),
       reduction_(device, describeReduction(request_)) {
   if (request.definition == Definition::Paper) origins_.emplace(device, describeOrigins(choice_));
+}
+
+const ComputePipeline& VulkanConeKernel::rays(uint32_t depth) const {
+  ASDFVK_CHECK_OP(depth, <=, kMaxBvhDepth);
+  if (depth <= walk_.stackSize || choice_.kernel == TraceKernel::Packet) return rays_;
+  std::call_once(isDeepMade_, [this] {
+    VulkanWalkShape deep = walk_;
+    deep.stackSize = kMaxBvhDepth;
+    deepRays_.emplace(device_, describeRays(request_, choice_, shape_, deep));
+  });
+  return *deepRays_;
 }
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
@@ -161,6 +176,7 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
 
 ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const TraceScene& scene, const WideBvh& wide, const Cone& cone)
     : fetchesTexels_(fetchesTexels(kernel)),
+      hierarchyDepth_(wide.depth),
       nodes_(uploadNodes(kernel, wide)),
       triangles_(uploadTriangles(kernel, scene, wide)),
       rays_(uploadRays(kernel.device(), cone)),

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -37,10 +38,12 @@ class VulkanConeKernel {
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
-  /// Traces rays. Bindings: nodes and triangles (as texels, then as storage), rays, origins, lengths, hits.
-  [[nodiscard]] const ComputePipeline& rays() const { return rays_; }
+  /// Traces rays in a hierarchy with `depth` levels below the root (WideBvh::depth). The stack of a lane holds at most
+  /// one entry per level: the siblings of a node that the ray also enters. Therefore it cannot overflow. Bindings:
+  /// nodes and triangles (as texels, then as storage), rays, origins, lengths, hits. Thread-safe.
+  [[nodiscard]] const ComputePipeline& rays(uint32_t depth) const;
   /// Computes the starts of cones from their seeds. Null for Definition::Cgal, because its frames depend on corners in
-  /// double precision. Bindings: nodes and triangles like rays(), seeds, starts.
+  /// double precision. Bindings: nodes and triangles like rays(depth), seeds, starts.
   [[nodiscard]] const ComputePipeline* origins() const { return origins_ ? &*origins_ : nullptr; }
   /// Computes results from lengths. Bindings: rays, lengths, results.
   [[nodiscard]] const ComputePipeline& reduction() const { return reduction_; }
@@ -55,8 +58,11 @@ class VulkanConeKernel {
   ConeKernelRequest request_;
   VulkanTraceChoice choice_;
   VulkanWorkgroupShape shape_;
+  VulkanWalkShape walk_;
   ComputePipeline rays_, reduction_;
   std::optional<ComputePipeline> origins_;
+  mutable std::once_flag isDeepMade_;
+  mutable std::optional<ComputePipeline> deepRays_;  // For hierarchies of more levels than the stack of rays_ has.
 };
 
 /// Largest number of cones of one dispatch. Buffers are within the limits of the device and at most 32 MiB each.
@@ -71,11 +77,13 @@ class ConeBuffers {
   /// The first bindings of every traversal kernel: nodes and triangles as texels, then as storage.
   [[nodiscard]] std::vector<Binding> hierarchyBindings() const;
   [[nodiscard]] const TexelView& rayTexels() const { return rayTexels_; }
+  [[nodiscard]] uint32_t hierarchyDepth() const { return hierarchyDepth_; }  ///< WideBvh::depth
   /// A buffer for bindings that a kernel does not access.
   [[nodiscard]] const Buffer& nothing() const { return nothing_; }
 
  private:
   bool fetchesTexels_;
+  uint32_t hierarchyDepth_;
   Buffer nodes_, triangles_, rays_;
   Buffer nothing_;
   TexelView nodeTexels_, triangleTexels_, rayTexels_;

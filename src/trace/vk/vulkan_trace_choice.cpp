@@ -7,19 +7,13 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint32_t kMaxSmallSubgroup = 16;
-
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 }  // namespace
 
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
-  if (device.kind == DeviceKind::Cpu)  // Measured on lavapipe only.
-    return {TraceKernel::Seed, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
-  // Compilers choose the size of subgroups, which may differ from the reported size: 8 or 16 lanes on GPUs of Intel.
-  const bool hasLargeSubgroups = device.vendor == DeviceVendor::Nvidia || device.vendor == DeviceVendor::Amd ||
-                                 (device.vendor == DeviceVendor::Other && device.subgroupSize > kMaxSmallSubgroup);
-  return {hasLargeSubgroups ? TraceKernel::Ray : TraceKernel::Seed, BvhFetch::Storage};
+  const bool readsTexels = device.kind == DeviceKind::Cpu && prefersTexels(device);
+  return {TraceKernel::Seed, readsTexels ? BvhFetch::Texel : BvhFetch::Storage};
 }
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const TraceVariant& request) {
@@ -63,9 +57,16 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
 VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   constexpr uint32_t kLongStack = 65;  // In words of 4 bytes; the stack is larger than 256 bytes.
   static_assert(kLongStack >= kMaxBvhDepth);
+  // 1.5 million faces have 8 levels below the root, and need 8 entries at most. Each level more has about five times as
+  // many faces.
+  constexpr uint32_t kShortStack = 16;
+  constexpr uint32_t kSmallAmdSubgroup = 32;
   VulkanWalkShape shape;
-  shape.postponesTriangles = device.kind == DeviceKind::Cpu;
-  if (device.kind != DeviceKind::Cpu && device.vendor == DeviceVendor::Amd) shape.stackSize = kLongStack;
+  if (device.kind == DeviceKind::Cpu) return shape;
+  const bool isAmd = device.vendor == DeviceVendor::Amd;
+  shape.stackSize = isAmd ? kLongStack : kShortStack;
+  shape.arithmetic = isAmd ? NodeArithmetic::ShiftedBytes : NodeArithmetic::MantissaBytes;
+  if (isAmd && canRequireSubgroupSize(device, kSmallAmdSubgroup)) shape.subgroupSize = kSmallAmdSubgroup;
   return shape;
 }
 
