@@ -287,8 +287,8 @@ class ASDFVK_API CheckedOptions {
 enum class Recipe {
   Paper,     ///< The method of the ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
   Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction. Seeds keep their traced values.
-  /// Balanced with hashed cones and pooling with the prediction. The recipe with the least error relative to values
-  /// from many rays per face.
+  /// Balanced with hashed cones, and with pooling of solutions and predictions. Of the recipes, this one has the least
+  /// error relative to values from many rays per face.
   Quality,
 };
 

@@ -28,6 +28,10 @@ enum class BackendChoice {
   Reference,  ///< The cores of the CPU, in double precision.
 };
 
+[[nodiscard]] constexpr bool mayUseDevice(BackendChoice choice) {
+  return choice == BackendChoice::Automatic || choice == BackendChoice::Vulkan;
+}
+
 struct SessionOptions {
   BackendChoice backend = BackendChoice::Automatic;
   /// Vulkan device: an index in listDevices() or a part of a name. Empty: the device of the highest rank.

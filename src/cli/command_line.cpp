@@ -260,7 +260,7 @@ void validateOptions(const CommandLine& line) {
         "--points a file, or drop the others");
   const BackendChoice backend = line.session.backend;
   const SolverChoice solver = line.computation.options.solver;
-  if ((backend == BackendChoice::Cpu || backend == BackendChoice::Reference) && solverNeedsDevice(solver))
+  if (!mayUseDevice(backend) && solverNeedsDevice(solver))
     refuseOptions(fmt::format(
         "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
         nameOf(kSolverNames, solver)));

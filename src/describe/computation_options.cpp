@@ -319,7 +319,9 @@ std::string withSpelledOptions(std::string_view message, OptionSpelling spelling
 
 std::string removedOptionText(std::string_view name, OptionSpelling spelling) {
   constexpr std::array kRemoved{
-      RemovedOption{"allow-sharp-edges", "thin edges do not count any more; {count-edges} counts them"}};
+      RemovedOption{"allow-sharp-edges", "thin edges do not count any more; {count-edges} counts them"},
+      RemovedOption{"time-budget",
+                    "the result depended on the speed of the machine; {max-error} or {seeds} bound the work"}};
   for (const RemovedOption& removed : kRemoved)
     if (name == withSpelledOptions(fmt::format("{{{}}}", removed.name), spelling))
       return fmt::format("{} was removed: {}", name, withSpelledOptions(removed.message, spelling));

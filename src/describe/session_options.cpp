@@ -45,7 +45,7 @@ OptionRows sessionRows(SessionSettings& settings) {
 void requireValid(SessionSettings session, OptionSpelling spelling) {
   const OptionRows rows = sessionRows(session);
   requireInRange(rows, spelling);
-  if (session.backend != BackendChoice::Cpu && session.backend != BackendChoice::Reference) return;
+  if (mayUseDevice(session.backend)) return;
   if (session.requireGpu)
     refuse(rows, "{require-gpu} contradicts {backend=cpu} and reference, which run on the CPU; drop one", spelling);
   if (!session.device.empty())

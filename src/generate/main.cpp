@@ -23,7 +23,7 @@ void place(GeneratedShape& shape, const GeneratorOptions& options) {
   for (float& diameter : shape.diameter) diameter = static_cast<float>(diameter * options.scale);
 }
 
-/// Makes a part. All faces have the least thickness of the part as their diameter.
+/// Makes a part. The diameter of every face is set to the least thickness of the part.
 GeneratedShape makePart(const GeneratorOptions& options) {
   const ThicknessPart part = makeThicknessPart(options.shape);
   SurfaceDivision division;

@@ -16,8 +16,8 @@ namespace asdfvk {
 /// The name of a part, for example "part 3"; "no part" for 4294967295.
 [[nodiscard]] std::string nameOfPart(uint32_t part);
 
-/// The colour of each entry of a field of one component. Real numbers have the colours of the colour map over
-/// percentileRange(), labels the colours of colourOfPart(); set flags are blue.
+/// The colour of each entry of a field of one component. The colour of a real number is that of the colour map over
+/// percentileRange(); the colour of a label is colourOfPart(); a set flag is blue.
 [[nodiscard]] std::vector<Rgba> coloursOf(const Field& field);
 
 /// coloursOf() per vertex. If the field is per face, a vertex gets the mean value or the least label of its faces.

@@ -32,7 +32,7 @@ std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::vector<dou
     weights[inputFace] += areas[face];
     last[inputFace] = values[face];
   }
-  // Where all valued triangles have zero area, the value of the last of them remains.
+  // If all triangles with a value have zero area, the value of the last of them remains.
   for (size_t i = 0; i < sums.size(); ++i)
     if (weights[i] > 0) last[i] = sums[i] / weights[i];
   return last;

@@ -45,7 +45,7 @@ class KeptTracers {
   std::vector<std::shared_ptr<KeptTracer>> kept_;  // Ordered by last use, the latest first.
 };
 
-/// The stage to which creating and releasing a tracer is charged: Stage::Upload with Vulkan, else Stage::Encode.
+/// The stage that includes the time to create and release tracers: Stage::Upload with Vulkan, else Stage::Encode.
 [[nodiscard]] Stage setUpStage(const Backend& backend);
 
 }  // namespace asdfvk

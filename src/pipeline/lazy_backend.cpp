@@ -25,10 +25,6 @@ std::shared_future<void> callInThread(std::function<void()> work) {
   }
 }
 
-bool mayUseDevice(BackendChoice choice) {
-  return choice == BackendChoice::Automatic || choice == BackendChoice::Vulkan;
-}
-
 }  // namespace
 
 LazyBackend::LazyBackend(const SessionOptions& options, SessionOpening opening) : options_(options) {

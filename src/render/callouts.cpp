@@ -25,7 +25,7 @@ void drawRing(Image& image, const Point2& centre, double radius, double width, c
          [&](const Point2& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
 }
 
-/// The pixel of the place of the callout. If only the opposite point is visible, the pixel of the opposite point.
+/// Returns the pixel of the place of the callout, or of the opposite point if only that point is visible.
 Point2 pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
     constexpr double kBeyond = 4;  // A distance above the diagonal of the normalised box, which is at most 2 sqrt(3).

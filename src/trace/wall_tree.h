@@ -39,7 +39,7 @@ struct Wall {
   float offset = 0;  ///< Offset of the plane along the normal.
   Vec3f min, max, middle;
   std::array<Vec3f, 3> spokes{};  ///< The corners relative to the middle.
-  float reach = 0;                ///< Length of the longest spoke.
+  float reach = 0;                ///< Greatest distance from the middle to a corner.
   uint32_t face = kNoFace, body = kNoBody;
 };
 

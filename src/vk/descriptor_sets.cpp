@@ -8,7 +8,7 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kSetCount = 64;                     // In one pool.
-constexpr uint32_t kDescriptorCount = 12 * kSetCount;  // Of each type. No set has more than 12 descriptors.
+constexpr uint32_t kDescriptorCount = 12 * kSetCount;  // For each type. No set has more than 12 descriptors.
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace asdfvk {
 namespace {
 
 constexpr uint64_t kMinBlockByteCount = 8u << 20, kMinBlockByteCountOnCpu = 1u << 20;
-constexpr uint64_t kMaxBlockByteCount = 256u << 20;  // Of blocks for several buffers.
+constexpr uint64_t kMaxBlockByteCount = 256u << 20;  // Larger blocks have one buffer.
 constexpr uint64_t kMinAlignment = 256;
 
 uint64_t roundUpTo(uint64_t alignment, uint64_t value) { return (value + alignment - 1) / alignment * alignment; }
@@ -68,8 +68,8 @@ VkResult MemoryArena::takeOfType(const VkMemoryRequirements& needed, uint32_t ty
   return result;
 }
 
-/// Blocks grow with the memory of their type, so that few are allocated. On a CPU device, where allocations are fast and
-/// the memory is that of the process, a block has no more than what is needed.
+/// Blocks grow with the memory of their type, so that few are allocated. On a CPU device, where allocations are fast
+/// and the memory is that of the process, a block has no more than what is needed.
 VkResult MemoryArena::addBlock(uint64_t needed, uint32_t type) {
   uint64_t count = kMinBlockByteCountOnCpu;
   if (!isCpu(device_)) {

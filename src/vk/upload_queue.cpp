@@ -13,7 +13,9 @@ constexpr uint64_t kMaxPendingByteCount = 8 * kMaxPieceByteCount;
 
 struct UploadQueue::Upload {
   Upload(const Device& device, uint64_t byteCount, VkBuffer to)
-      : target(to), staging(device, byteCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::HostVisible), commands(device) {}
+      : target(to),
+        staging(device, byteCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::HostVisible),
+        commands(device) {}
 
   VkBuffer target;
   Buffer staging;

@@ -94,7 +94,7 @@ TEST_CASE("errors of an OFF file name the line and the reason") {
 }
 
 TEST_CASE("OFF: nothing is read beyond a file that ends in a sign") {
-  for (const std::string_view text : {"OFF\n1 1 0\n0 0 +", "OFF\n1 1 0\n0 0 -", "OFF\n1 1 0\n0 0 1e+"}) {
+  for (const std::string_view text : {"OFF\n1 1 0\n0 0 +", "OFF\n1 1 0\n0 0 -", "OFF\n1 1 0\n0 0 1e+", "OFF\n1 1 +"}) {
     const std::vector<char> exact(text.begin(), text.end());  // A sanitizer sees a read beyond its end.
     CHECK_FALSE(errorOf("off", {exact.data(), exact.size()}).empty());
   }

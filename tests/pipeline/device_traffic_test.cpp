@@ -13,9 +13,9 @@ namespace {
 
 /// A GPU with memory of its own.
 const FakeDevice::Variables kCountedGpu{{"ASDF_VK_FAKE_TYPE", "discrete"},
-                                 {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"},
-                                 {"ASDF_VK_FAKE_VENDOR", "0x10de"},
-                                 {"ASDF_VK_FAKE_SUBGROUP_SIZE", "32"}};
+                                        {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"},
+                                        {"ASDF_VK_FAKE_VENDOR", "0x10de"},
+                                        {"ASDF_VK_FAKE_SUBGROUP_SIZE", "32"}};
 
 struct CallCounts {
   uint32_t allocations = 0, descriptorPools = 0, fences = 0, waits = 0, submissions = 0;

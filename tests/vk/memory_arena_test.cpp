@@ -139,7 +139,7 @@ TEST_CASE("copies in pieces are exact for all sizes, and use their memory again"
   const test::CountedMemory counted;
   checkCopy(3 * kPiece + 20);
   checkCopy(4);
-  CHECK(counted.allocationCount() <= 1);  // Of staging memory: the uploads of a piece may or may not have ended.
+  CHECK(counted.allocationCount() <= 1);  // For staging memory, if an earlier upload has not ended.
 }
 
 TEST_CASE("items are written once, directly or in pieces of whole items, and read back") {

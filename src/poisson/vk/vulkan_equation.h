@@ -39,7 +39,7 @@ struct VulkanGraph {
   Buffer arcOffsets, weights;
 
  private:
-  // Of the kernels that make the rows; the constructor does not wait for them.
+  // The kernels that make the rows use these; the constructor does not wait for them.
   BindingSet diagonalBindings_, rowBindings_;
   CommandList commands_;  // Destroyed first; its destructor waits.
 };
