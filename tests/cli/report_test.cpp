@@ -362,7 +362,7 @@ TEST_CASE("the report on a device as JSON has the device, the defaults and each 
   CHECK_EQ(json.at("device").at("kind"), "discrete GPU");
   CHECK_EQ(json.at("device").at("apiVersion"), "1.3.230");
   CHECK_EQ(json.at("device").at("subgroupSize"), 64);
-  CHECK_EQ(json.at("defaults").at("variant").at("kernel"), "ray");
+  CHECK_EQ(json.at("defaults").at("variant").at("kernel"), "seed");
   CHECK_EQ(json.at("defaults").at("variant").at("fetch"), "storage");
   CHECK_EQ(json.at("fastest"), json.at("tracers").at(0));
   const nlohmann::json& tracers = json.at("tracers");

@@ -186,16 +186,22 @@ TEST_CASE("a mesh that exceeds the memory of the device leaves the device to lat
     CHECK(test::haveSameBits(result.sdf(), values));
     CHECK(session.backend() == "vulkan");
   };
-  for (int i = 0; i < 2; ++i) {
-    {
-      const FullDevice full;
-      check(scene.compute(test::tenthOfFaces()), true, expected.replaced[0]);
-    }
+  const auto checkOnDevice = [&] {
     Options options = test::tenthOfFaces();
     options.solver = SolverChoice::Cg;
     check(session.compute(expected.meshes[1], options), false, expected.onDevice[1]);
     check(scene.compute(test::tenthOfFaces()), false, expected.onDevice[0]);
+  };
+  {
+    const FullDevice full;
+    check(scene.compute(test::tenthOfFaces()), true, expected.replaced[0]);
   }
+  checkOnDevice();
+  const Mesh large = makeTorus(300'000).mesh;  // The memory of the smaller meshes does not suffice.
+  Session next({.backend = kNext});
+  const FullDevice full;
+  check(session.compute(large, test::tenthOfFaces()), true, next.compute(large, test::tenthOfFaces()).sdf());
+  checkOnDevice();
 }
 
 TEST_CASE("where one allocation fails, a buffer is in other memory and nothing else changes") {

@@ -114,7 +114,8 @@ TEST_CASE("iterations with one reduction give the vectors of the textbook, on th
   };
   for (uint32_t iterationCount : {1u, 2u, 5u}) {
     CAPTURE(iterationCount);
-    VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, b), 0);
+    const Buffer start = vectorOn(*device, b);
+    VulkanCg onDevice(*device, kernels, matrix, start, 0);
     compare(onDevice, iterationCount);
     CpuCg onCpu(scaled, b, 0);
     compare(onCpu, iterationCount);
@@ -151,8 +152,8 @@ TEST_CASE("iterations after convergence change nothing, for any batches") {
     }
     CHECK(copyOf(atOnce.direction()) == copyOf(stepwise.direction()));
   };
-  VulkanCg atOnce(*device, kernels, matrix, vectorOn(*device, b), 1e-3),
-      stepwise(*device, kernels, matrix, vectorOn(*device, b), 1e-3);
+  const Buffer start = vectorOn(*device, b);
+  VulkanCg atOnce(*device, kernels, matrix, start, 1e-3), stepwise(*device, kernels, matrix, start, 1e-3);
   CHECK(atOnce.workgroupCount() == matrix.grid.workgroupCount);
   compare(atOnce, stepwise);
   CHECK(atOnce.workgroupCount() == 0);
@@ -174,7 +175,8 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
     CHECK(state.iterationCount == 1);
     CHECK(copyOf(cg.solution()) == std::vector<float>{1});
   };
-  VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{1}), 0);
+  const Buffer start = vectorOn(*device, std::vector<float>{1});
+  VulkanCg onDevice(*device, kernels, matrix, start, 0);
   check(onDevice);
   CpuCg onCpu(scaled, {1}, 0);
   check(onCpu);
@@ -196,7 +198,8 @@ TEST_CASE("a product that is not positive ends the iteration as a breakdown") {
     }
     CHECK(copyOf(cg.solution()) == std::vector<float>{0, 0});
   };
-  VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{1, 1}), 1e-3);
+  const Buffer start = vectorOn(*device, std::vector<float>{1, 1});
+  VulkanCg onDevice(*device, kernels, matrix, start, 1e-3);
   check(onDevice);
   CHECK(onDevice.workgroupCount() == 0);
   CpuCg onCpu(scaled, {1, 1}, 1e-3);
@@ -211,7 +214,8 @@ TEST_CASE("a right-hand side that is not a number ends the iteration as a breakd
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix = matrixOn(*device, scaled);
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{nan, 1}), 1e-3);
+  const Buffer start = vectorOn(*device, std::vector<float>{nan, 1});
+  VulkanCg onDevice(*device, kernels, matrix, start, 1e-3);
   CHECK(onDevice.advance(10).status == kCgBrokenDown);
   CpuCg onCpu(scaled, {nan, 1}, 1e-3);
   CHECK(onCpu.advance(10).status == kCgBrokenDown);

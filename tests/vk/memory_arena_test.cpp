@@ -68,8 +68,7 @@ TEST_CASE("idle blocks are bounded: few on a CPU device, whose memory is that of
     }
     return device.memory().idleByteCount();
   };
-  const test::ValidatedDevice cpu;
-  REQUIRE((cpu->facts().kind == DeviceKind::Cpu));
+  const auto cpu = test::ValidatedDevice::changed([](DeviceFacts& facts) { facts.kind = DeviceKind::Cpu; });
   CHECK(idleAfter(*cpu, 3 << 20) == 15 << 20);
   const auto gpu = test::ValidatedDevice::changed([](DeviceFacts& facts) { facts.kind = DeviceKind::Discrete; });
   const uint64_t idle = idleAfter(*gpu, 200 << 20);
