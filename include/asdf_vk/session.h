@@ -98,8 +98,9 @@ struct DeviceInfo {
 
 enum class SessionOpening {
   Now,
-  /// A thread opens the device while the first computation prepares its mesh. The constructor succeeds. The functions
-  /// that need the device wait, and throw the errors that the constructor throws otherwise.
+  /// If a Vulkan device may be used, a thread opens it while the first computation prepares its mesh. Then the
+  /// functions that need the device wait, and throw the errors that the constructor throws otherwise. The destructor
+  /// waits, too.
   InThread,
 };
 
@@ -114,7 +115,8 @@ class ASDFVK_API Session {
 
   /// Whether requireOpen() would neither wait nor throw.
   [[nodiscard]] bool isOpen() const;
-  /// Waits until the device is open. Throws the errors of the constructor. So do the following three functions.
+  /// Waits until the device is open. Throws the errors of the constructor. The following three functions also wait and
+  /// throw these errors.
   void requireOpen() const;
   /// First line: the chosen device and the reason. Each further line: a device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;

@@ -330,7 +330,7 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
     loaded = loadMesh(input, settings.reading, false, deadline.token());
   const MeshRun run =
       computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
-  if (!run.failure || run.failure->code != ExitCode::Cancelled) {
+  if (!deadline.token().stop_requested()) {
     try {
       session->requireOpen();
     } catch (...) {

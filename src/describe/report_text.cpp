@@ -167,6 +167,21 @@ std::string deviceTimeRow(const DeviceTimes& times) {
   return row;
 }
 
+/// On a GPU, a hint if rays from all faces would take less time than seeds and interpolation took; else empty.
+std::string allSeedsRow(const Report& report, OptionSpelling spelling) {
+  if (!report.deviceTimes || report.runsOnCpu || report.seedCount == 0 || report.seedCount >= report.triangleCount)
+    return {};
+  const double ofAll = report.deviceTimes->kernels[Stage::Trace] * static_cast<double>(report.triangleCount) /
+                       static_cast<double>(report.seedCount);
+  double spent = 0;
+  for (const Stage stage : {Stage::Sample, Stage::Trace, Stage::Predict, Stage::Solve, Stage::Estimate})
+    spent += report.stageSeconds[stage];
+  if (ofAll >= spent) return {};
+  const std::string option = withSpelledOptions("{seeds=all}", spelling);
+  return fmt::format("{} would trace for about {:.2g} s here, instead of {:.2g} s for seeds and interpolation", option,
+                     ofAll, spent);
+}
+
 /// The rows of the full report without the lists of thin regions. Titles are capitalised. A row that continues another
 /// row is appended to that row.
 ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spelling) {
@@ -174,7 +189,7 @@ ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spe
   constexpr std::array kListed{"walls", "gaps", "details", "edges"};
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
-    if (!showsTimes && (title == "time" || title == "rate" || title == "on device")) continue;
+    if (!showsTimes && (title == "time" || title == "rate" || title == "on device" || title == "faster")) continue;
     if (title == "device" && report.backend != nameOf(kBackendNames, BackendChoice::Vulkan))
       continue;  // The name of a CPU has the number of threads.
     if (!title.empty()) isThinRow = std::find(kListed.begin(), kListed.end(), title) != kListed.end();
@@ -273,6 +288,7 @@ ReportRows reportRows(const Report& report, OptionSpelling spelling) {
     rows.emplace_back("rate", fmt::format("{:.3g} million rays per second", report.raysPerSecond / 1e6));
   rows.emplace_back("time", timeRow(report.stageSeconds));
   if (report.deviceTimes && hasDiameter) rows.emplace_back("on device", deviceTimeRow(*report.deviceTimes));
+  if (const std::string hint = allSeedsRow(report, spelling); !hint.empty()) rows.emplace_back("faster", hint);
   return rows;
 }
 

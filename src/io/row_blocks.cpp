@@ -9,7 +9,8 @@
 namespace asdfvk {
 namespace {
 
-// A block of a usual PLY has 200 KiB: it fits into the cache of a processor, and costs far more time than a task.
+// A block of a usual PLY has 200 KiB: it fits into the cache of a processor, and takes far longer than the overhead of
+// a task.
 constexpr uint64_t kRowsPerBlock = 8192;
 
 }  // namespace

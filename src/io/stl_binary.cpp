@@ -210,8 +210,8 @@ std::vector<StlBlock> weldedBlocks(const char* at, const StlLayout& layout, std:
   return blocks;
 }
 
-/// Welds the points of all blocks, and lets the faces have the indices of the returned points. These ascend in the
-/// order of first appearance, as by one CornerWelder.
+/// Welds the points of all blocks, and replaces the corners of the faces by indices of the returned points. These
+/// ascend in the order of first appearance, as by one CornerWelder.
 std::vector<Vec3d> joinedPoints(std::span<const StlBlock> blocks) {
   UnsetVector<Vec3d> all(blocks.back().firstPoint + blocks.back().points.size());
   forEachTask(blocks.size(), [&](size_t i) {

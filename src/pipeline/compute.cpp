@@ -261,7 +261,7 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
   const FaceDomain domain = part != nullptr ? part->domain() : wholeMesh(prepared);
   const InputFaceSet region = part != nullptr ? part->inputFaces() : InputFaceSet();
   const bool isLast = tracers == nullptr;
-  if (backend.isOpen()) backend->requireSolver(requested->solver);  // The backend may have changed.
+  if (backend.isDecided()) (void)backend.openFor(requested->solver, control.stop);  // The backend may have changed.
   Options options = withAllSeeds(*requested, domain);
   for (std::optional<LengthLimit>* const limit :
        {&options.thickness.thinnerThan, &options.thickness.thickerThan, &options.thickness.closerThan})

@@ -9,8 +9,8 @@
 namespace asdfvk {
 
 /// While such objects exist, lavapipe creates devices with the number of threads that ThreadLimit allows for the first
-/// of them, if this number is below the default. The first and the last object write the environment: they are created
-/// and destroyed in a thread beside which no other thread reads it.
+/// of them, if this number is below the default. The first and the last object write the environment, which no other
+/// thread should read meanwhile. A session creates and destroys them in the thread of its caller.
 class LavapipeThreads {
  public:
   LavapipeThreads() {

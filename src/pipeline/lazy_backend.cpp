@@ -1,6 +1,7 @@
 #include "pipeline/lazy_backend.h"
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <system_error>
 #include <utility>
@@ -36,7 +37,8 @@ LazyBackend::LazyBackend(const SessionOptions& options, SessionOpening opening) 
   work_ = callInThread([this] { opened_ = openBackend(options_); });
 }
 
-bool LazyBackend::isOpen() const { return isReady(work_) && opened_.backend != nullptr; }
+bool LazyBackend::isDecided() const { return isReady(work_); }
+bool LazyBackend::isOpen() const { return isDecided() && opened_.backend != nullptr; }
 
 NamedBackend& LazyBackend::open(const std::stop_token& stop) {
   if (work_.valid()) {
@@ -44,8 +46,13 @@ NamedBackend& LazyBackend::open(const std::stop_token& stop) {
       if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     lavapipeThreads_.reset();
     work_.get();
+    work_ = {};
   }
   return opened_;
+}
+
+void LazyBackend::finish() noexcept {
+  if (work_.valid()) work_.wait();
 }
 
 Backend& LazyBackend::openFor(SolverChoice solver, const std::stop_token& stop) {
@@ -78,7 +85,7 @@ void LazyBackend::prepare(const KernelNeeds& needs) {
     try {
       opened_.backend->prepare(needs);
       if (needs.solves) (void)solver(opened_.backend->solverFor(needs.solver));
-    } catch (const Error&) {
+    } catch (const std::exception&) {
     }
   });
 }

@@ -12,8 +12,9 @@
 
 namespace asdfvk {
 
-/// The backend of a session with its solvers. A thread may open the backend, and makes the kernels of a computation,
-/// while the caller prepares the mesh. Not thread-safe: only the functions of the device run in the thread.
+/// The backend of a session with its solvers. A thread opens the backend (SessionOpening::InThread) and makes the
+/// kernels of a computation while the caller prepares the mesh. Not thread-safe: the thread uses only the backend and
+/// the solvers.
 class LazyBackend {
  public:
   /// SessionOpening::Now throws the errors of openBackend(); with SessionOpening::InThread, open() throws them.
@@ -25,10 +26,14 @@ class LazyBackend {
   LazyBackend(const LazyBackend&) = delete;
   LazyBackend& operator=(const LazyBackend&) = delete;
 
+  /// Whether open() would not wait.
+  [[nodiscard]] bool isDecided() const;
   /// Whether open() would neither wait nor throw.
   [[nodiscard]] bool isOpen() const;
   /// Waits for the thread. Throws the errors of openBackend(), the same at each call; Error{Cancelled}.
   NamedBackend& open(const std::stop_token& stop = {});
+  /// Waits for the thread, also if it fails.
+  void finish() noexcept;
   /// The open backend, which can run a solver. Throws the errors of open() and of Backend::requireSolver().
   Backend& openFor(SolverChoice solver, const std::stop_token& stop);
   [[nodiscard]] Backend& operator*() { return *open().backend; }
@@ -42,7 +47,7 @@ class LazyBackend {
   /// Backend::deviceSeconds() when isOpen() was last true; without timestamps 0.
   [[nodiscard]] DeviceSeconds deviceSeconds();
 
-  /// Makes kernels and solvers in the thread. A failure has no effect here: the computation makes them again.
+  /// Makes kernels and solvers in the thread. After a failure, the computation makes them again.
   void prepare(const KernelNeeds& needs);
   /// The solver of a choice, which is created at its first use. Throws the errors of Backend::makeSolver().
   [[nodiscard]] PoissonSolver& solver(SolverChoice choice);

@@ -113,6 +113,8 @@ struct Scene::State {
     scene->requireHierarchy(session.backend->open(control.stop).backend->bvhOptions(), clock, control);
   }
 
+  ~State() { session.backend->finish(); }  // The thread of a cancelled computation may still use the device.
+
   /// Tracers of the backend that the session has now.
   KeptTracers& tracers() {
     Backend& backend = **session.backend;

@@ -23,8 +23,8 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
 }
 
 Result Session::compute(const MeshView& mesh, const CheckedOptions& options, const RunControl& control) {
-  if (state_->backend->isOpen())
-    state_->backend->open().backend->requireSolver(options->solver);  // Fails before the mesh is prepared.
+  // Fails before the mesh is prepared if possible.
+  if (state_->backend->isDecided()) (void)state_->backend->openFor(options->solver, control.stop);
   return state_->compute(!solverNeedsDevice(options->solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);

@@ -36,7 +36,7 @@ class StageClock {
   /// While it exists, the clock adds the time of a device to the stages in which it passes.
   class DeviceWatch {
    public:
-    /// now(): the time of the device since any moment.
+    /// now(): the time of the device since a fixed moment.
     DeviceWatch(StageClock& clock, std::function<DeviceSeconds()> now, DeviceTimes& times) : clock_(clock) {
       clock_.deviceNow_ = std::move(now);
       clock_.deviceTimes_ = &times;

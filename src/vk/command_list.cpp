@@ -125,7 +125,8 @@ void CommandList::wait() {
 
 void CommandList::finish() noexcept {
   if (!isPending_) return;
-  if (!hasEnded()) (void)vkWaitForFences(device_.handle(), 1, &objects_.fence, VK_TRUE, UINT64_MAX);
+  if (hasEnded() || vkWaitForFences(device_.handle(), 1, &objects_.fence, VK_TRUE, UINT64_MAX) == VK_SUCCESS)
+    addSeconds();
   isPending_ = false;
   (void)vkResetFences(device_.handle(), 1, &objects_.fence);
 }

@@ -170,7 +170,7 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
   uploads_ = std::make_unique<UploadQueue>(*this);
 }
 
-Device::~Device() = default;
+Device::~Device() { uploads_->finishAll(); }
 
 std::optional<uint32_t> Device::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
   // Memory with these properties needs a feature that is not enabled, or is for other resources.

@@ -5,12 +5,13 @@
 
 #include "core/huge_pages.h"
 #include "vk/device.h"
+#include "vk/upload_queue.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint64_t kMinBlockByteCount = 8u << 20, kMinBlockByteCountOnCpu = 1u << 20;
-constexpr uint64_t kMaxBlockByteCount = 256u << 20;  // Larger blocks have one buffer.
+constexpr uint64_t kMaxBlockByteCount = 256u << 20;  // A larger block has a buffer of at least half of its size.
 constexpr uint64_t kMinAlignment = 256;
 
 uint64_t roundUpTo(uint64_t alignment, uint64_t value) { return (value + alignment - 1) / alignment * alignment; }
@@ -54,6 +55,7 @@ VkResult MemoryArena::take(const VkMemoryRequirements& needed, std::span<const u
       result = takeOfType(needed, type, range);
       if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) return result;
     }
+    device_.uploads().releaseEnded();
     if (isLastAttempt || idleByteCount() == 0) break;
     clear();
   }
@@ -61,15 +63,17 @@ VkResult MemoryArena::take(const VkMemoryRequirements& needed, std::span<const u
 }
 
 VkResult MemoryArena::takeOfType(const VkMemoryRequirements& needed, uint32_t type, Range& range) {
-  for (const std::unique_ptr<Block>& block : blocks_)
-    if (block->type == type && takeFrom(*block, needed, range)) return VK_SUCCESS;
+  for (const std::unique_ptr<Block>& block : blocks_) {
+    const bool isTooLarge = block->byteCount > kMaxBlockByteCount && block->byteCount / 2 > needed.size;
+    if (block->type == type && !isTooLarge && takeFrom(*block, needed, range)) return VK_SUCCESS;
+  }
   const VkResult result = addBlock(roundUpTo(kMinAlignment, needed.size), type);
   if (result == VK_SUCCESS) (void)takeFrom(*blocks_.back(), needed, range);
   return result;
 }
 
 /// Blocks grow with the memory of their type, so that few are allocated. On a CPU device, where allocations are fast
-/// and the memory is that of the process, a block has no more than what is needed.
+/// and the memory is that of the process, a block has no more than what is needed, but at least 1 MiB.
 VkResult MemoryArena::addBlock(uint64_t needed, uint32_t type) {
   uint64_t count = kMinBlockByteCountOnCpu;
   if (!isCpu(device_)) {

@@ -17,8 +17,7 @@ class Device;
 /// memory.
 class MemoryArena {
  public:
-  /// Greatest memory of blocks without a used range, on devices with separate memory and on CPU devices. Further blocks
-  /// are freed.
+  /// Greatest memory of blocks without a used range, on GPUs and on CPU devices. Further blocks are freed.
   static constexpr uint64_t kMaxIdleByteCount = 512u << 20, kMaxIdleByteCountOnCpu = 16u << 20;
 
   /// The device must outlive the arena.

@@ -24,12 +24,18 @@ struct UploadQueue::Upload {
 
 UploadQueue::UploadQueue(const Device& device) : device_(device) {}
 
-UploadQueue::~UploadQueue() {
+UploadQueue::~UploadQueue() = default;
+
+void UploadQueue::finishAll() noexcept {
   while (!pending_.empty()) takeFirst();
 }
 
+void UploadQueue::releaseEnded() noexcept {
+  while (!pending_.empty() && pending_.front()->commands.hasEnded()) takeFirst();
+}
+
 /// Removes the upload before it is destroyed, because the destructor of its buffer calls finish().
-void UploadQueue::takeFirst() {
+void UploadQueue::takeFirst() noexcept {
   const std::unique_ptr<Upload> first = std::move(pending_.front());
   pending_.pop_front();
   pendingByteCount_ -= first->staging.byteCount();
@@ -37,8 +43,8 @@ void UploadQueue::takeFirst() {
 
 void UploadQueue::add(const Buffer& target, uint64_t offset, uint64_t byteCount,
                       FunctionRef<void(std::span<std::byte>)> write) {
-  while (!pending_.empty() &&
-         (pendingByteCount_ + byteCount > kMaxPendingByteCount || pending_.front()->commands.hasEnded())) {
+  releaseEnded();
+  while (!pending_.empty() && pendingByteCount_ + byteCount > kMaxPendingByteCount) {
     pending_.front()->commands.wait();
     takeFirst();
   }

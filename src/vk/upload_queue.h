@@ -17,7 +17,7 @@ class UploadQueue {
  public:
   /// The device must outlive the queue.
   explicit UploadQueue(const Device& device);
-  /// Waits for all copies.
+  /// Precondition: finishAll() was called.
   ~UploadQueue();
   UploadQueue(const UploadQueue&) = delete;
   UploadQueue& operator=(const UploadQueue&) = delete;
@@ -27,11 +27,15 @@ class UploadQueue {
   void add(const Buffer& target, uint64_t offset, uint64_t byteCount, FunctionRef<void(std::span<std::byte>)> write);
   /// Waits for the copies to a buffer, which may then be destroyed.
   void finish(VkBuffer target) noexcept;
+  /// Frees the staging memory of the copies that have ended.
+  void releaseEnded() noexcept;
+  /// Waits for all copies.
+  void finishAll() noexcept;
 
  private:
   struct Upload;
 
-  void takeFirst();
+  void takeFirst() noexcept;
 
   const Device& device_;
   std::deque<std::unique_ptr<Upload>> pending_;  // In the order of submission, which is that of their ends.

@@ -196,5 +196,17 @@ TEST_CASE("auto opens a device that failed again for the next mesh") {
   CHECK_EQ(second.at("warnings").dump().find("backendReplaced"), std::string::npos);
 }
 
+TEST_CASE("a time limit that ends while the device is opened gives 8, whatever becomes of the device") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  const ScratchFolder folder;
+  const FakeDevice device(FakeDevice::Variables{{"ASDF_VK_FAKE_OPENING_MS", "3000"}});
+  checkFailure(
+      runAsdf({folder.write("sphere.off", sphereOff(20)), "--backend", "vulkan", "--timeout", "0.5", "--quiet"},
+              *lavapipe),
+      8, "took longer than --timeout 0.5");
+  CHECK_EQ(folder.names(), std::vector<std::string>{"sphere.off"});
+}
+
 }  // namespace
 }  // namespace asdfvk::test

@@ -70,6 +70,31 @@ TEST_CASE("the full report begins with the short one, and has seeds, device, sol
            "  output    horse.asdf.ply\n");
 }
 
+TEST_CASE("the full report has the times of the device, and on a GPU a hint where rays from all faces are faster") {
+  const CommandLine line = fullReport();
+  Result result = sampleResult();
+  Report& report = result.report;
+  report.seedCount = 9696;
+  report.stageSeconds[Stage::Trace] = 0.03;
+  report.stageSeconds[Stage::Solve] = 0.08;
+  DeviceTimes& times = report.deviceTimes.emplace();
+  times.kernels[Stage::Trace] = 0.01;
+  times.copies[Stage::Trace] = 0.002;
+  times.raysPerSecond = 29.1e6;
+  const std::string slow = textReport(outcomeOf(line, result));
+  CHECK(holds(slow,
+              "\n  on device kernels 0.01 s, trace 0.01; copies 0.002 s, trace 0.002; 29.1 million rays per second of "
+              "kernels\n"));
+  CHECK(holds(slow,
+              "\n  faster    --seeds all would trace for about 0.1 s here, instead of 0.11 s for seeds and "
+              "interpolation\n"));
+  report.stageSeconds[Stage::Solve] = 0.06;
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "faster"));
+  report.stageSeconds[Stage::Solve] = 1;
+  report.runsOnCpu = true;
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "faster"));
+}
+
 TEST_CASE("the full report has the areas of parts, the estimate and every exception") {
   const CommandLine line = fullReport();
   Result result = sampleResult();

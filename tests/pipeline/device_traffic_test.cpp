@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 #include <volk.h>
 
+#include <numeric>
+
 #include "asdf_vk/session.h"
 #include "generate/shapes.h"
 #include "support/fake_device.h"
@@ -96,4 +98,24 @@ TEST_CASE("from the second mesh on, a GPU allocates nothing; the host waits for 
       CHECK(counts.waits <= (hasAllSeeds ? 4 : 10));
     }
   }
+}
+
+TEST_CASE("the times of the device are those of its kernels and copies, and less than the time of the stages") {
+  const FakeDevice fake(kCountedGpu);
+  Session session({.backend = BackendChoice::Vulkan});
+  const auto sumOf = [](const StageSeconds& seconds) {
+    return std::accumulate(seconds.seconds.begin(), seconds.seconds.end(), 0.0);
+  };
+  for (int run = 0; run < 2; ++run) {
+    const Report report = session.compute(makeTorus(20'000).mesh, test::tenthOfFaces()).report;
+    REQUIRE(report.deviceTimes);
+    for (const Stage stage : {Stage::Trace, Stage::Predict, Stage::Solve}) {
+      CHECK(report.deviceTimes->kernels[stage] > 0);
+      CHECK(report.deviceTimes->copies[stage] > 0);
+    }
+    CHECK(report.deviceTimes->raysPerSecond > 0);
+    CHECK(sumOf(report.deviceTimes->kernels) + sumOf(report.deviceTimes->copies) < sumOf(report.stageSeconds));
+  }
+  Session cpu({.backend = BackendChoice::Cpu});
+  CHECK_FALSE(cpu.compute(makeTorus(1000).mesh, test::tenthOfFaces()).report.deviceTimes);
 }

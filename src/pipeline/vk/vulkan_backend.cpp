@@ -15,6 +15,7 @@
 #include "trace/vk/vulkan_trace_choice.h"
 #include "trace/vk/vulkan_tracer.h"
 #include "vk/device.h"
+#include "vk/upload_queue.h"
 
 namespace asdfvk {
 namespace {
@@ -64,7 +65,9 @@ class VulkanBackend final : public Backend {
   }
 
   [[nodiscard]] std::optional<DeviceSeconds> deviceSeconds() const override {
-    return facts().timestampBits > 0 ? std::optional(opened_.device->seconds()) : std::nullopt;
+    if (facts().timestampBits == 0) return std::nullopt;
+    opened_.device->uploads().releaseEnded();  // Adds their time.
+    return opened_.device->seconds();
   }
 
   void requireSilentValidation() const override {

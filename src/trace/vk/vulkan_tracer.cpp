@@ -34,7 +34,7 @@ struct VulkanScene final : EncodedScene {
 
 class VulkanTracer final : public ConeTracer {
  public:
-  /// encodeSeconds: those of `encoded`, if the constructor's caller waited for it.
+  /// encodeSeconds: 0 if the scene was encoded before makeVulkanTracer().
   VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone, VulkanScene&& encoded,
                double encodeSeconds)
       : kernel_(kernel),
