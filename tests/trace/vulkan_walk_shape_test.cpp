@@ -73,9 +73,9 @@ TEST_CASE("each arithmetic of nodes gives the values of the reference") {
                                               {"flat box", shapes::box({2, 3, 0.01}, 10)},
                                               {"soup", shapes::soup(2000, 5)},
                                               {"needle", shapes::box({1e-4, 1e-4, 2}, 6)}};
-  for (const auto& [name, mesh] : meshes) {
-    CAPTURE(std::string(name));
-    const TracedMesh traced(mesh);
+  for (const auto& each : meshes) {
+    CAPTURE(each.first);
+    const TracedMesh traced(each.second);
     const TraceResults reference = traceByReference(traced, {}, Wanted::ValuesAndHits);
     const TraceResults masked =
         traceWith(*device, TraceKernel::Seed, {.arithmetic = NodeArithmetic::MaskedBytes}, traced);
