@@ -10,20 +10,31 @@ CommandPool::CommandPool(VkDevice device, const DeviceFacts& facts)
   info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
   info.queueFamilyIndex = facts.computeQueueFamily.value();
   requireSuccess(vkCreateCommandPool(device_, &info, nullptr, &pool_), "creating a command pool");
+  try {
+    idle_.reserve(kFirstCount);
+    while (idle_.size() < kFirstCount) idle_.push_back(make());
+  } catch (...) {
+    destroyAll();
+    throw;
+  }
 }
 
-CommandPool::~CommandPool() {
+CommandPool::~CommandPool() { destroyAll(); }
+
+void CommandPool::destroyAll() noexcept {
   for (const SubmissionObjects& objects : idle_) destroy(objects);
   vkDestroyCommandPool(device_, pool_, nullptr);
 }
 
 SubmissionObjects CommandPool::take() {
+  if (idle_.empty()) return make();
+  const SubmissionObjects objects = idle_.back();
+  idle_.pop_back();
+  return objects;
+}
+
+SubmissionObjects CommandPool::make() {
   SubmissionObjects objects;
-  if (!idle_.empty()) {
-    objects = idle_.back();
-    idle_.pop_back();
-    return objects;
-  }
   try {
     VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocation.commandPool = pool_;

@@ -20,6 +20,9 @@ struct SubmissionObjects {
 /// These objects of a device, which later submissions use again.
 class CommandPool {
  public:
+  /// The constructor makes as many as a computation has in flight, however slow the device is.
+  static constexpr size_t kFirstCount = 16;
+
   /// Throws Error of kind Device.
   CommandPool(VkDevice device, const DeviceFacts& facts);
   ~CommandPool();
@@ -31,7 +34,9 @@ class CommandPool {
   void give(const SubmissionObjects& objects) noexcept;
 
  private:
+  [[nodiscard]] SubmissionObjects make();
   void destroy(const SubmissionObjects& objects) noexcept;
+  void destroyAll() noexcept;
 
   VkDevice device_;
   bool hasTimestamps_;

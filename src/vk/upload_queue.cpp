@@ -7,7 +7,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint64_t kMaxPendingByteCount = 8 * kMaxPieceByteCount;
+constexpr size_t kMaxPendingCount = 8;
 
 }  // namespace
 
@@ -38,13 +38,12 @@ void UploadQueue::releaseEnded() noexcept {
 void UploadQueue::takeFirst() noexcept {
   const std::unique_ptr<Upload> first = std::move(pending_.front());
   pending_.pop_front();
-  pendingByteCount_ -= first->staging.byteCount();
 }
 
 void UploadQueue::add(const Buffer& target, uint64_t offset, uint64_t byteCount,
                       FunctionRef<void(std::span<std::byte>)> write) {
   releaseEnded();
-  while (!pending_.empty() && pendingByteCount_ + byteCount > kMaxPendingByteCount) {
+  if (pending_.size() == kMaxPendingCount) {
     pending_.front()->commands.wait();
     takeFirst();
   }
@@ -54,7 +53,6 @@ void UploadQueue::add(const Buffer& target, uint64_t offset, uint64_t byteCount,
   upload->commands.copy(upload->staging, 0, target, offset, byteCount);
   upload->commands.barrier();
   upload->commands.submit();
-  pendingByteCount_ += byteCount;
   pending_.push_back(std::move(upload));
 }
 

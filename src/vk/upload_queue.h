@@ -39,7 +39,6 @@ class UploadQueue {
 
   const Device& device_;
   std::deque<std::unique_ptr<Upload>> pending_;  // In the order of submission, which is that of their ends.
-  uint64_t pendingByteCount_ = 0;
 };
 
 }  // namespace asdfvk
