@@ -190,7 +190,7 @@ class ConstantBackend final : public Backend {
 
   [[nodiscard]] std::string deviceName() const override { return facts().name + ", driver " + facts().driver; }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
-  [[nodiscard]] bool runsOnCpu() const override { return facts().kind == DeviceKind::Cpu; }
+  [[nodiscard]] bool runsOnCpu() const override { return facts().isCpu(); }
   [[nodiscard]] std::optional<TraceVariant> traceVariant() const override {
     return defaultTraceChoice(facts()).variant();
   }

@@ -215,8 +215,8 @@ enum class BvhFetch {
 /// Variant of the Vulkan kernels. All variants compute the same values.
 struct TraceVariant {
   std::optional<TraceKernel> kernel;  ///< Assignment of rays to lanes; unset in options: the default of the device.
-  std::optional<BvhFetch>
-      fetch;  ///< Kind of buffers that the kernels read; unset in options: the default of the device.
+  /// Kind of buffers that the kernels read; unset in options: the default of the device.
+  std::optional<BvhFetch> fetch;
 };
 
 /// Times of a Vulkan device, by its own clock.

@@ -41,8 +41,9 @@ inline constexpr uint32_t kMaxLeafTriangleCount = 8;
 struct BvhOptions {
   /// 1 to kMaxLeafTriangleCount.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
-  bool operator==(const BvhOptions&) const = default;
   uint32_t binCount = 16;  ///< Bins per axis, 2 to 32. Small sets of triangles use fewer bins.
+
+  bool operator==(const BvhOptions&) const = default;
 };
 
 /// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.

@@ -177,9 +177,8 @@ class PlyBinarySource {
     return value;
   }
 
-  /// Calls read(index, row) in parallel for rows that each have the same number of bytes in lists. Takes the rows
-  /// before the first row for which read() returns false, and returns their number. May also call read() for later
-  /// rows.
+  /// Calls read(index, row) in parallel, for rows of which each has listBytes bytes in lists. Takes the rows before the
+  /// first row for which read() returns false, and returns their number. May also call read() for later rows.
   template <typename Read>
   uint64_t takeRows(const PlyElement& element, uint64_t listBytes, const Read& read) {
     const uint64_t rowSize = element.rowSize + listBytes;

@@ -17,7 +17,7 @@ constexpr uint64_t kRowsPerBlock = 8192;
 
 void writeRowBlocks(AtomicFile& file, uint64_t rowCount, FunctionRef<void(ByteBuffer&, uint64_t, uint64_t)> putRows) {
   const size_t blockCount = (rowCount + kRowsPerBlock - 1) / kRowsPerBlock;
-  // One block per thread is made while another block per thread waits until the blocks before it are written.
+  // One block per thread is made while another block per thread waits until the preceding blocks are written.
   std::vector<ByteBuffer> blocks(std::min(2 * threadLimit(), blockCount));
   forEachInOrder(
       blockCount, blocks.size(),

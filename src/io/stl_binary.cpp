@@ -181,7 +181,7 @@ std::optional<StlLayout> findStlLayout(std::span<const char> bytes) {
 struct StlBlock {
   std::span<Face> faces;
   std::vector<Vec3d> points;
-  size_t firstPoint = 0;  ///< Number of points of the blocks before.
+  size_t firstPoint = 0;  ///< Number of points of the preceding blocks.
 };
 
 /// Reads and welds blocks of faces. triangles: receives all faces.

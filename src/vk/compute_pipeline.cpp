@@ -11,6 +11,21 @@
 
 namespace asdfvk {
 
+namespace {
+
+/// Returns the handle of the device.
+VkDevice requireStorageBuffers(const Device& device, const ComputePipelineDescription& description) {
+  const auto count =
+      std::count(description.bindings.begin(), description.bindings.end(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  if (count > device.facts().maxStorageBuffersPerStage)
+    throw Error(ErrorCode::DeviceLimit,
+                fmt::format("{} needs {} storage buffers and {} has {}", description.name, count, device.facts().name,
+                            device.facts().maxStorageBuffersPerStage));
+  return device.handle();
+}
+
+}  // namespace
+
 std::vector<VkSpecializationMapEntry> specializationEntries(std::span<const SpecializationConstant> constants) {
   std::vector<VkSpecializationMapEntry> entries;
   for (size_t i = 0; i < constants.size(); ++i) {
@@ -21,12 +36,10 @@ std::vector<VkSpecializationMapEntry> specializationEntries(std::span<const Spec
 }
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDescription& description)
-    : device_(device.handle()), bindings_(description.bindings) {
-  const auto storageBufferCount = std::count(bindings_.begin(), bindings_.end(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  if (storageBufferCount > device.facts().maxStorageBuffersPerStage)
-    throw Error(ErrorCode::DeviceLimit,
-                fmt::format("{} needs {} storage buffers and {} has {}", description.name, storageBufferCount,
-                            device.facts().name, device.facts().maxStorageBuffersPerStage));
+    : ComputePipeline(requireStorageBuffers(device, description), description) {}
+
+ComputePipeline::ComputePipeline(VkDevice device, const ComputePipelineDescription& description)
+    : device_(device), bindings_(description.bindings) {
   VkShaderModule module = VK_NULL_HANDLE;
   try {
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
@@ -56,6 +69,7 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDesc
         description.specializationConstants.size() * sizeof(SpecializationConstant),
         description.specializationConstants.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.flags = description.flags;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;

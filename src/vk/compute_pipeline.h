@@ -29,11 +29,14 @@ struct ComputePipelineDescription {
   std::vector<SpecializationConstant> specializationConstants;  ///< Ids that the shader lacks have no effect.
   /// Lanes per subgroup; 0: chosen by the driver. See canRequireSubgroupSize().
   uint32_t requiredSubgroupSize = 0;
+  VkPipelineCreateFlags flags = 0;
 };
 
 class ComputePipeline {
  public:
+  /// Throws Error{DeviceLimit} if the device has too few storage buffers.
   ComputePipeline(const Device& device, const ComputePipelineDescription& description);
+  ComputePipeline(VkDevice device, const ComputePipelineDescription& description);
   ~ComputePipeline();
   ComputePipeline(const ComputePipeline&) = delete;
   ComputePipeline& operator=(const ComputePipeline&) = delete;

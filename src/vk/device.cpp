@@ -52,7 +52,8 @@ constexpr const char* kSubgroupSizeControl = VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENS
 bool requiresSubgroupSizes(const DeviceFacts& device) { return device.maxRequiredSubgroupSize > 0; }
 
 std::vector<const char*> extensionsFor(VkPhysicalDevice physical, const DeviceFacts& facts) {
-  constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";  // Must be enabled where it exists.
+  // A device that has this extension must be opened with it.
+  constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
   std::vector<const char*> names;
   if (hasExtension(physical, kPortabilitySubset)) names.push_back(kPortabilitySubset);
   if (requiresSubgroupSizes(facts)) names.push_back(kSubgroupSizeControl);

@@ -38,7 +38,7 @@ std::string refusal(const DeviceFacts& device, uint32_t index, size_t deviceCoun
     return fmt::format("supports Vulkan {}.{} only, 1.2 is needed; update its driver", (device.apiVersion >> 22) & 0x7f,
                        (device.apiVersion >> 12) & 0x3ff);
   if (!device.computeQueueFamily) return "has no queue for compute work";
-  if (request.requireGpu && device.kind == DeviceKind::Cpu) return "is a CPU device and a GPU was required";
+  if (request.requireGpu && device.isCpu()) return "is a CPU device and a GPU was required";
   return {};
 }
 
@@ -62,8 +62,7 @@ bool llvmpipeEndsLongLoops(std::string_view driverInfo) {
 
 bool prefersTexels(const DeviceFacts& device) {
   constexpr uint64_t kTexelByteCount = 16;
-  return device.kind == DeviceKind::Cpu &&
-         device.maxTexelBufferElements >= device.maxStorageBufferRange / kTexelByteCount;
+  return device.isCpu() && device.maxTexelBufferElements >= device.maxStorageBufferRange / kTexelByteCount;
 }
 
 DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request) {

@@ -37,6 +37,8 @@ struct DeviceFacts {
   double secondsPerTimestamp = 0;
   bool mapsDeviceMemory = true;  ///< False imitates a device with separate memory, for tests.
   bool endsLongLoops = false;    ///< Loops of kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
+
+  [[nodiscard]] bool isCpu() const { return kind == DeviceKind::Cpu; }
 };
 
 /// Whether a compute pipeline can require subgroups of this size.

@@ -16,8 +16,6 @@ constexpr uint64_t kMinAlignment = 256;
 
 uint64_t roundUpTo(uint64_t alignment, uint64_t value) { return (value + alignment - 1) / alignment * alignment; }
 
-bool isCpu(const Device& device) { return device.facts().kind == DeviceKind::Cpu; }
-
 }  // namespace
 
 MemoryArena::Block::Block(const Device& on, uint64_t count, uint32_t memoryType)
@@ -33,7 +31,7 @@ MemoryArena::Block::Block(const Device& on, uint64_t count, uint32_t memoryType)
   allocated = vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &pointer);
   mapped = static_cast<std::byte*>(pointer);
   // A CPU device uses memory of the process, which its driver allocates in small pages.
-  if (allocated == VK_SUCCESS && isCpu(on)) requestHugePages(pointer, byteCount);
+  if (allocated == VK_SUCCESS && on.facts().isCpu()) requestHugePages(pointer, byteCount);
 }
 
 MemoryArena::Block::~Block() { vkFreeMemory(device, memory, nullptr); }
@@ -76,7 +74,7 @@ VkResult MemoryArena::takeOfType(const VkMemoryRequirements& needed, uint32_t ty
 /// and the memory is that of the process, a block has no more than what is needed, but at least 1 MiB.
 VkResult MemoryArena::addBlock(uint64_t needed, uint32_t type) {
   uint64_t count = kMinBlockByteCountOnCpu;
-  if (!isCpu(device_)) {
+  if (!device_.facts().isCpu()) {
     uint64_t ofType = kMinBlockByteCount;
     for (const std::unique_ptr<Block>& block : blocks_) ofType += block->type == type ? block->byteCount : 0;
     count = std::min(ofType, kMaxBlockByteCount);
@@ -123,7 +121,7 @@ void MemoryArena::give(const Range& range) noexcept {
       last->second += given->second;
       free.erase(given);
     }
-  const uint64_t maxIdle = isCpu(device_) ? kMaxIdleByteCountOnCpu : kMaxIdleByteCount;
+  const uint64_t maxIdle = device_.facts().isCpu() ? kMaxIdleByteCountOnCpu : kMaxIdleByteCount;
   if (range.block->isIdle() && idleByteCount() > maxIdle)
     std::erase_if(blocks_, [&](const std::unique_ptr<Block>& block) { return block.get() == range.block; });
 }

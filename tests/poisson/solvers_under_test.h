@@ -39,7 +39,7 @@ class SolversUnderTest {
   [[nodiscard]] auto begin() { return solvers_.begin(); }
   [[nodiscard]] auto end() { return solvers_.end(); }
   /// The order of the sums, which depends on the lanes of the device, decides whether float32 breaks down.
-  [[nodiscard]] bool sumsAsTheCpu() const { return device_->facts().kind == DeviceKind::Cpu; }
+  [[nodiscard]] bool sumsAsTheCpu() const { return device_->facts().isCpu(); }
 
  private:
   test::ValidatedDevice device_;

@@ -100,54 +100,10 @@ int RadvCompiler::majorVersion() const {
   return std::sscanf(facts_.driver.c_str(), "radv Mesa %d", &major) == 1 ? major : 0;
 }
 
-RadvKernel RadvCompiler::compile(const ComputePipelineDescription& description) const {
-  std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (uint32_t i = 0; i < description.bindings.size(); ++i)
-    bindings.push_back({i, description.bindings[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-  VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-  setInfo.bindingCount = static_cast<uint32_t>(bindings.size());
-  setInfo.pBindings = bindings.data();
-  VkDescriptorSetLayout set = VK_NULL_HANDLE;
-  requireSuccess(vkCreateDescriptorSetLayout(device_, &setInfo, nullptr, &set), description.name);
-  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, description.pushConstantByteCount};
-  VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-  layoutInfo.setLayoutCount = 1;
-  layoutInfo.pSetLayouts = &set;
-  layoutInfo.pushConstantRangeCount = 1;
-  layoutInfo.pPushConstantRanges = &range;
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  requireSuccess(vkCreatePipelineLayout(device_, &layoutInfo, nullptr, &layout), description.name);
-  VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  moduleInfo.codeSize = description.spirv.size_bytes();
-  moduleInfo.pCode = description.spirv.data();
-  VkShaderModule module = VK_NULL_HANDLE;
-  requireSuccess(vkCreateShaderModule(device_, &moduleInfo, nullptr, &module), description.name);
-
-  const std::vector<VkSpecializationMapEntry> entries = specializationEntries(description.specializationConstants);
-  const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
-                                            description.specializationConstants.size() * sizeof(SpecializationConstant),
-                                            description.specializationConstants.data()};
-  VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  info.flags =
+RadvKernel RadvCompiler::compile(ComputePipelineDescription description) const {
+  description.flags =
       VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR | VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
-  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = module;
-  info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &specialization;
-  VkPipelineShaderStageRequiredSubgroupSizeCreateInfoEXT subgroups{
-      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT};
-  subgroups.requiredSubgroupSize = description.requiredSubgroupSize;
-  if (description.requiredSubgroupSize > 0) info.stage.pNext = &subgroups;
-  info.layout = layout;
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  requireSuccess(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), description.name);
-  RadvKernel kernel = describe(pipeline);
-  vkDestroyPipeline(device_, pipeline, nullptr);
-  vkDestroyShaderModule(device_, module, nullptr);
-  vkDestroyPipelineLayout(device_, layout, nullptr);
-  vkDestroyDescriptorSetLayout(device_, set, nullptr);
-  return kernel;
+  return describe(ComputePipeline(device_, description).handle());
 }
 
 RadvKernel RadvCompiler::describe(VkPipeline pipeline) const {

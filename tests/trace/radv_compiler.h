@@ -34,7 +34,7 @@ class RadvCompiler {
   /// Major version of Mesa; 0 if the driver reports none.
   [[nodiscard]] int majorVersion() const;
 
-  [[nodiscard]] RadvKernel compile(const ComputePipelineDescription& description) const;
+  [[nodiscard]] RadvKernel compile(ComputePipelineDescription description) const;
 
  private:
   [[nodiscard]] RadvKernel describe(VkPipeline pipeline) const;

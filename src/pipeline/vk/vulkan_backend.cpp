@@ -32,7 +32,7 @@ class VulkanBackend final : public Backend {
     return fmt::format("{}, driver {}", facts().name, facts().driver);
   }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
-  [[nodiscard]] bool runsOnCpu() const override { return facts().kind == DeviceKind::Cpu; }
+  [[nodiscard]] bool runsOnCpu() const override { return facts().isCpu(); }
   [[nodiscard]] std::optional<TraceVariant> traceVariant() const override { return choice_.variant(); }
   [[nodiscard]] BvhOptions bvhOptions() const override { return {.maxLeafTriangleCount = kMaxWideLeafTriangleCount}; }
   [[nodiscard]] bool hasDevice() const override { return true; }

@@ -40,7 +40,7 @@ class VulkanCgSolver final : public VulkanSolver {
   [[nodiscard]] DevicePassResult solve(const DevicePass& pass) const override {
     VulkanCg cg(device(), kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
     CgState state{};
-    uint32_t batch = device().facts().kind == DeviceKind::Cpu ? kFirstBatchOnCpu : kFirstBatch;
+    uint32_t batch = device().facts().isCpu() ? kFirstBatchOnCpu : kFirstBatch;
     for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.maxIterations;) {
       const Stopwatch stopwatch;
       const uint32_t iterationCount = std::min(batch, pass.maxIterations - recorded);

@@ -22,15 +22,13 @@ constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
 // A tenth of the limit is a margin for loops that the compiler adds.
 constexpr uint64_t kMaxKernelIterationCount = kMaxLoopIterationCount / 10 * 9;
 
-uint32_t minRowsPerLane(const DeviceFacts& facts) {
-  return facts.kind == DeviceKind::Cpu ? kCpuRowsPerLane : kGpuRowsPerLane;
-}
+uint32_t minRowsPerLane(const DeviceFacts& facts) { return facts.isCpu() ? kCpuRowsPerLane : kGpuRowsPerLane; }
 
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
 /// Lanes per workgroup on this device: kLaneCount in the shaders.
 uint32_t laneCountOn(const DeviceFacts& facts) {
-  const uint32_t wanted = facts.kind == DeviceKind::Cpu ? kCpuLaneCount : kGpuLaneCount;
+  const uint32_t wanted = facts.isCpu() ? kCpuLaneCount : kGpuLaneCount;
   return std::bit_floor(std::min({wanted, facts.maxWorkgroupInvocations, facts.maxWorkgroupSize}));
 }
 

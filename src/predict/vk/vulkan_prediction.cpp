@@ -165,7 +165,7 @@ class VulkanPredictor final : public DevicePredictor {
 
   void predictBatches(const PredictionInput& input, PredictionBatches& batches, const RunControl& control) {
     reserve(input);
-    const bool isCpu = kernels_.device().facts().kind == DeviceKind::Cpu;
+    const bool isCpu = kernels_.device().facts().isCpu();
     const size_t firstRayCount = isCpu ? kFirstBatchRayCountOnCpu : kFirstBatchRayCount;
     ChunkSize size(std::max<size_t>(1, firstRayCount / kernels_.rayCount()), memory_->faceCount);
     while (batches.next({memory_->seedCount, size.current()})) {

@@ -12,7 +12,7 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple -
 }  // namespace
 
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
-  const bool readsTexels = device.kind == DeviceKind::Cpu && prefersTexels(device);
+  const bool readsTexels = device.isCpu() && prefersTexels(device);
   return {TraceKernel::Seed, readsTexels ? BvhFetch::Texel : BvhFetch::Storage};
 }
 
@@ -37,7 +37,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
   const auto atMost = [&](uint32_t laneCount) {
     return std::min({laneCount, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
   };
-  const bool isCpu = device.kind == DeviceKind::Cpu;
+  const bool isCpu = device.isCpu();
   VulkanWorkgroupShape shape;
   if (kernel == TraceKernel::Seed) {
     shape.lanesPerCone = 1;
@@ -62,7 +62,7 @@ VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   constexpr uint32_t kShortStack = 16;
   constexpr uint32_t kSmallAmdSubgroup = 32;
   VulkanWalkShape shape;
-  if (device.kind == DeviceKind::Cpu) return shape;
+  if (device.isCpu()) return shape;
   const bool isAmd = device.vendor == DeviceVendor::Amd;
   shape.stackSize = isAmd ? kLongStack : kShortStack;
   shape.arithmetic = isAmd ? NodeArithmetic::ShiftedBytes : NodeArithmetic::MantissaBytes;

@@ -115,7 +115,7 @@ class VulkanTracer final : public ConeTracer {
   void traceOnDevice(std::span<const DeviceCone> cones, const Submit& submit, const ConeResults& results,
                      std::vector<uint32_t>& redone, const RunControl& control) {
     const uint64_t largest = largestConeChunk(kernel_);
-    const bool isCpu = kernel_.device().facts().kind == DeviceKind::Cpu;
+    const bool isCpu = kernel_.device().facts().isCpu();
     const uint64_t firstRayCount = isCpu ? kFirstChunkRayCountOnCpu : kFirstChunkRayCount;
     const ChunkSize size(std::max<uint64_t>(1, firstRayCount / kernel_.rayCount()), largest,
                          ChunkSize::kTargetSeconds / kChunksInFlight);
