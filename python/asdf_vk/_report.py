@@ -537,6 +537,10 @@ class Report:
     """"vulkan", "cpu" or "reference"."""
     device: str
     """Name of the device and its driver, or of the CPU."""
+    least_rays_for_gpu: int | None
+    """BackendChoice::Automatic takes a GPU for at least this number of rays, and the CPU for fewer. Unset if another
+    choice was made.
+    """
     runs_on_cpu: bool
     """The CPU traced the rays, also as a CPU device of Vulkan."""
     trace_choice: TraceVariant | None

@@ -17,6 +17,7 @@
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "describe/report_json.h"
+#include "pipeline/backend_choice.h"
 
 namespace asdfvk {
 namespace {
@@ -143,7 +144,8 @@ MeshComputer::MeshComputer(const MeshSettings& settings, const JobRecords& recor
       records_(records),
       stop_(std::move(stop)),
       showsBar_(showsBar),
-      session_(openSession(settings.session)),
+      sessionOptions_(sessionOptionsFor(settings.session, settings.computation.options)),
+      session_(openSession(sessionOptions_)),
       backend_(session_->backend()) {}
 
 void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
@@ -152,7 +154,7 @@ void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
 }
 
 ComputerDescription MeshComputer::describe() const {
-  return {session_->backend(), deviceLinesOf(*session_, settings_.session, settings_.outputs.verbose),
+  return {session_->backend(), deviceLinesOf(*session_, sessionOptions_, settings_.outputs.verbose),
           session_->runsOnCpu()};
 }
 

@@ -28,6 +28,7 @@
 #include "io/points_file.h"
 #include "mesh/orientation.h"
 #include "page/result_page.h"
+#include "pipeline/backend_choice.h"
 #include "process/browser.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
@@ -313,14 +314,15 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
     if (settings.outputs.json) writeStandardOutput(jsonFailure(input, failure.name, failure.message));
     return failure.code;
   };
+  const SessionOptions sessionOptions = sessionOptionsFor(settings.session, settings.computation.options);
   try {
-    session.emplace(settings.session, SessionOpening::InThread);
+    session.emplace(sessionOptions, SessionOpening::InThread);
   } catch (...) {
     return reportOpenFailure();
   }
   const bool printsDevice = !settings.outputs.quiet, wasOpen = session->isOpen();
   const auto printDevice = [&] {
-    writeStandardError(deviceLinesOf(*session, settings.session, settings.outputs.verbose));
+    writeStandardError(deviceLinesOf(*session, sessionOptions, settings.outputs.verbose));
   };
   if (printsDevice && wasOpen) printDevice();
   const Deadline deadline(settings.timeoutSeconds, stop);
@@ -332,11 +334,12 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
       computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
   if (!deadline.token().stop_requested()) {
     try {
-      session->requireOpen();
+      session->finishOpening();
     } catch (...) {
       return reportOpenFailure();
     }
-    if (printsDevice && !wasOpen) printDevice();
+    if (printsDevice && !wasOpen && session->isOpen()) printDevice();
+    if (printsDevice && run.report) writeStandardError(deviceChoiceLine(*run.report, settings.outputs.verbose));
   }
   writeStandardError(run.text);
   writeStandardOutput(run.json);

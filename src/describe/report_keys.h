@@ -134,8 +134,9 @@ ASDFVK_KEYS(Warning, code, message, details)
 ASDFVK_KEYS(DeviceTimes, kernels, copies, raysPerSecond)
 ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, chordError,
             seedCount, rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount,
-            backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, deviceTimes, solver, sdf, postprocess,
-            segmentCount, parts, thickness, gap, comparison, voids, contacts, estimatedError, check, defects, warnings)
+            backend, device, leastRaysForGpu, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, deviceTimes, solver,
+            sdf, postprocess, segmentCount, parts, thickness, gap, comparison, voids, contacts, estimatedError, check,
+            defects, warnings)
 #undef ASDFVK_KEYS
 #undef ASDFVK_VISIT
 #undef ASDFVK_EACH

@@ -256,17 +256,18 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
                const RunControl& control, Result& result) {
   Report& report = result.report;
   const auto& [session, sharedScene, part, tracers, former] = input;
-  LazyBackend& backend = *session.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
   const FaceDomain domain = part != nullptr ? part->domain() : wholeMesh(prepared);
   const InputFaceSet region = part != nullptr ? part->inputFaces() : InputFaceSet();
   const bool isLast = tracers == nullptr;
-  if (backend.isDecided()) (void)backend.openFor(requested->solver, control.stop);  // The backend may have changed.
   Options options = withAllSeeds(*requested, domain);
   for (std::optional<LengthLimit>* const limit :
        {&options.thickness.thinnerThan, &options.thickness.thickerThan, &options.thickness.closerThan})
     convertToUnit(*limit, prepared.unit);
   const Cone cone = makeCone(options.cone);
+  const uint64_t rayCount = resolveSeedCount(options, domain.traceable.size()) * cone.directions.size();
+  LazyBackend& backend = isLast ? session.backendFor(options, rayCount, report) : *session.backend;
+  if (backend.isDecided()) (void)backend.openFor(requested->solver, control.stop);  // The backend may have changed.
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, region);
   result.reversedFaces = prepared.reversedFaces;

@@ -26,8 +26,10 @@ using test::ScopedVariable;
 namespace {
 
 /// A GPU with memory of its own: uploads are submissions, and `auto` solves on the device.
-const FakeDevice::Variables kGpu{
-    {"ASDF_VK_FAKE_TYPE", "discrete"}, {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"}, {"ASDF_VK_FAKE_STORAGE_BUFFERS", "8"}};
+const FakeDevice::Variables kGpu{{"ASDF_VK_FAKE_TYPE", "discrete"},
+                                 {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"},
+                                 {"ASDF_VK_FAKE_STORAGE_BUFFERS", "8"},
+                                 {"ASDF_VK_GPU_RAYS", "0"}};
 
 /// While it exists, the nth submission of each device, and later ones, lose it.
 struct LostDevice : ScopedVariable {
