@@ -9,6 +9,7 @@
 
 #include "asdf_vk/api.h"
 #include "asdf_vk/error.h"
+#include "asdf_vk/finding.h"
 #include "asdf_vk/mesh.h"
 #include "asdf_vk/thickness_report.h"
 
@@ -269,6 +270,7 @@ struct Report {
   std::optional<ComparisonReport> comparison;   ///< Set by a comparison with a former version.
   std::vector<SealedVoid> voids;                ///< Sealed voids, if the result has the field "gap".
   std::vector<BodyContact> contacts;            ///< Bodies in contact, if the result has the field "gap".
+  std::vector<Finding> findings;                ///< The places to which the verdicts refer, in one form, for programs.
   std::optional<ErrorEstimate> estimatedError;  ///< Unset if every face is a seed or no estimate was requested.
   std::optional<CheckReport> check;             ///< Unset if no check was requested.
   MeshDefects defects;                          ///< Defects of the mesh.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "asdf_vk/asdf_vk.h"
+#include "batch/check_report.h"
 #include "batch/engine.h"
 #include "batch/input_list.h"
 #include "batch/worker.h"
@@ -19,6 +20,7 @@
 #include "cli/outputs.h"
 #include "cli/report_json.h"
 #include "core/abandoned_files.h"
+#include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "page/result_page.h"
 #include "process/interrupt.h"
@@ -107,6 +109,12 @@ ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options
   return ExitCode::Done;
 }
 
+void writeCheckReport(const Outputs& outputs, const std::vector<MeshRecord>& records) {
+  AtomicFile file(outputs.report);
+  file.write(checkReport(checkFormatOf(outputs.reportFormat), records));
+  file.commit();
+}
+
 /// Computes the jobs of a worker process. A signal cancels the current job or ends an idle process.
 class WorkerComputer : public JobComputer {
  public:
@@ -151,6 +159,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
                       const std::stop_token& stop) {
   const Outputs& outputs = settings.outputs;
   const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
+  if (!outputs.reportFormat.empty()) requireWritablePlace(outputs.report);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();
   // In a batch, a signal cancels the current meshes, and the log has a record of each.
@@ -159,9 +168,13 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
     listening.emplace();
     removeUnfinishedOutputs(jobs);
   }
-  Monitor monitor(
-      {.log = batch.log, .printsReports = outputs.json, .showsProgress = batch.isBatch(), .isQuiet = outputs.quiet},
-      jobs);
+  Monitor monitor({.log = batch.log,
+                   .printsReports = outputs.json,
+                   .showsProgress = batch.isBatch(),
+                   .keepsRecords = !outputs.reportFormat.empty(),
+                   .isCheck = settings.computation.isCheck(),
+                   .isQuiet = outputs.quiet},
+                  jobs);
   const JobRecords records(settings);
   const EngineOptions options{.requestedAtOnce = page ? 1 : batch.jobCount,
                               .threadCount = static_cast<uint32_t>(threadLimit()),
@@ -183,6 +196,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const ExitCode ofDevice = runAndReport(jobs, options, client, monitor, outputs.json, stop);
   if (batch.isBatch()) removeUnfinishedOutputs(jobs);
   monitor.finish();
+  if (!outputs.reportFormat.empty()) writeCheckReport(outputs, monitor.records());
   if (stop.stop_requested() && monitor.hasUnfinished()) return ExitCode::Cancelled;
   if (ofDevice != ExitCode::Done) return ofDevice;
   if (page && !page->isEmpty()) finishPage(*page, jobs.front().output, outputs.opensPage, stop);

@@ -258,6 +258,11 @@ void validateOptions(const CommandLine& line) {
     refuseOptions(
         "--points -, --json, -o - and --picture - write to standard output, which only one of them can use; give "
         "--points a file, or drop the others");
+  if (!line.outputs.reportFormat.empty() && line.outputs.report == "-" &&
+      (line.outputs.path == "-" || line.outputs.json || line.outputs.picture == "-" || line.outputs.points == "-"))
+    refuseOptions(
+        "--report-format, --json, -o -, --picture - and --points - write to standard output, which only one of them "
+        "can use; give --report a file, or drop the others");
   const BackendChoice backend = line.session.backend;
   const SolverChoice solver = line.computation.options.solver;
   if (!mayUseDevice(backend) && solverNeedsDevice(solver))

@@ -22,10 +22,12 @@
 namespace asdfvk {
 namespace {
 
+/// Points stay.
 Json withoutLists(Json object) {
   Json kept;
   for (auto& [key, value] : object.items())
-    if (!value.is_array()) kept[key] = value.is_object() ? withoutLists(std::move(value)) : std::move(value);
+    if (!value.is_array() || key == "minPlace" || key == "minOpposite")
+      kept[key] = value.is_object() ? withoutLists(std::move(value)) : std::move(value);
   return kept;
 }
 
@@ -35,6 +37,7 @@ void fillRecord(MeshRecord& record, const Report& report) {
   record.thickness = withoutLists(json.at("thickness"));
   record.parts = withoutLists(json.at("parts"));
   record.estimatedError = withoutLists(json.at("estimatedError"));
+  record.findings = json.at("findings");
   record.faceCount = report.faceCount;
   record.vertexCount = report.vertexCount;
   record.componentCount = report.componentCount;

@@ -23,6 +23,7 @@
 #include "core/background_task.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "describe/findings.h"
 #include "describe/unjudged_text.h"
 #include "io/files.h"
 #include "io/points_file.h"
@@ -205,7 +206,11 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
   run.report = report;
   for (Failure& failure : failedChecks(outcome.computation, report)) {
     // The first line of a shown report already has the verdict on the thickness.
-    if (!showsReport || failure.name == "checkFailed") run.text += errorLine(outcome.mesh, failure.message);
+    const bool isVerdict = failure.name != "checkFailed";
+    if (!isVerdict)
+      run.text += errorLine(outcome.mesh, failure.message);
+    else if (!showsReport)
+      run.text += oneLine(fmt::format("asdf-vk: {}: {}", outcome.mesh, failure.message)) + "\n";
     if (!run.failure) run.failure = std::move(failure);
   }
 }
@@ -239,6 +244,8 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     });
     Result& result = computed.result;
     if (deadline.token().stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+    const CheckedSpaces checked{settings.computation.failsIfVoids, settings.computation.failsIfContact};
+    result.report.findings = findingsOf(result.report, checked);
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] += loaded.seconds;
     const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
@@ -272,6 +279,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     if (isAmongOthers) result.fields = std::move(ofMesh);
     if (settings.outputs.json) run.json += jsonReport(outcome);
     numberFacesByFile(result.report, loaded.mesh.inputFaceCount(), computed.faceCounts);
+    result.report.findings = findingsOf(result.report, checked);
     addReport(outcome, settings.isOfBatch, run);
   };
 

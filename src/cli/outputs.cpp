@@ -187,6 +187,7 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   }
   plan(outputs.picture, "the picture", "--picture");
   plan(outputs.points, "the points", "--points");
+  if (!outputs.reportFormat.empty()) plan(outputs.report, "the report of checks", "--report");
   plan(batch.log, "the log", "--log");
   return paths;
 }

@@ -26,9 +26,7 @@ bool requestsVulkan(const SessionOptions& options) {
   return options.requireGpu || !options.device.empty() || variant.kernel || variant.fetch;
 }
 
-bool needsBackend(const Options& options) {
-  return options.measuresDiameter() || solverNeedsDevice(options.solver);
-}
+bool needsBackend(const Options& options) { return options.measuresDiameter() || solverNeedsDevice(options.solver); }
 
 SessionOptions sessionOptionsFor(SessionOptions session, const Options& options) {
   if (mayUseDevice(session.backend) && !requestsVulkan(session) && !needsBackend(options))

@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "describe/computation_options.h"
 #include "describe/fields.h"
+#include "describe/findings.h"
 #include "estimate/reference_check.h"
 #include "pipeline/aggregated_mesh.h"
 #include "pipeline/input_face_values.h"
@@ -292,6 +293,7 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
     measureSurfaces(result, computation, *sharedScene, former,
                     options.measuresDiameter() ? control.withoutProgress() : control);
   }
+  report.findings = findingsOf(report);
   if (opened.backend->deviceSeconds()) {
     const double seconds = deviceTimes.kernels[Stage::Trace];
     deviceTimes.raysPerSecond = seconds > 0 ? static_cast<double>(report.rayCount) / seconds : 0;

@@ -152,6 +152,9 @@ const std::vector<OptionCase>& optionCases() {
       {{"--ascii"}, [](const Line& l) { return l.outputs.ascii; }},
       {{"--open", "-o", "b.html"}, [](const Line& l) { return l.outputs.opensPage; }},
       {{"--json"}, [](const Line& l) { return l.outputs.json; }},
+      {{"--report-format", "junit"},
+       [](const Line& l) { return l.outputs.reportFormat == "junit" && l.outputs.report == "-"; }},
+      {{"--report", "b.xml", "--report-format", "junit"}, [](const Line& l) { return l.outputs.report == "b.xml"; }},
       {{"--quiet"}, [](const Line& l) { return l.outputs.quiet; }},
       {{"--verbose"}, [](const Line& l) { return l.outputs.verbose; }},
       {{"--picture", "b.png"},
@@ -208,14 +211,33 @@ TEST_CASE("the table of options above is complete") {
 }
 
 TEST_CASE("every option changes the hash that --skip-existing compares, except those that do not change an output") {
-  const std::set<std::string> exceptions{
-      "--json",       "--quiet",   "--verbose", "--open",  // Not in the output.
-      "-o",           "--output",  "--points",  "--picture",   "--picture-of",   "--picture-view",
-      "--picture-up",  // Other outputs.
-      "--log",        "--shard",   "--null",    "--recursive", "--files-from",   "--skip-existing",
-      "--jobs",       "--threads", "--isolate", "--timeout",   "--memory-limit", "--max-faces",
-      "--with",  // For one mesh only.
-      "--compare"};
+  const std::set<std::string> exceptions{"--report-format",
+                                         "--report",
+                                         "--json",
+                                         "--quiet",
+                                         "--verbose",
+                                         "--open",  // Not in the output.
+                                         "-o",
+                                         "--output",
+                                         "--points",
+                                         "--picture",
+                                         "--picture-of",
+                                         "--picture-view",
+                                         "--picture-up",  // Other outputs.
+                                         "--log",
+                                         "--shard",
+                                         "--null",
+                                         "--recursive",
+                                         "--files-from",
+                                         "--skip-existing",
+                                         "--jobs",
+                                         "--threads",
+                                         "--isolate",
+                                         "--timeout",
+                                         "--memory-limit",
+                                         "--max-faces",
+                                         "--with",  // For one mesh only.
+                                         "--compare"};
   const auto hashOf = [](std::vector<std::string> arguments, const std::vector<std::string>& more = {}) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     arguments.emplace_back("a.ply");
