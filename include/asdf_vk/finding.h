@@ -12,12 +12,12 @@ namespace asdfvk {
 
 /// What a finding is about.
 enum class FindingKind {
-  ThinWall,       ///< ThinKind::Wall of the thickness.
-  ThinDetail,     ///< ThinKind::Detail, of walls or of gaps, if details count.
-  ThinEdge,       ///< ThinKind::Edge, of walls or of gaps, if edges count.
-  NarrowGap,      ///< ThinKind::Gap.
-  ThickBody,      ///< A body that is thicker than ThicknessOptions::thickerThan.
-  SealedVoid,     ///< A part of the space without a way out.
+  ThinWall,         ///< ThinKind::Wall of the thickness.
+  ThinDetail,       ///< ThinKind::Detail, of walls or of gaps, if details count.
+  ThinEdge,         ///< ThinKind::Edge, of walls or of gaps, if edges count.
+  NarrowGap,        ///< ThinKind::Gap.
+  ThickBody,        ///< A body that is thicker than ThicknessOptions::thickerThan.
+  SealedVoid,       ///< A part of the space without a way out.
   BodiesInContact,  ///< Two bodies that touch or overlap.
   Unjudged,         ///< A part of the surface that cannot be compared with a limit.
 };
@@ -40,15 +40,16 @@ struct Finding {
   FindingLevel level = FindingLevel::Failure;  ///< What it does to the verdict.
   /// Thickness, width of the gap, diameter of the ball, or volume of the void; NaN for other kinds.
   double value = kNoValue;
-  std::optional<double> limit;             ///< The limit that `value` is compared with.
-  std::optional<Vec3d> place;              ///< A point of the surface, or the centre of a ball.
-  std::optional<Vec3d> opposite;           ///< The point on the other side of a wall or a gap.
-  std::optional<uint64_t> face;            ///< Input face of `place`.
-  std::optional<uint64_t> oppositeFace;    ///< Input face of `opposite`.
-  uint64_t faceCount = 0;                  ///< Input faces of the region; 0 if it is not a region of faces.
-  std::vector<std::string> bodies = {};    ///< Names of the bodies, see ThinRegion::bodies.
-  std::string message;                     ///< What was found, and where, in one sentence.
-  std::string remedy;                      ///< What to change, in one sentence.
+  std::optional<double> limit;           ///< The limit that `value` is compared with.
+  std::optional<Vec3d> place;            ///< A point of the surface, or the centre of a ball.
+  std::optional<Vec3d> opposite;         ///< The point on the other side of a wall or a gap.
+  std::optional<uint64_t> face;          ///< Input face of `place`.
+  std::optional<uint64_t> oppositeFace;  ///< Input face of `opposite`.
+  uint64_t faceCount = 0;                ///< Input faces of the region; 0 if it is not a region of faces.
+  bool isKnown = false;                  ///< A baseline has this failure; its level is a note.
+  std::vector<std::string> bodies = {};  ///< Names of the bodies, see ThinRegion::bodies.
+  std::string message;                   ///< What was found, and where, in one sentence.
+  std::string remedy;                    ///< What to change, in one sentence.
 };
 
 }  // namespace asdfvk

@@ -397,6 +397,8 @@ class Finding:
     """Input face of `opposite`."""
     face_count: int
     """Input faces of the region; 0 if it is not a region of faces."""
+    is_known: bool
+    """A baseline has this failure; its level is a note."""
     bodies: tuple[str, ...]
     """Names of the bodies, see ThinRegion::bodies."""
     message: str

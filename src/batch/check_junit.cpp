@@ -7,8 +7,8 @@ namespace asdfvk {
 namespace {
 
 std::string element(const char* name, const std::string& type, const std::string& message, const std::string& text) {
-  return fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", name, escapedForHtml(type), escapedForHtml(message),
-                     escapedForHtml(text));
+  return fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", name, escapedForHtml(type),
+                     escapedForHtml(message), escapedForHtml(text));
 }
 
 struct Counts {
@@ -46,9 +46,8 @@ std::string junitOf(std::span<const MeshRecord> records) {
                          escapedForHtml(record.input), record.totalSeconds, outcome.empty() ? "/" : "");
     if (!outcome.empty()) cases += outcome + "    </testcase>\n";
   }
-  const std::string numbers =
-      fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"", records.size(),
-                  counts.failures, counts.errors, counts.skipped, seconds);
+  const std::string numbers = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"",
+                                          records.size(), counts.failures, counts.errors, counts.skipped, seconds);
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {0}>\n  <testsuite name=\"asdf-vk\" {0}>\n{1}  "
       "</testsuite>\n</testsuites>\n",

@@ -91,7 +91,9 @@ Json resultOf(const CheckItem& item, const std::string& uri, size_t artifact, Ru
               {"message", {{"text", item.message}}},
               {"locations", Json::array({location})},
               {"partialFingerprints", {{"place/v1", fingerprintOf(item)}}}};
-  if (!item.finding.is_null()) result["properties"] = item.finding;
+  if (item.finding.is_null()) return result;
+  result["properties"] = item.finding;
+  if (item.finding.value("isKnown", Json()) == true) result["baselineState"] = "unchanged";
   return result;
 }
 
@@ -110,12 +112,13 @@ std::string sarifOf(std::span<const MeshRecord> records) {
     artifacts.push_back({{"location", {{"uri", uri}}}});
   }
   const bool isComplete = notifications.empty();
-  const Json run{{"tool", {{"driver", {{"name", "asdf-vk"}, {"version", ASDFVK_VERSION}, {"rules", rules.all()}}}}},
-                 {"invocations", Json::array({{{"executionSuccessful", isComplete},
-                                               {"toolExecutionNotifications", std::move(notifications)}}})},
-                 {"artifacts", std::move(artifacts)},
-                 {"results", std::move(results)},
-                 {"columnKind", "utf16CodeUnits"}};
+  const Json run{
+      {"tool", {{"driver", {{"name", "asdf-vk"}, {"version", ASDFVK_VERSION}, {"rules", rules.all()}}}}},
+      {"invocations",
+       Json::array({{{"executionSuccessful", isComplete}, {"toolExecutionNotifications", std::move(notifications)}}})},
+      {"artifacts", std::move(artifacts)},
+      {"results", std::move(results)},
+      {"columnKind", "utf16CodeUnits"}};
   return jsonText({{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                    {"version", "2.1.0"},
                    {"runs", Json::array({run})}},

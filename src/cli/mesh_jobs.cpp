@@ -79,7 +79,10 @@ bool isReadAhead(const Job& job) {
 JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),
       optionsHash_(optionsHash(settings.computation, settings.session, settings.reading, settings.outputs)),
-      options_(optionValues(settings.computation, settings.session)) {}
+      options_(optionValues(settings.computation, settings.session)) {
+  if (const Json limits = settings.policy.limits; !settings.policy.limits.rules.empty())
+    optionsHash_ = contentHash(optionsHash_ + jsonText(limits));
+}
 
 MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;

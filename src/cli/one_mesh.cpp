@@ -116,6 +116,26 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
   return failures;
 }
 
+size_t knownCountOf(const Report& report) {
+  return static_cast<size_t>(std::count_if(report.findings.begin(), report.findings.end(),
+                                           [](const Finding& finding) { return finding.isKnown; }));
+}
+
+/// Whether a baseline has all that fails this check.
+bool isKnown(const Failure& failure, const Report& report) {
+  using Kind = FindingKind;
+  if (failure.code != ExitCode::OverLimit || knownCountOf(report) == 0) return false;
+  return std::none_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
+    if (finding.level != FindingLevel::Failure) return false;
+    const bool isThin = finding.kind == Kind::ThinDetail || finding.kind == Kind::ThinEdge;
+    if (failure.name == "tooThin") return isThin || finding.kind == Kind::ThinWall;
+    if (failure.name == "tooClose") return isThin || finding.kind == Kind::NarrowGap;
+    return finding.kind == (failure.name == "tooThick"      ? Kind::ThickBody
+                            : failure.name == "sealedVoids" ? Kind::SealedVoid
+                                                            : Kind::BodiesInContact);
+  });
+}
+
 /// The given options that need shape diameters, for the remedy if no face has a value.
 std::string valueOptionsOf(const Options& options) {
   const bool isSegmented = options.segmentation != Segmentation::None;
@@ -204,7 +224,11 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
     run.text += textReport(outcome);
   }
   run.report = report;
+  if (const size_t count = knownCountOf(report); count > 0)
+    run.text +=
+        oneLine(fmt::format("asdf-vk: {}: known by the baseline: {}", outcome.mesh, counted(count, "place"))) + "\n";
   for (Failure& failure : failedChecks(outcome.computation, report)) {
+    if (isKnown(failure, report)) continue;
     // The first line of a shown report already has the verdict on the thickness.
     const bool isVerdict = failure.name != "checkFailed";
     if (!isVerdict)
@@ -236,7 +260,8 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
   const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
   const bool hasPicture = !settings.outputs.picture.empty();
   const auto compute = [&] {
-    const CheckedOptions options = settings.computation.checked();
+    const ComputationSettings computation = settings.policy.limits.applied(input, settings.computation);
+    const CheckedOptions options = computation.checked();
     ComputedMesh computed = files.withProgress([&](const RunControl& control) {
       return settings.others.isEmpty()
                  ? ComputedMesh{{}, session.compute(loaded.mesh, options, control)}
@@ -244,19 +269,16 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     });
     Result& result = computed.result;
     if (deadline.token().stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
-    const CheckedSpaces checked{settings.computation.failsIfVoids, settings.computation.failsIfContact};
-    result.report.findings = findingsOf(result.report, checked);
+    const auto find = [&] {
+      result.report.findings = findingsOf(result.report, {computation.failsIfVoids, computation.failsIfContact});
+      settings.policy.baseline.mark(input, result.report.findings);
+    };
+    find();
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] += loaded.seconds;
     const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
-    const MeshOutcome outcome{input,
-                              output,
-                              settings.computation,
-                              settings.session,
-                              settings.others,
-                              settings.outputs,
-                              result,
-                              computed.faceCounts};
+    const MeshOutcome outcome{input,           output,           computation, settings.session,
+                              settings.others, settings.outputs, result,      computed.faceCounts};
     const Stopwatch watch;
     removeOutputRecord(output);
     AtomicFiles written;
@@ -279,7 +301,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     if (isAmongOthers) result.fields = std::move(ofMesh);
     if (settings.outputs.json) run.json += jsonReport(outcome);
     numberFacesByFile(result.report, loaded.mesh.inputFaceCount(), computed.faceCounts);
-    result.report.findings = findingsOf(result.report, checked);
+    find();
     addReport(outcome, settings.isOfBatch, run);
   };
 

@@ -33,12 +33,23 @@ ExitCode printDevices(bool requireGpu, bool asJson) {
   return ExitCode::Device;
 }
 
+CheckPolicy policyOf(const Outputs& outputs) {
+  CheckPolicy policy;
+  if (!outputs.limits.empty()) policy.limits = readLimits(outputs.limits);
+  if (!outputs.baseline.empty() && !outputs.updatesBaseline) policy.baseline = readBaseline(outputs.baseline);
+  return policy;
+}
+
+/// Whether the records of the meshes are needed.
+bool needsRecords(const Outputs& outputs) { return !outputs.reportFormat.empty() || outputs.updatesBaseline; }
+
 MeshSettings settingsOf(const CommandLine& line) {
   return {.session = line.session,
           .computation = line.computation,
           .reading = line.reading,
           .others = line.others,
           .outputs = line.outputs,
+          .policy = policyOf(line.outputs),
           .timeoutSeconds = line.batch.timeoutSeconds,
           .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),
           .isOfBatch = line.batch.isBatch()};
@@ -123,7 +134,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   const Interrupt interrupt;
   if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
   if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());
-  if (line.meshes.size() == 1 && !line.batch.isBatch() && line.outputs.reportFormat.empty())
+  if (line.meshes.size() == 1 && !line.batch.isBatch() && !needsRecords(line.outputs))
     return computeOneMesh(line.meshes.front(), settingsOf(line), interrupt.token());
   return computeBatch(line.meshes, settingsOf(line), line.batch, interrupt.token());
 }

@@ -58,6 +58,22 @@ OptionRows outputRows(Outputs& outputs) {
                 .text = "File of the report of checks; - is standard output",
                 .placeholder = "FILE|-",
                 .needs = "report-format"},
+      OptionRow{.name = "limits",
+                .member = memberAs<NameCodec>(&outputs.limits),
+                .text = "Limits of single meshes: a JSON file of rules, each with a pattern of files and its limits. "
+                        "Without -o, no result is written",
+                .more = "[integration.md](integration.md#limits) describes the file.",
+                .placeholder = "FILE.json"},
+      OptionRow{.name = "baseline",
+                .member = memberAs<NameCodec>(&outputs.baseline),
+                .text = "Known places, which do not fail the check: a JSON file that {update-baseline} writes",
+                .placeholder = "FILE.json"},
+      OptionRow{.name = "update-baseline",
+                .member = &outputs.updatesBaseline,
+                .text =
+                    "Write the places that fail the check to the file of {baseline}; they do not determine the exit "
+                    "code",
+                .needs = "baseline"},
       OptionRow{.name = "format",
                 .member = &outputs.format,
                 .text = "Format of the result if the name of -o does not determine the format",

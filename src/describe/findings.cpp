@@ -100,7 +100,8 @@ void addThickBodies(const ThickReport& thick, std::vector<Finding>& findings) {
          .message = fmt::format("body with a ball of diameter {} inside, above the limit {}, around {}{}",
                                 lengthText(body.diameter, thick.thickerThan), limitText(thick.thickerThan),
                                 pointText(body.centre), bodiesText(body.bodies)),
-         .remedy = fmt::format("hollow the body there, so that no ball above {} fits in", limitText(thick.thickerThan))});
+         .remedy =
+             fmt::format("hollow the body there, so that no ball above {} fits in", limitText(thick.thickerThan))});
 }
 
 FindingLevel levelOf(bool isChecked, ThicknessVerdict verdict, bool isCertain) {
@@ -110,16 +111,16 @@ FindingLevel levelOf(bool isChecked, ThicknessVerdict verdict, bool isCertain) {
 
 void addSpaces(const Report& report, const CheckedSpaces& checked, std::vector<Finding>& findings) {
   for (const SealedVoid& each : report.voids)
-    findings.push_back(
-        {.kind = FindingKind::SealedVoid,
-         .level = levelOf(checked.voids, voidsVerdict(report).first, each.isCertain),
-         .value = each.volume,
-         .place = each.place,
-         .face = each.face,
-         .bodies = each.looseBodies,
-         .message = fmt::format("sealed void of volume {} {}", lengthText(each.volume), placeText(each.place, each.face)),
-         .remedy = each.isCertain ? "open a way out of the void, or fill it"
-                                  : "unite the bodies that overlap in a common plane there"});
+    findings.push_back({.kind = FindingKind::SealedVoid,
+                        .level = levelOf(checked.voids, voidsVerdict(report).first, each.isCertain),
+                        .value = each.volume,
+                        .place = each.place,
+                        .face = each.face,
+                        .bodies = each.looseBodies,
+                        .message = fmt::format("sealed void of volume {} {}", lengthText(each.volume),
+                                               placeText(each.place, each.face)),
+                        .remedy = each.isCertain ? "open a way out of the void, or fill it"
+                                                 : "unite the bodies that overlap in a common plane there"});
   for (const BodyContact& contact : report.contacts)
     findings.push_back({.kind = FindingKind::BodiesInContact,
                         .level = levelOf(checked.contacts, contactVerdict(report).first, true),

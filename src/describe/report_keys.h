@@ -135,7 +135,8 @@ ASDFVK_KEYS(ComparisonReport, verdict, sentence, newCount, thinnerCount, keptCou
             unmatchedFaceCount, matchedFaceCount, thinnerArea, thinnerAreaShare, thinner)
 ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies, isCertain)
 ASDFVK_KEYS(BodyContact, bodies)
-ASDFVK_KEYS(Finding, kind, level, value, limit, place, opposite, face, oppositeFace, faceCount, bodies, message, remedy)
+ASDFVK_KEYS(Finding, kind, level, value, limit, place, opposite, face, oppositeFace, faceCount, isKnown, bodies,
+            message, remedy)
 ASDFVK_KEYS(WorstFace, face, error)
 ASDFVK_KEYS(ErrorEstimate, average, standardError, robustAverage, relativeMedian, relativePercentile90,
             relativeMedianStandardError, heldOutCount, worstFaces)

@@ -8,7 +8,7 @@ namespace asdfvk {
 namespace {
 
 Json finding(const char* kind, const char* level, double x) {
-  return {{"kind", kind},          {"level", level},         {"value", 0.5}, {"limit", 0.8},
+  return {{"kind", kind},           {"level", level},          {"value", 0.5},   {"limit", 0.8},
           {"place", {x, 2.0, 3.0}}, {"message", "a, 50 %\nb"}, {"remedy", "<c>"}};
 }
 

@@ -60,11 +60,40 @@ TEST_CASE("a check of a folder reports thin, unjudged and unreadable meshes, and
   }
 }
 
+TEST_CASE("limits of single meshes and known places determine the code, also in worker processes") {
+  const Parts parts;
+  const std::string limits = parts.folder.write(
+      "limits.json",
+      R"({"limits": [{"files": "in/*", "fail-if-thinner": 0.8}, {"files": "open.*", "fail-if-thinner": null},
+                                    {"files": "bad.*", "fail-if-thinner": null}]})");
+  const std::string baseline = parts.folder / "walls.json";
+  std::filesystem::remove(parts.root + "/bad.off");
+  for (const std::vector<std::string>& how : {std::vector<std::string>{}, {"--isolate"}}) {
+    const auto run = [&](std::vector<std::string> more) {
+      more.insert(more.end(), how.begin(), how.end());
+      more.insert(more.end(), {"-r", parts.root, "--limits", limits});
+      return runAsdf(more);
+    };
+    CHECK(run({}).error.find("2 ok, 1 thin; ") != std::string::npos);
+    CHECK_EQ(run({}).exitCode, 6);
+    checkFailure(run({"--baseline", baseline}), 2, "--update-baseline writes it");
+    CHECK_EQ(run({"--baseline", baseline, "--update-baseline"}).exitCode, 0);
+    const ChildOutcome known = run({"--baseline", baseline, "--report-format", "sarif"});
+    CHECK_EQ(known.exitCode, 0);
+    CHECK(known.error.find("thin.off: known by the baseline: 1 place") != std::string::npos);
+    CHECK(known.error.find("3 ok; ") != std::string::npos);
+    const nlohmann::json sarif = nlohmann::json::parse(known.output);
+    CHECK_EQ(sarif.at("runs").at(0).at("results").at(1).at("baselineState"), "unchanged");
+    std::filesystem::remove(baseline);
+  }
+  CHECK_FALSE(std::filesystem::exists(parts.root + "/thin.asdf.ply"));
+}
+
 TEST_CASE("the report of one mesh goes to a file, beside its usual report") {
   const Parts parts;
   const std::string report = parts.folder / "report.xml";
-  const ChildOutcome outcome = runAsdf({parts.root + "/thin.off", "--fail-if-thinner", "0.8", "--report-format",
-                                        "junit", "--report", report});
+  const ChildOutcome outcome =
+      runAsdf({parts.root + "/thin.off", "--fail-if-thinner", "0.8", "--report-format", "junit", "--report", report});
   CHECK_EQ(outcome.exitCode, 6);
   CHECK_EQ(outcome.output, "");
   CHECK(outcome.error.find("FAIL: 1 wall thinner than 0.8: 0.5") != std::string::npos);

@@ -8,8 +8,14 @@ namespace asdfvk {
 namespace {
 
 ThinRegion regionOf(ThinKind kind, double min) {
-  return {.kind = kind, .min = min, .minFace = 4, .place = {1, 2, 3}, .opposite = {1, 2, 4}, .oppositeFace = 7,
-          .bodies = {"lid"}, .faceCount = 5};
+  return {.kind = kind,
+          .min = min,
+          .minFace = 4,
+          .place = {1, 2, 3},
+          .opposite = {1, 2, 4},
+          .oppositeFace = 7,
+          .bodies = {"lid"},
+          .faceCount = 5};
 }
 
 Report reportOf(ThicknessVerdict verdict, bool isOfGaps) {
@@ -96,8 +102,8 @@ TEST_CASE("thick bodies fail; sealed voids and contacts fail only where they are
     return levels;
   };
   using Level = FindingLevel;
-  CHECK(kindsOf(findingsOf(report)) == Kinds{FindingKind::ThickBody, FindingKind::SealedVoid, FindingKind::SealedVoid,
-                                             FindingKind::BodiesInContact});
+  CHECK(kindsOf(findingsOf(report)) ==
+        Kinds{FindingKind::ThickBody, FindingKind::SealedVoid, FindingKind::SealedVoid, FindingKind::BodiesInContact});
   CHECK(levelsOf({}) == std::vector{Level::Failure, Level::Note, Level::Note, Level::Note});
   CHECK(levelsOf({.voids = true}) == std::vector{Level::Failure, Level::Failure, Level::NotJudged, Level::Note});
   CHECK(levelsOf({.contacts = true}) == std::vector{Level::Failure, Level::Note, Level::Note, Level::Failure});

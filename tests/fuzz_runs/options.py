@@ -49,6 +49,8 @@ _VALUES: dict[str, tuple[Values, Values]] = {
     "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", *_ILLEGAL_NUMBERS)),
     "--picture": (("picture.png", "-"), ("", "picture.jpg", "absent/picture.png")),
     "--picture-view": (("0,0", "30,18", "-360,90"), ("361,0", "0,91", "1", *_ILLEGAL_NUMBERS)),
+    "--limits": (("limits.json", "absent.json"), ("", "mesh.off")),
+    "--baseline": (("baseline.json", "absent/baseline.json"), ("",)),
     "--report": (("report.xml", "-"), ("", "absent/report.xml")),
     "--points": (("points.ply", "-"), ("", "absent/points.ply")),
     "--device": (("0", "llvmpipe", "7", "absent"), ("", "-1")),
