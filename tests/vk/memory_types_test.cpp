@@ -30,7 +30,7 @@ struct MemoryRow {
   }
 };
 
-/// As the drivers report it.
+/// The types as drivers report them.
 const std::vector<MemoryRow> kRows{
     {"NVIDIA, window",
      {24 * kGiB, 48 * kGiB, 246 * kMiB},

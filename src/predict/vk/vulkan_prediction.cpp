@@ -126,12 +126,11 @@ class VulkanPredictor final : public DevicePredictor {
   }
 
  private:
-  /// Largest numbers of the batches of an input. Small meshes need less memory than the largest batch.
+  /// Largest numbers of the batches of an input. Small meshes need less memory than the largest batch. A batch of all
+  /// seeds has room for those of one more cell (PredictionBatches::next()).
   [[nodiscard]] PredictionBatchSize sizeFor(const PredictionInput& input) const {
-    return {
-        std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, input.hits.seeds.size())),
-        std::min(batchSize_.maxFaceCount, input.cells.entries.size()),
-    };
+    return {std::min(batchSize_.maxSeedCount, input.hits.seeds.size() + kMaxContributingSeedCount),
+            std::min(batchSize_.maxFaceCount, input.cells.entries.size())};
   }
 
   /// Memory and commands for one batch.
