@@ -93,7 +93,6 @@ TEST_CASE("the memory of a GPU per face and per seed is that of docs/devices.md"
   // One chunk of cones, so that the speed of the device has no influence.
   check(makeAnimal(30'000).mesh, test::allSeeds(),
         [](double faceCount, double) { return 56 * faceCount + 172 * 32'768; });
-  check(makeAnimal(100'000).mesh, test::tenthOfFaces(), [](double faceCount, double seedCount) {
-    return (56 + 36 + 8) * faceCount + (240 + 1040) * seedCount;
-  });
+  check(makeAnimal(100'000).mesh, test::tenthOfFaces(),
+        [](double faceCount, double seedCount) { return (56 + 36 + 8) * faceCount + (240 + 1040) * seedCount; });
 }
