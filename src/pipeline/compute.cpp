@@ -144,7 +144,7 @@ std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> va
 /// domain, or null.
 RoundsResult onFaces(RoundsResult rounds, const FaceDomain& domain, const AggregatedMesh* aggregated,
                      size_t faceCount) {
-  freeMemory(rounds.seeds.hits);  // With RoundOptions, runRounds() keeps them for further rounds.
+  rounds.seeds.freeHits();  // With RoundOptions, runRounds() keeps them for further rounds.
   for (uint32_t& node : rounds.seeds.nodes) node = domain.faceOf(node);
   std::vector<double>& values = rounds.interpolated.values;
   if (aggregated != nullptr) {

@@ -14,14 +14,11 @@
 #include "vk/device_choice.h"
 #include "vk/instance.h"
 #include "vk/memory_arena.h"
+#include "vk/memory_types.h"
 
 namespace asdfvk {
 
 class UploadQueue;
-
-/// Flags of the memory types that the host accesses.
-inline constexpr VkMemoryPropertyFlags kMappableMemory =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 /// The first queue family with compute and without graphics; if there is none, the first family with compute. A family
 /// without graphics does not delay the desktop, and on some systems has a longer watchdog timeout.
@@ -48,8 +45,7 @@ class Device {
   /// The time of all submissions for which the host has waited; 0 on a device without timestamps.
   [[nodiscard]] const DeviceSeconds& seconds() const { return seconds_; }
   void addSeconds(const DeviceSeconds& further) const { seconds_ += further; }
-  /// The first type among `allowedTypes` with all flags of `wanted`.
-  [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
+  [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memoryTypes() const { return memoryTypes_; }
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
     return memoryTypes_.memoryTypes[type].propertyFlags;
   }
