@@ -1,7 +1,9 @@
 from __future__ import annotations
 
 import html
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, is_dataclass
+from dataclasses import fields as dataclass_fields
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,16 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._report import Report
+
+
+def _plain(value: Any) -> Any:
+    if is_dataclass(value):
+        return {member.name: _plain(getattr(value, member.name)) for member in dataclass_fields(value)}
+    if isinstance(value, dict):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,6 +34,10 @@ class Info(Report):
     reversed_faces: NDArray[np.int64] = field(repr=False)
     """Ascending indices of the faces whose orientation was reversed."""
     _shown: _core.ShownReport = field(repr=False)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Returns the report, without fields, in types that JSON has. Numbers that are not finite become None."""
+        return {member.name: _plain(getattr(self, member.name)) for member in dataclass_fields(Report)}
 
     def _repr_html_(self) -> str:
         """Returns a table as HTML, which notebooks show."""

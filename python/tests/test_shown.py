@@ -165,3 +165,16 @@ def test_what_cannot_be_shown(tmp_path: Path, reference: asdf_vk.Session) -> Non
         with pytest.raises(asdf_vk.Error, match=message):
             asdf_vk.write(tmp_path / name, mesh, *results, **options)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_report_turns_into_json() -> None:
+    info = asdf_vk.compute(*cube(), thinner_than=1.5)
+    report = json.loads(json.dumps(info.to_dict(), allow_nan=False))
+    assert report["face_count"] == 12 and report["estimated_error"] is None
+    assert report["thickness"]["verdict"] == "failed"
+    (finding,) = report["findings"]
+    assert finding["kind"] == "thinWall" and finding["level"] == "failure" and finding["limit"] == 1.5
+    assert len(finding["place"]) == 3 and "1.5" in finding["remedy"]
+    assert set(report) == {name for name in vars(info) if name not in {"fields", "vertex_fields", "reversed_faces"}} - {
+        "_shown"
+    }

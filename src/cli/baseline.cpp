@@ -62,8 +62,8 @@ Json readObject(const std::string& path, const std::string& use) {
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object())
-    throw Error(ErrorCode::UnreadableInput, fmt::format("{} {} is not a JSON object; write it as in docs/integration.md",
-                                                        use, path));
+    throw Error(ErrorCode::UnreadableInput,
+                fmt::format("{} {} is not a JSON object; write it as in docs/integration.md", use, path));
   return json;
 }
 

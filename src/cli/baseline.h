@@ -29,8 +29,8 @@ struct Baseline {
   std::map<std::string, std::vector<KnownPlace>> places;
 
   /// Makes the failures that are known to notes. A finding is known if a known place of the same kind and the same
-  /// bodies is at most the limit away from it or from its opposite point, and if it is not thinner, closer or greater by
-  /// more than 5 %.
+  /// bodies is at most the limit away from it or from its opposite point, and if it is not thinner, closer or greater
+  /// by more than 5 %.
   void mark(const std::string& mesh, std::vector<Finding>& findings) const;
 };
 

@@ -15,6 +15,7 @@
 #include "cli/exit_code.h"
 #include "cli/input_options.h"
 #include "cli/program_options.h"
+#include "cli/report_json.h"
 #include "core/text.h"
 #include "describe/fields.h"
 #include "describe/option_rules.h"
@@ -94,6 +95,8 @@ bool takesNext(const OptionRow& row, const std::string& next) {
 
 /// Throws Error{OptionConflict} if an option is given that --list-devices or --device-report ignores.
 void requireNoIgnoredOption(const std::vector<std::string>& given, const CommandLine& line) {
+  if (line.printsSchema && given.size() > 1)
+    refuseOptions("--print-schema prints the schema only; drop the other arguments");
   if (!line.listDevices && !line.deviceReport) return;
   const std::string name = line.listDevices ? "--list-devices" : "--device-report";
   std::set<std::string> used{name, "--quiet", "--threads", "--json", "--require-gpu"};
@@ -294,6 +297,10 @@ OptionRows deviceRows(CommandLine& line) {
                 .text = "Print a report on the device as JSON, with a self-test and the rate of each variant of the "
                         "kernels; exit code 3 if the self-test fails",
                 .more = "Takes `{backend}`, `{device}` and `{require-gpu}` ([devices.md](devices.md))."},
+      OptionRow{.name = "print-schema",
+                .group = kOutputGroup,
+                .member = &line.printsSchema,
+                .text = "Print the JSON Schema of what {json} prints"},
   });
 }
 
@@ -332,6 +339,10 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
     return line;
   }
   requireNoIgnoredOption(parser.givenNames(), line);
+  if (line.printsSchema) {
+    line.answer = std::string(reportSchemaText());
+    return line;
+  }
   GivenOptions given{.names = {}, .spelling = OptionSpelling::Flag};
   for (const OptionRows& rows : optionTables(line))
     for (const OptionRow& row : rows)

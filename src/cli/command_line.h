@@ -24,7 +24,8 @@ struct CommandLine {
   BatchOptions batch;
   bool listDevices = false;
   bool deviceReport = false;
-  std::optional<std::string> answer;  ///< Answer to --help or --version. If set, nothing is computed.
+  bool printsSchema = false;
+  std::optional<std::string> answer;  ///< Answer to --help, --version or --print-schema. If set, nothing is computed.
 };
 
 /// All options of the program by table, in the order of the help. The line must outlive the rows.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 
 #include "asdf_vk/error.h"
@@ -14,6 +15,7 @@
 #include "cli/command_line.h"
 #include "cli/device_output.h"
 #include "cli/one_mesh.h"
+#include "cli/report_json.h"
 #include "process/heap.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
@@ -114,6 +116,19 @@ ExitCode summarize(const std::vector<std::string>& arguments) {
   return ExitCode::Done;
 }
 
+/// Prints a failure of the whole call; an invalid command line also as JSON if that was asked for.
+ExitCode reportFailure(const Failure& failure, const std::vector<std::string>& arguments) {
+  printError("", failure.message);
+  const bool isJson = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+  if (failure.code != ExitCode::Usage || !isJson) return failure.code;
+  try {
+    writeStandardOutput(jsonFailure("", failure.name, failure.message));
+  } catch (const std::exception&) {
+    return ExitCode::Output;
+  }
+  return failure.code;
+}
+
 ExitCode runCommand(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     writeStandardError(shortUsage());
@@ -147,9 +162,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
   try {
     return runCommand(arguments);
   } catch (...) {
-    const Failure failure = currentFailure();
-    printError("", failure.message);
-    return failure.code;
+    return reportFailure(currentFailure(), arguments);
   }
 }
 

@@ -1,16 +1,23 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "batch/mesh_record.h"
 #include "cli/mesh_outcome.h"
 
 namespace asdfvk {
 
+/// The key formatVersion of each JSON document. A change of the meaning of a key increases it.
+inline constexpr int kReportFormatVersion = 1;
+
+/// docs/report.schema.json: the JSON Schema of the following documents.
+[[nodiscard]] std::string_view reportSchemaText();
+
 /// One line of JSON with the keys of docs/formats.md.
 [[nodiscard]] std::string jsonReport(const MeshOutcome& outcome);
 
-/// One line with the keys "mesh", "error" and "code".
+/// One line with the keys "mesh", "error" and "code". An empty mesh becomes null: the command line is invalid.
 [[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);
 
 /// One line with the keys "mesh", "output", "status" and "record", for a mesh that --skip-existing skips.

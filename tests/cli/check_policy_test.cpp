@@ -64,7 +64,10 @@ TEST_CASE("a wrong file of limits is refused with its name and the reason") {
 }
 
 Finding findingAt(double x, double value = 0.5) {
-  return {.kind = FindingKind::ThinWall, .value = value, .limit = 0.8, .place = Vec3d{x, 0, 0},
+  return {.kind = FindingKind::ThinWall,
+          .value = value,
+          .limit = 0.8,
+          .place = Vec3d{x, 0, 0},
           .opposite = Vec3d{x, 0, value}};
 }
 
@@ -76,8 +79,8 @@ std::vector<MeshRecord> recordsWith(const std::string& mesh, const asdfvk::Json&
 }
 
 asdfvk::Json failureAt(double x) {
-  return {{"kind", "thinWall"}, {"level", "failure"}, {"value", 0.5}, {"limit", 0.8}, {"place", {x, 0, 0}},
-          {"bodies", asdfvk::Json::array()}};
+  return {{"kind", "thinWall"}, {"level", "failure"}, {"value", 0.5},
+          {"limit", 0.8},       {"place", {x, 0, 0}}, {"bodies", asdfvk::Json::array()}};
 }
 
 TEST_CASE("a place is known by its kind, bodies and position, unless it became worse") {

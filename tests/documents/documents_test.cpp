@@ -12,6 +12,7 @@
 
 #include "cli/command_line.h"
 #include "cli/exit_code.h"
+#include "cli/report_json.h"
 #include "documents/documents.h"
 #include "generate/generator_options.h"
 
@@ -80,6 +81,9 @@ TEST_CASE("the written files are up to date; asdfvk-write-documents SOURCES writ
   CHECK(formatPage(formats, model) == formats);
   CHECK(keywordModule() == contentOf("python/asdf_vk/_keywords.py"));
   CHECK(reportModule(model) == contentOf("python/asdf_vk/_report.py"));
+  const std::string schema = contentOf("docs/report.schema.json");
+  CHECK(reportSchema(model, schema) == schema);
+  CHECK(reportSchemaText() == schema);
   CHECK(page.find("| `--wall-angle DEGREES` | 120 | above 90 and at most 180 |") != std::string::npos);
 }
 

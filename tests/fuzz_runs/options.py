@@ -23,7 +23,7 @@ class Option:
 
 
 # --output is given by each case; --open starts a browser; --device-report takes long.
-LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--help"})
+LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--print-schema", "--help"})
 # Values of options whose kind the tables do not tell, and those that keep runs short.
 _VALUES: dict[str, tuple[Values, Values]] = {
     "--seeds": (
