@@ -59,14 +59,14 @@ Json definitionsOf(const ReportModel& model) {
   for (const ReportStructure& structure : model.structures)
     all[structure.name] = objectOf(structure.comment, propertiesOf(structure));
   all["FieldSummary"] = objectOf("A field of the result.", {{"name", text},
-                                                             {"unit", {{"enum", {"", "length"}}}},
-                                                             {"per", {{"enum", {"face", "vertex"}}}},
-                                                             {"components", {{"type", "integer"}}},
-                                                             {"type", {{"enum", {"float64", "uint8", "uint32"}}}},
-                                                             {"min", number},
-                                                             {"median", number},
-                                                             {"max", number},
-                                                             {"missingCount", {{"type", "integer"}}}});
+                                                            {"unit", {{"enum", {"", "length"}}}},
+                                                            {"per", {{"enum", {"face", "vertex"}}}},
+                                                            {"components", {{"type", "integer"}}},
+                                                            {"type", {{"enum", {"float64", "uint8", "uint32"}}}},
+                                                            {"min", number},
+                                                            {"median", number},
+                                                            {"max", number},
+                                                            {"missingCount", {{"type", "integer"}}}});
   return all;
 }
 
@@ -105,27 +105,26 @@ std::string reportSchema(const ReportModel& model, const std::string& earlier) {
   Json definitions = definitionsOf(model);
   definitions["Result"] = {{"description", "A computed mesh: its report, and these keys."},
                            {"allOf", {reference("Report"), objectOf("", meshProperties())}}};
-  definitions["Failure"] =
-      objectOf("A mesh without a result, or an invalid command line.", {{"formatVersion", {{"const", kReportFormatVersion}}},
-                                                                        {"mesh", orNull(text)},
-                                                                        {"error", text},
-                                                                        {"code", text}});
-  definitions["Skipped"] = objectOf("A mesh that --skip-existing skipped.",
-                                    {{"formatVersion", {{"const", kReportFormatVersion}}},
-                                     {"mesh", text},
-                                     {"output", orNull(text)},
-                                     {"status", {{"const", "skipped"}}},
-                                     {"record", {{"type", "object"}}}});
+  definitions["Failure"] = objectOf(
+      "A mesh without a result, or an invalid command line.",
+      {{"formatVersion", {{"const", kReportFormatVersion}}}, {"mesh", orNull(text)}, {"error", text}, {"code", text}});
+  definitions["Skipped"] =
+      objectOf("A mesh that --skip-existing skipped.", {{"formatVersion", {{"const", kReportFormatVersion}}},
+                                                        {"mesh", text},
+                                                        {"output", orNull(text)},
+                                                        {"status", {{"const", "skipped"}}},
+                                                        {"record", {{"type", "object"}}}});
   const Json oldDefinitions = old.is_object() ? old.value("$defs", Json::object()) : Json::object();
   for (auto& [name, schema] : definitions.items()) addVersions(schema, oldDefinitions.value(name, Json::object()));
-  return jsonText({{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                   {"title", "What asdf-vk --json prints: a document per line"},
-                   {"description",
-                    "Keys are stable: within a major version of the program, keys are added and none is removed. x-since "
-                    "is the version that had a key first."},
-                   {"oneOf", {reference("Result"), reference("Failure"), reference("Skipped")}},
-                   {"$defs", std::move(definitions)}},
-                  1) +
+  return jsonText(
+             {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+              {"title", "What asdf-vk --json prints: a document per line"},
+              {"description",
+               "Keys are stable: within a major version of the program, keys are added and none is removed. x-since "
+               "is the version that had a key first."},
+              {"oneOf", {reference("Result"), reference("Failure"), reference("Skipped")}},
+              {"$defs", std::move(definitions)}},
+             1) +
          "\n";
 }
 
