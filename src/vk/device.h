@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,9 @@
 #include "vk/descriptor_sets.h"
 #include "vk/device_choice.h"
 #include "vk/instance.h"
+#include "vk/logical_device.h"
 #include "vk/memory_arena.h"
+#include "vk/physical_device.h"
 
 namespace asdfvk {
 
@@ -23,46 +24,38 @@ class UploadQueue;
 inline constexpr VkMemoryPropertyFlags kMappableMemory =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-/// The first queue family with compute and without graphics; if there is none, the first family with compute. A family
-/// without graphics does not delay the desktop, and on some systems has a longer watchdog timeout.
-[[nodiscard]] std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families);
-
-[[nodiscard]] DeviceFacts describeDevice(VkPhysicalDevice device);
-
-/// A logical device with one compute queue. Not thread-safe.
+/// A logical device with memory, descriptor sets and command buffers for one thread. Not thread-safe.
 class Device {
  public:
-  /// Precondition: `facts` describes `physical` and has a compute queue family. Throws Error{Device}.
+  /// Throws Error{Device}.
+  explicit Device(std::shared_ptr<LogicalDevice> logical);
+  /// Opens the logical device.
   Device(VkPhysicalDevice physical, DeviceFacts facts);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  [[nodiscard]] VkDevice handle() const { return device_.get(); }
-  [[nodiscard]] VkQueue queue() const { return queue_; }
-  [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
+  [[nodiscard]] VkDevice handle() const { return logical_->handle(); }
+  [[nodiscard]] const DeviceFacts& facts() const { return logical_->facts(); }
   [[nodiscard]] MemoryArena& memory() const { return *memory_; }
   [[nodiscard]] DescriptorSets& descriptorSets() const { return *descriptorSets_; }
   [[nodiscard]] CommandPool& commandPool() const { return *commandPool_; }
   [[nodiscard]] UploadQueue& uploads() const { return *uploads_; }
+  /// Throws Error{Device} if the device is lost.
+  void submit(const VkSubmitInfo& info, VkFence fence) const;
+  /// result: of a wait. Throws Error{Device} if the device is lost.
+  void requireWaited(VkResult result) const;
   /// The time of all submissions for which the host has waited; 0 on a device without timestamps.
   [[nodiscard]] const DeviceSeconds& seconds() const { return seconds_; }
   void addSeconds(const DeviceSeconds& further) const { seconds_ += further; }
-  /// The first type among `allowedTypes` with all flags of `wanted`.
-  [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
-  [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
-    return memoryTypes_.memoryTypes[type].propertyFlags;
+  [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
+    return logical_->findMemoryType(allowedTypes, wanted);
   }
+  [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const { return logical_->memoryFlags(type); }
 
  private:
-  DeviceFacts facts_;
-  struct Destroy {
-    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
-  };
-
-  VkPhysicalDeviceMemoryProperties memoryTypes_{};
-  std::unique_ptr<VkDevice_T, Destroy> device_;
-  VkQueue queue_ = VK_NULL_HANDLE;
+  std::shared_ptr<LogicalDevice> logical_;
+  LogicalDevice::Queue& queue_;
   mutable DeviceSeconds seconds_;
   // Members are destroyed in reverse order: uploads use the others.
   std::unique_ptr<MemoryArena> memory_;
@@ -71,13 +64,18 @@ class Device {
   std::unique_ptr<UploadQueue> uploads_;
 };
 
-struct OpenedDevice {
-  std::unique_ptr<Device> device;
+template <typename Opened>
+struct OpenedOn {
+  Opened device;
   /// Has a line per device: its name and the decision. The opened device is first, with its driver.
   std::vector<std::string> reasons;
 };
+using OpenedDevice = OpenedOn<std::unique_ptr<Device>>;
+using OpenedLogicalDevice = OpenedOn<std::shared_ptr<LogicalDevice>>;
 
 /// Opens the device that chooseDevice() selects. Throws Error{Device} with the reasons of all refusals in one line.
+[[nodiscard]] OpenedLogicalDevice openLogicalDevice(const Instance& instance, const DeviceRequest& request,
+                                                    uint32_t maxQueueCount = 1);
 [[nodiscard]] OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request);
 
 }  // namespace asdfvk
