@@ -22,13 +22,14 @@ struct LaneClient {
   std::function<void(JobComputer& computer, size_t job)> compute;
 };
 
-/// Computes the jobs 0 .. jobCount - 1 in lanes: threads of this process with a JobComputer each, which is replaced when
-/// it is spent. Jobs begin in the order of their numbers. The first lane is this thread; the other lanes start when the
-/// first one has opened its JobComputer. A lane ends if it cannot open a JobComputer; the other lanes continue.
+/// Computes the jobs 0 .. jobCount - 1 in lanes: threads of this process with a JobComputer each, which is replaced
+/// when it is spent. Jobs begin in the order of their numbers. The first lane is this thread; the other lanes start
+/// when the first one has opened its JobComputer. A lane ends if it cannot open a JobComputer; the other lanes
+/// continue.
 ///
 /// After a stop request no job begins. Returns when all current jobs have ended. Returns the last OpenFailure after
-/// which the other lanes have computed all jobs; throws it if jobs are left. If compute() throws, no further job begins,
-/// and the first such error is thrown.
+/// which the other lanes have computed all jobs; throws it if jobs are left. If compute() throws, no further job
+/// begins, and the first such error is thrown.
 std::optional<OpenFailure> runInLanes(size_t jobCount, const LaneOptions& options, const LaneClient& client,
                                       const std::stop_token& stop);
 

@@ -16,8 +16,8 @@ namespace asdfvk {
 /// A VkDevice with compute queues. Several threads use it at the same time, each with a Device.
 class LogicalDevice {
  public:
-  /// Opens as many queues as the family has, but at most `maxQueueCount`. Precondition: `facts` describes `physical` and
-  /// has a compute queue family. Throws Error{Device}.
+  /// Opens as many queues as the family has, but at most `maxQueueCount`. Precondition: `facts` describes `physical`
+  /// and has a compute queue family. Throws Error{Device}.
   LogicalDevice(VkPhysicalDevice physical, DeviceFacts facts, uint32_t maxQueueCount = 1);
 
   /// A queue of Vulkan, to which several threads submit.

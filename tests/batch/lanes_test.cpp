@@ -119,8 +119,7 @@ TEST_CASE("a spent computer is replaced; where none is left, the error is thrown
   CHECK_EQ(failure->code, 3);
   LaneRun none;
   none.maxOpenCount = 0;
-  for (const uint32_t laneCount : {1U, 2U})
-    CHECK_THROWS_AS((void)none.run(9, {laneCount, 1}, doNothing), OpenFailure);
+  for (const uint32_t laneCount : {1U, 2U}) CHECK_THROWS_AS((void)none.run(9, {laneCount, 1}, doNothing), OpenFailure);
   CHECK(none.begun.empty());
 }
 

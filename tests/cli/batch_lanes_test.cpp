@@ -36,7 +36,8 @@ std::map<std::string, nlohmann::json> comparableRecords(const std::string& log) 
   return records;
 }
 
-TEST_CASE("results and records on a GPU do not depend on the number of lanes, and those of worker processes are equal") {
+TEST_CASE(
+    "results and records on a GPU do not depend on the number of lanes, and those of worker processes are equal") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   const FakeDevice gpu(kGpuOfBatch);
@@ -133,8 +134,9 @@ TEST_CASE("--timeout ends a mesh of a lane between its steps; the other meshes a
   const FakeDevice gpu(kGpuOfBatch);
   MeshTree tree(false);
   tree.add("in/a.off", sphereOff(300));
-  const ChildOutcome outcome = runOnGpu(*lavapipe, {"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--jobs",
-                                                    "2", "--rays", "1024", "--seeds", "all", "--timeout", "3"});
+  const ChildOutcome outcome =
+      runOnGpu(*lavapipe, {"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--jobs", "2", "--rays", "1024",
+                           "--seeds", "all", "--timeout", "3"});
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 7);
   CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 9}, {"failed", 1}});

@@ -73,7 +73,7 @@ class SharedCallCounter {
 
   [[nodiscard]] static uint32_t deviceCount() { return devices_; }
   [[nodiscard]] static uint32_t submissionCount() { return submissions_; }
-  /// Of memory, descriptor pools and fences.
+  /// The number of allocations of memory, of descriptor pools and of fences.
   [[nodiscard]] static uint32_t allocationCount() { return allocations_; }
 
  private:
