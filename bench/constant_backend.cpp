@@ -39,25 +39,27 @@ class ConstantLengths {
 
 }  // namespace
 
-std::unique_ptr<ConeTracer> ConstantBackend::makeTracer(const TraceScene& scene, const Cone& cone, const TracerNeeds& needs, std::unique_ptr<EncodedScene> encoded) {
-    const ConeKernelRequest request{.rayCount = static_cast<uint32_t>(cone.directions.size()),
-                                    .writesHits = needs.hits,
-                                    .choice = traceChoiceFor(facts(), {}, scene.bvh)};
-    std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
-    if (!kernel) {
-      static std::mutex mutex;  // Backends of several threads replace the function.
+std::unique_ptr<ConeTracer> ConstantBackend::makeTracer(const TraceScene& scene, const Cone& cone,
+                                                        const TracerNeeds& needs,
+                                                        std::unique_ptr<EncodedScene> encoded) {
+  const ConeKernelRequest request{.rayCount = static_cast<uint32_t>(cone.directions.size()),
+                                  .writesHits = needs.hits,
+                                  .choice = traceChoiceFor(facts(), {}, scene.bvh)};
+  std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
+  if (!kernel) {
+    static std::mutex mutex;  // Backends of several threads replace the function.
     const std::lock_guard lock(mutex);
     const ConstantLengths constant;
-      kernel = std::make_unique<VulkanConeKernel>(device_, request);
-    }
-    return makeVulkanTracer(*kernel, scene, cone, std::move(encoded));
+    kernel = std::make_unique<VulkanConeKernel>(device_, request);
   }
+  return makeVulkanTracer(*kernel, scene, cone, std::move(encoded));
+}
 
 std::unique_ptr<DevicePredictor> ConstantBackend::makePredictor(const TraceScene& scene, const Cone& cone) {
-    if (!predictionKernels_)
-      predictionKernels_ = std::make_unique<VulkanPredictionKernels>(device_, cone.definition,
-                                                                     static_cast<uint32_t>(cone.directions.size()));
-    return makeVulkanPredictor(*predictionKernels_, scene, cone);
-  }
+  if (!predictionKernels_)
+    predictionKernels_ = std::make_unique<VulkanPredictionKernels>(device_, cone.definition,
+                                                                   static_cast<uint32_t>(cone.directions.size()));
+  return makeVulkanPredictor(*predictionKernels_, scene, cone);
+}
 
 }  // namespace asdfvk::bench

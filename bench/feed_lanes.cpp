@@ -44,8 +44,8 @@ class StageCpu {
   Stage current_ = Stage::Geometry;
 };
 
-/// Seconds in which this thread ran or was ready to run, from the scheduler of Linux; 0 if it does not count them. Other
-/// load on the machine does not change the rest of the elapsed time, in which the thread waits.
+/// Seconds in which this thread ran or was ready to run, from the scheduler of Linux; 0 if it does not count them.
+/// Other load on the machine does not change the rest of the elapsed time, in which the thread waits.
 double readySecondsOfThread() {
   std::ifstream file("/proc/thread-self/schedstat");
   double running = 0, queued = 0;
@@ -80,9 +80,8 @@ template <typename Body>
 void inLanes(const std::vector<std::unique_ptr<Lane>>& lanes, uint32_t threadCount, const Body& body) {
   std::vector<std::future<void>> ends;
   for (const std::unique_ptr<Lane>& lane : lanes)
-    ends.push_back(std::async(std::launch::async, [&, own = lane.get()] {
-      callWithThreads(threadCount, [&] { body(*own); });
-    }));
+    ends.push_back(
+        std::async(std::launch::async, [&, own = lane.get()] { callWithThreads(threadCount, [&] { body(*own); }); }));
   for (std::future<void>& end : ends) end.get();
 }
 
@@ -97,7 +96,8 @@ std::string measureLanes(const std::string& device, const Mesh& mesh, double per
   const CheckedOptions options(recipeOptions(Recipe::Balanced, percent));
   std::string text = fmt::format(
       "\nlanes, {} %, commands are not run, {} threads in all lanes\n\n"
-      "| lanes | meshes/s | CPU seconds per mesh | wall / (CPU / threads) | share of the wall in which the thread of a lane "
+      "| lanes | meshes/s | CPU seconds per mesh | wall / (CPU / threads) | share of the wall in which the thread of a "
+      "lane "
       "waits |\n|---:|---:|---:|---:|---:|\n",
       percent, coreCount);
   std::string stages;
