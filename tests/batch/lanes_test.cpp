@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <barrier>
+#include <chrono>
 #include <functional>
 #include <latch>
 #include <mutex>
@@ -70,12 +70,31 @@ struct LaneRun {
   }
 };
 
+/// A point that lanes reach together.
+class Meeting {
+ public:
+  explicit Meeting(std::ptrdiff_t laneCount) : missing_(laneCount) {}
+  /// Waits until all lanes have called this function; a minute at most, after which the test fails.
+  void join() {
+    missing_.count_down();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!missing_.try_wait() && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(missing_.try_wait());
+  }
+
+ private:
+  std::latch missing_;
+};
+
 constexpr auto doNothing = [](size_t) {};
 
 TEST_CASE("three lanes compute at the same time, each with a computer of its own, and each job once") {
   LaneRun lanes;
-  std::barrier allLanes(3);  // A run with fewer lanes never ends.
-  CHECK_FALSE(lanes.run(12, {3, 1}, [&](size_t) { allLanes.arrive_and_wait(); }));
+  Meeting ofLanes(3);
+  CHECK_FALSE(lanes.run(12, {3, 1}, [&](size_t job) {
+    if (job < 3) ofLanes.join();
+  }));
   CHECK_EQ(lanes.openCount, 3);
   CHECK(lanes.hasBegunAll(12));
 }
@@ -93,7 +112,10 @@ TEST_CASE("loops of a lane use its share of the threads") {
   std::atomic<size_t> otherCount = 0;
   (void)lanes.run(4, {2, 1}, [&](size_t) {
     const std::thread::id own = std::this_thread::get_id();
-    forEachTask(1000, [&](size_t) { otherCount += std::this_thread::get_id() == own ? 0 : 1; });
+    forEachTask(20, [&](size_t) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // Long enough for a further thread to begin a task.
+      otherCount += std::this_thread::get_id() == own ? 0 : 1;
+    });
   });
   CHECK_EQ(otherCount, 0);
 }
@@ -124,26 +146,29 @@ TEST_CASE("a spent computer is replaced; where none is left, the error is thrown
 }
 
 TEST_CASE("an error of one lane ends all lanes after their current jobs, and is thrown") {
+  constexpr size_t kJobCount = 10'000;  // Each takes 5 ms.
   for (const uint32_t laneCount : {1U, 3U}) {
     LaneRun lanes;
-    std::barrier allLanes(laneCount);
-    CHECK_THROWS_WITH_AS((void)lanes.run(100, {laneCount, 1},
-                                         [&](size_t job) {
-                                           if (job < laneCount) allLanes.arrive_and_wait();
-                                           if (job == 0) throw std::runtime_error("the log cannot be written");
-                                         }),
-                         "the log cannot be written", std::runtime_error);
+    Meeting ofLanes(laneCount);
+    const auto compute = [&](size_t job) {
+      if (job < laneCount) ofLanes.join();
+      if (job == 0) throw std::runtime_error("the log cannot be written");
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    };
+    CHECK_THROWS_WITH_AS((void)lanes.run(kJobCount, {laneCount, 1}, compute), "the log cannot be written",
+                         std::runtime_error);
     CHECK_GE(lanes.begun.size(), laneCount);
+    CHECK_LT(lanes.begun.size(), kJobCount);
   }
 }
 
 TEST_CASE("after a stop request no lane begins a job") {
   LaneRun lanes;
-  std::barrier allLanes(2);
+  Meeting before(2), after(2);
   CHECK_FALSE(lanes.run(100, {2, 1}, [&](size_t) {
-    allLanes.arrive_and_wait();
+    before.join();
     lanes.stop.request_stop();
-    allLanes.arrive_and_wait();
+    after.join();
   }));
   CHECK_EQ(lanes.begun.size(), 2);
 }
