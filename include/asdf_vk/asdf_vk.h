@@ -14,6 +14,7 @@
 #include "asdf_vk/error.h"             // IWYU pragma: export
 #include "asdf_vk/field.h"             // IWYU pragma: export
 #include "asdf_vk/files.h"             // IWYU pragma: export
+#include "asdf_vk/finding.h"           // IWYU pragma: export
 #include "asdf_vk/mesh.h"              // IWYU pragma: export
 #include "asdf_vk/options.h"           // IWYU pragma: export
 #include "asdf_vk/report.h"            // IWYU pragma: export

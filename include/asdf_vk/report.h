@@ -9,6 +9,7 @@
 
 #include "asdf_vk/api.h"
 #include "asdf_vk/error.h"
+#include "asdf_vk/finding.h"
 #include "asdf_vk/mesh.h"
 #include "asdf_vk/thickness_report.h"
 
@@ -245,11 +246,14 @@ struct Report {
   uint64_t noValueCount = 0;  ///< Input faces without a value; with a region, only faces of the region.
   /// Interpolated triangles whose value was clamped to the range of the seeds of their component.
   uint64_t clampedCount = 0;
-  uint64_t reversedFaceCount = 0;                ///< Input faces whose orientation was reversed.
-  uint64_t randomSeed = 0;                       ///< Start value of all random numbers.
-  uint32_t roundCount = 1;                       ///< Number of rounds in which seeds were added.
-  std::string backend;                           ///< "vulkan", "cpu" or "reference".
-  std::string device;                            ///< Name of the device and its driver, or of the CPU.
+  uint64_t reversedFaceCount = 0;  ///< Input faces whose orientation was reversed.
+  uint64_t randomSeed = 0;         ///< Start value of all random numbers.
+  uint32_t roundCount = 1;         ///< Number of rounds in which seeds were added.
+  std::string backend;             ///< "vulkan", "cpu" or "reference".
+  std::string device;              ///< Name of the device and its driver, or of the CPU.
+  /// BackendChoice::Automatic takes a GPU for at least this number of rays, and the CPU for fewer. Unset if another
+  /// choice was made.
+  std::optional<uint64_t> leastRaysForGpu;
   bool runsOnCpu = false;                        ///< The CPU traced the rays, also as a CPU device of Vulkan.
   std::optional<TraceVariant> traceChoice;       ///< The variant of the Vulkan kernels; unset if no kernel ran.
   StageSeconds stageSeconds;                     ///< Seconds by stage; 0 for a stage that did not run.
@@ -266,6 +270,7 @@ struct Report {
   std::optional<ComparisonReport> comparison;   ///< Set by a comparison with a former version.
   std::vector<SealedVoid> voids;                ///< Sealed voids, if the result has the field "gap".
   std::vector<BodyContact> contacts;            ///< Bodies in contact, if the result has the field "gap".
+  std::vector<Finding> findings;                ///< The places to which the verdicts refer, in one form, for programs.
   std::optional<ErrorEstimate> estimatedError;  ///< Unset if every face is a seed or no estimate was requested.
   std::optional<CheckReport> check;             ///< Unset if no check was requested.
   MeshDefects defects;                          ///< Defects of the mesh.

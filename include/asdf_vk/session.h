@@ -19,9 +19,9 @@ namespace asdfvk {
 /// What traces the rays. Only Automatic tries several backends; the others throw Error of kind Device if they are not
 /// available.
 enum class BackendChoice {
-  /// A Vulkan device (GPUs first, then CPU devices such as lavapipe), else Cpu. If the device fails, the next backend
-  /// computes the mesh, and the result has WarningCode::BackendReplaced. Later meshes also use the next backend, except
-  /// after a lack of device memory.
+  /// A Vulkan device (GPUs first, then CPU devices such as lavapipe), else Cpu. Cpu also computes meshes with too few
+  /// rays for a GPU (Report::leastRaysForGpu). If the device fails, the next backend computes the mesh, and the result
+  /// has WarningCode::BackendReplaced. Later meshes also use the next backend, except after a lack of device memory.
   Automatic,
   Vulkan,
   Cpu,        ///< The cores of the CPU, in float32.
@@ -100,7 +100,7 @@ enum class SessionOpening {
   Now,
   /// If a Vulkan device may be used, a thread opens it while the first computation prepares its mesh. Then the
   /// functions that need the device wait, and throw the errors that the constructor throws otherwise. The destructor
-  /// waits, too.
+  /// waits, too. With BackendChoice::Automatic, a GPU is opened only for a mesh with enough rays for it.
   InThread,
 };
 
@@ -113,11 +113,11 @@ class ASDFVK_API Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Whether requireOpen() would neither wait nor throw.
+  /// Whether the backend is open.
   [[nodiscard]] bool isOpen() const;
-  /// Waits until the device is open. Throws the errors of the constructor. The following three functions also wait and
-  /// throw these errors.
-  void requireOpen() const;
+  /// If the opening has begun, waits for its end. Throws the errors of the constructor. The following three functions
+  /// begin the opening, wait and throw, too.
+  void finishOpening() const;
   /// First line: the chosen device and the reason. Each further line: a device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
   /// "vulkan", "cpu" or "reference". If BackendChoice::Automatic replaces a backend, backend(), deviceLines() and

@@ -17,6 +17,10 @@ UnjudgedCause = Literal[
 ]
 ThinKind = Literal["wall", "gap", "detail", "edge"]
 WallChange = Literal["new", "thinner", "kept", "gone"]
+FindingKind = Literal[
+    "thinWall", "thinDetail", "thinEdge", "narrowGap", "thickBody", "sealedVoid", "bodiesInContact", "unjudged",
+]
+FindingLevel = Literal["failure", "notJudged", "note"]
 WarningCode = Literal[
     "meshDefect", "invertedComponents", "componentsReversed", "facesReversed", "missingValues", "finishedOnCpu",
     "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged", "rangeDominated", "thinShell",
@@ -370,6 +374,40 @@ class BodyContact:
 
 
 @dataclass(frozen=True)
+class Finding:
+    """A place to which a verdict refers, in the same form for all checks, for programs. Lengths are in the unit of the
+    mesh.
+    """
+
+    kind: FindingKind
+    """What was found."""
+    level: FindingLevel
+    """What it does to the verdict."""
+    value: float
+    """Thickness, width of the gap, diameter of the ball, or volume of the void; NaN for other kinds."""
+    limit: float | None
+    """The limit that `value` is compared with."""
+    place: Point | None
+    """A point of the surface, or the centre of a ball."""
+    opposite: Point | None
+    """The point on the other side of a wall or a gap."""
+    face: int | None
+    """Input face of `place`."""
+    opposite_face: int | None
+    """Input face of `opposite`."""
+    face_count: int
+    """Input faces of the region; 0 if it is not a region of faces."""
+    is_known: bool
+    """A baseline has this failure; its level is a note."""
+    bodies: tuple[str, ...]
+    """Names of the bodies, see ThinRegion::bodies."""
+    message: str
+    """What was found, and where, in one sentence."""
+    remedy: str
+    """What to change, in one sentence."""
+
+
+@dataclass(frozen=True)
 class WorstFace:
     """The error at a held-out face."""
 
@@ -537,6 +575,10 @@ class Report:
     """"vulkan", "cpu" or "reference"."""
     device: str
     """Name of the device and its driver, or of the CPU."""
+    least_rays_for_gpu: int | None
+    """BackendChoice::Automatic takes a GPU for at least this number of rays, and the CPU for fewer. Unset if another
+    choice was made.
+    """
     runs_on_cpu: bool
     """The CPU traced the rays, also as a CPU device of Vulkan."""
     trace_choice: TraceVariant | None
@@ -568,6 +610,8 @@ class Report:
     """Sealed voids, if the result has the field "gap"."""
     contacts: tuple[BodyContact, ...]
     """Bodies in contact, if the result has the field "gap"."""
+    findings: tuple[Finding, ...]
+    """The places to which the verdicts refer, in one form, for programs."""
     estimated_error: ErrorEstimate | None
     """Unset if every face is a seed or no estimate was requested."""
     check: CheckReport | None

@@ -14,8 +14,8 @@ layout(constant_id = kIsCgalId) const bool kIsCgal = false;
 layout(constant_id = kLengthCountId) const uint kLengthCount = 30u;  // Equal to kRayCount.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
-layout(set = 0, binding = 1) readonly buffer Table { uvec4 tableBlocks[]; };  // The rays, then the seeds.
-layout(set = 0, binding = 2) readonly buffer Hits { uvec2 hits[]; };          // The bits of each ConeHit, by seed.
+layout(set = 0, binding = 1) readonly buffer Table { uvec4 tableBlocks[]; };  // See PredictionSeed.
+layout(set = 0, binding = 2) readonly buffer Hits { uvec2 hits[]; };  // The bits of kRayCount ConeHits per place.
 layout(set = 0, binding = 3) writeonly buffer Points { uvec4 pointBlocks[]; };
 layout(push_constant) uniform Push { PointPush push; };
 
@@ -62,6 +62,8 @@ PredictionFace loadFace(uint face) {
 
 PredictionSeed loadSeed(uint seed) { return decodePredictionSeed(tableBlocks[kRayCount + seed]); }
 
+uint loadPlace(uint seed) { return tableBlocks[kRayCount + gl_NumWorkGroups.x + seed / 4u][seed % 4u]; }
+
 void storePoint(uint index, PredictionPoint point) {
   const uint block = index * kPredictionPointBlockCount;
   pointBlocks[block] = uvec4(floatBitsToUint(point.position), point.face);
@@ -72,7 +74,7 @@ void main() {
   const uint lane = gl_LocalInvocationID.x;
   const PredictionSeed seed = loadSeed(gl_WorkGroupID.x);
   const PredictionFace face = loadFace(seed.face);
-  const uint firstHit = gl_WorkGroupID.x * kRayCount;
+  const uint firstHit = loadPlace(gl_WorkGroupID.x) * kRayCount;
   const vec3 axis = -face.normal;
   const mat3 frame = mat3(seed.tangent, cross(axis, seed.tangent), axis);
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {

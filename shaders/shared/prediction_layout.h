@@ -56,7 +56,8 @@ struct PredictionRay {
   float solidAngle;  // See Cone in src/cone/cone.h.
 };
 
-// A seed, 16 bytes. The axis of its cone is the reversed face normal; the bitangent is cross(axis, tangent).
+// A seed, 16 bytes. One array has the rays, then the seeds, then for each seed the place of its hits: a word, with four
+// places in a block. The axis of its cone is the reversed face normal; the bitangent is cross(axis, tangent).
 struct PredictionSeed {
   vec3 tangent;
   uint face;

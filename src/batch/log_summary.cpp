@@ -43,7 +43,7 @@ using Cells = std::vector<std::pair<std::string, std::string>>;
 Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");
-  for (const char* key : {"inputHash", "optionsHash", "outputHash", "options"}) row.erase(key);
+  for (const char* key : {"inputHash", "optionsHash", "outputHash", "options", "findings"}) row.erase(key);
   for (const char* key : {"sdf", "thickness", "parts", "estimatedError"})
     if (const Json& values = row.at(key);
         std::all_of(values.begin(), values.end(), [](const Json& value) { return value.is_null(); }))
@@ -65,7 +65,11 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
   for (const auto& [key, value] : object.items()) {
     if (value.is_object()) {
       addCells(value, prefix + key + ".", cells);
-    } else if (!value.is_array()) {
+    } else if (value.is_array()) {
+      std::string coordinates;  // A point.
+      for (const Json& each : value) coordinates += (coordinates.empty() ? "" : " ") + cellText(each);
+      cells.emplace_back(prefix + key, coordinates);
+    } else {
       cells.emplace_back(prefix + key, cellText(value));
     }
   }

@@ -34,11 +34,11 @@ struct MeshRecord {
   std::string time;
   std::optional<std::string> output;               ///< Unset if no output was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
-  /// Values of the JSON report other than lists; null or unset if unknown.
+  /// Values of the JSON report other than lists, except for points and findings; null or unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
   std::optional<uint32_t> segmentCount;
   std::string unit;
-  Json sdf, thickness, parts, estimatedError, options;
+  Json sdf, thickness, parts, estimatedError, findings, options;
   std::string version, commit, device, backend;
   std::map<std::string, double> seconds;  ///< Seconds of each stage that ran.
   double totalSeconds = 0;                ///< Time from the start of reading to the end of writing.
@@ -67,7 +67,7 @@ struct MeshRecord {
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
 ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
-            noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, totalSeconds, seconds,
+            noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
             peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
             options)
 

@@ -23,6 +23,7 @@ Monitor::Monitor(const MonitorOptions& options, const std::vector<Job>& jobs)
       isTerminal_(isStandardErrorTerminal()) {
   if (!options.log.empty()) log_.emplace(options.log);
   progress_.meshCount = jobs.size();
+  progress_.isCheck = options.isCheck;
   for (const Job& job : jobs) progress_.byteCount += job.byteCount;
   nextProgressSeconds_ = firstProgressSeconds();
   if (!options_.showsProgress || options_.isQuiet) return;
@@ -77,6 +78,7 @@ void Monitor::add(size_t job, JobResult result) {
   progress_.count(record, jobs_[job].byteCount);
   if (record.status == MeshStatus::Dropped) dropped_.push_back(record.input);
   if (log_) log_->append(record);
+  if (options_.keepsRecords) records_.emplace(job, record);
   isAdded_[job] = 1;
   waiting_[job] = {options_.printsReports ? std::move(result.report) : std::string(), std::move(result.messages)};
   printInOrder();
@@ -94,6 +96,13 @@ void Monitor::finish() {
       writeStandardError(oneLine(fmt::format("asdf-vk: dropped: {}", joined(dropped_, ", "))) + "\n");
     writeStandardError(fmt::format("asdf-vk: {}\n", summaryText(progress_, watch_.seconds())));
   }
+}
+
+std::vector<MeshRecord> Monitor::records() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<MeshRecord> records;
+  for (const auto& [job, record] : records_) records.push_back(record);
+  return records;
 }
 
 std::vector<size_t> Monitor::unfinishedJobs() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -19,6 +20,8 @@ struct MonitorOptions {
   std::string log;             ///< Path of the log, to which records are appended; empty: none.
   bool printsReports = false;  ///< Prints JobResult::report on standard output.
   bool showsProgress = true;   ///< Shows the progress and a summary.
+  bool keepsRecords = false;   ///< Keeps the records for Monitor::records().
+  bool isCheck = false;        ///< See BatchProgress.
   bool isQuiet = false;        ///< Prints only the reports and messages of jobs.
 };
 
@@ -45,6 +48,8 @@ class Monitor {
   /// Prints the remaining texts and the summary. Preconditions: all results were added; this is the first call.
   void finish();
 
+  /// The records of the jobs with a result, in the order of the jobs. Precondition: MonitorOptions::keepsRecords.
+  [[nodiscard]] std::vector<MeshRecord> records() const;
   [[nodiscard]] const std::vector<int>& codes() const { return codes_; }
   [[nodiscard]] std::vector<size_t> unfinishedJobs() const;
   /// Whether jobs were dropped or have no result.
@@ -71,6 +76,7 @@ class Monitor {
   size_t nextPrinted_ = 0;
   BatchProgress progress_;
   std::vector<int> codes_;
+  std::map<size_t, MeshRecord> records_;  ///< By job.
   std::vector<std::string> dropped_;
   std::set<std::string> announcedBackends_;
   Stopwatch watch_;

@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "batch/input_list.h"
 #include "core/text.h"
@@ -17,6 +19,21 @@ double weightOf(uint64_t meshes, uint64_t bytes) {
 
 std::string rateText(uint64_t count, double seconds) {
   return fmt::format("{:.3g} meshes/s", static_cast<double>(count) / std::fmax(seconds, 1e-3));
+}
+
+/// What a failure of a mesh is called in a summary.
+std::string wordsOf(const MeshRecord& record) {
+  constexpr int kUnreadable = 2;
+  constexpr std::array kWords{std::pair{"tooThin", "thin"},
+                              std::pair{"tooThick", "thick"},
+                              std::pair{"tooClose", "with narrow gaps"},
+                              std::pair{"sealedVoids", "with sealed voids"},
+                              std::pair{"bodiesInContact", "with bodies in contact"},
+                              std::pair{"notJudged", "not judged"},
+                              std::pair{"checkFailed", "failed the comparison"}};
+  for (const auto& [error, words] : kWords)
+    if (record.error == error) return words;
+  return record.code == kUnreadable ? "unreadable" : "failed";
 }
 
 }  // namespace
@@ -36,6 +53,7 @@ void BatchProgress::count(const MeshRecord& record, uint64_t bytes) {
       break;
     case MeshStatus::Failed:
       ++failedCount;
+      ++failures[wordsOf(record)];
       break;
   }
   doneBytes += bytes;
@@ -74,12 +92,12 @@ std::string progressText(const BatchProgress& progress, double elapsedSeconds) {
 }
 
 std::string summaryText(const BatchProgress& progress, double elapsedSeconds) {
-  std::string text = fmt::format("{} done", groupDigits(progress.doneCount));
-  const auto add = [&](uint64_t count, const char* status) {
+  std::string text = fmt::format("{} {}", groupDigits(progress.doneCount), progress.isCheck ? "ok" : "done");
+  const auto add = [&](uint64_t count, const std::string& status) {
     if (count > 0) text += fmt::format(", {} {}", groupDigits(count), status);
   };
   add(progress.skippedCount, "skipped");
-  add(progress.failedCount, "failed");
+  for (const auto& [words, count] : progress.failures) add(count, words);
   add(progress.droppedCount, "dropped");
   add(progress.meshCount - progress.finishedCount(), "not begun");
   text += fmt::format("; {:.3g} s", elapsedSeconds);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "batch/mesh_record.h"
@@ -13,7 +14,9 @@ struct BatchProgress {
   uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
   uint64_t doneBytes = 0;  ///< Bytes of the meshes that were computed or failed.
   uint64_t skippedBytes = 0;
-  uint64_t faceCount = 0;  ///< Faces of the meshes that were computed.
+  uint64_t faceCount = 0;                    ///< Faces of the meshes that were computed.
+  bool isCheck = false;                      ///< The summary calls meshes "ok" instead of "done".
+  std::map<std::string, uint64_t> failures;  ///< Numbers of failed meshes by what happened, in words.
 
   void count(const MeshRecord& record, uint64_t bytes);
 
@@ -27,7 +30,8 @@ struct BatchProgress {
 /// The progress in one line: "1,234 of 10,000 meshes, 56.7 meshes/s, 2 min 35 s left, 12 failed".
 [[nodiscard]] std::string progressText(const BatchProgress& progress, double elapsedSeconds);
 
-/// The summary in one line: "9,899 done, 3 skipped, 101 failed; 123 s, 80.5 meshes/s, 0.312 million faces/s".
+/// The summary in one line: "9,899 ok, 3 skipped, 2 thin, 1 not judged, 3 unreadable; 123 s, 80.5 meshes/s, 0.312
+/// million faces/s".
 [[nodiscard]] std::string summaryText(const BatchProgress& progress, double elapsedSeconds);
 
 /// A duration as a text: "35 s", "2 min 35 s", "3 h 12 min", "2 d 4 h".

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "asdf_vk/asdf_vk.h"
+#include "batch/check_report.h"
 #include "batch/engine.h"
 #include "batch/input_list.h"
 #include "batch/worker.h"
@@ -19,8 +20,10 @@
 #include "cli/outputs.h"
 #include "cli/report_json.h"
 #include "core/abandoned_files.h"
+#include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "page/result_page.h"
+#include "pipeline/backend_choice.h"
 #include "pipeline/device_sharing.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
@@ -108,6 +111,12 @@ ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options
   return ExitCode::Done;
 }
 
+void writeCheckReport(const Outputs& outputs, const std::vector<MeshRecord>& records) {
+  AtomicFile file(outputs.report);
+  file.write(checkReport(checkFormatOf(outputs.reportFormat), records));
+  file.commit();
+}
+
 /// Computes the jobs of a worker process. A signal cancels the current job or ends an idle process.
 class WorkerComputer : public JobComputer {
  public:
@@ -152,6 +161,8 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
                       const std::stop_token& stop) {
   const Outputs& outputs = settings.outputs;
   const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
+  if (!outputs.reportFormat.empty()) requireWritablePlace(outputs.report);
+  if (outputs.updatesBaseline) requireWritablePlace(outputs.baseline);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();
   // In a batch, a signal cancels the current meshes, and the log has a record of each.
@@ -160,9 +171,13 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
     listening.emplace();
     removeUnfinishedOutputs(jobs);
   }
-  Monitor monitor(
-      {.log = batch.log, .printsReports = outputs.json, .showsProgress = batch.isBatch(), .isQuiet = outputs.quiet},
-      jobs);
+  Monitor monitor({.log = batch.log,
+                   .printsReports = outputs.json,
+                   .showsProgress = batch.isBatch(),
+                   .keepsRecords = !outputs.reportFormat.empty() || outputs.updatesBaseline,
+                   .isCheck = settings.computation.isCheck() || !outputs.limits.empty(),
+                   .isQuiet = outputs.quiet},
+                  jobs);
   const JobRecords records(settings);
   const EngineOptions options{.requestedAtOnce = page ? 1 : batch.jobCount,
                               .threadCount = static_cast<uint32_t>(threadLimit()),
@@ -180,7 +195,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
           },
       .shareDevice =
           [&](uint32_t count) {
-            sharing = DeviceSharing::ofGpu(settings.session, count);
+            sharing = DeviceSharing::ofGpu(sessionOptionsFor(settings.session, settings.computation.options), count);
             return sharing != nullptr;
           },
       .fail = [&](const Job& job, const JobOutcome& outcome) { return records.fail(job, failureOf(outcome, batch)); },
@@ -191,11 +206,16 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const ExitCode ofDevice = runAndReport(jobs, options, client, monitor, outputs.json, stop);
   if (batch.isBatch()) removeUnfinishedOutputs(jobs);
   monitor.finish();
+  if (!outputs.reportFormat.empty()) writeCheckReport(outputs, monitor.records());
+  if (outputs.updatesBaseline) updateBaseline(outputs.baseline, monitor.records());
   if (stop.stop_requested() && monitor.hasUnfinished()) return ExitCode::Cancelled;
   if (ofDevice != ExitCode::Done) return ofDevice;
   if (page && !page->isEmpty()) finishPage(*page, jobs.front().output, outputs.opensPage, stop);
   SharedExitCode code;
-  for (const int ofMesh : monitor.codes()) code.add(static_cast<ExitCode>(ofMesh));
+  for (const int ofMesh : monitor.codes()) {
+    const auto each = static_cast<ExitCode>(ofMesh);
+    code.add(outputs.updatesBaseline && each == ExitCode::OverLimit ? ExitCode::Done : each);
+  }
   return code.code();
 }
 

@@ -163,10 +163,17 @@ void completeFields(CommandLine& line) {
 }
 
 /// A run for a verdict writes a result only if an option about the result is given.
+/// Files of limits are for walls, unless another measure is given.
+void completeLimits(CommandLine& line, const GivenOptions& given) {
+  Options& options = line.computation.options;
+  if (!line.outputs.limits.empty() && !given.has("measure") && options.measure == Measure::ShapeDiameter)
+    options.measure = Measure::Thickness;
+}
+
 void completeResult(CommandLine& line, const GivenOptions& given) {
   constexpr std::array kAboutResult{"output", "format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
   line.outputs.writesResult =
-      !line.computation.isCheck() ||
+      !(line.computation.isCheck() || !line.outputs.limits.empty()) ||
       std::any_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
   if (!line.outputs.writesResult && line.batch.skipsExisting)
     refuseOptions("--skip-existing looks for results, but --fail-if-... writes none without -o; give -o");
@@ -258,6 +265,11 @@ void validateOptions(const CommandLine& line) {
     refuseOptions(
         "--points -, --json, -o - and --picture - write to standard output, which only one of them can use; give "
         "--points a file, or drop the others");
+  if (!line.outputs.reportFormat.empty() && line.outputs.report == "-" &&
+      (line.outputs.path == "-" || line.outputs.json || line.outputs.picture == "-" || line.outputs.points == "-"))
+    refuseOptions(
+        "--report-format, --json, -o -, --picture - and --points - write to standard output, which only one of them "
+        "can use; give --report a file, or drop the others");
   const BackendChoice backend = line.session.backend;
   const SolverChoice solver = line.computation.options.solver;
   if (!mayUseDevice(backend) && solverNeedsDevice(solver))
@@ -332,6 +344,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   if (Options& options = line.computation.options;
       line.outputs.verbose && (options.measuresThickness() || options.measuresGap()))
     options.thickness.findsNextWall = true;
+  completeLimits(line, given);
   completeFields(line);
   completeReading(line);
   completeResult(line, given);

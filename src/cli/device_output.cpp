@@ -10,6 +10,7 @@
 #include "core/json.h"
 #include "core/text.h"
 #include "describe/report_json.h"
+#include "describe/report_text.h"
 #include "diagnose/device_report.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
@@ -59,10 +60,16 @@ std::string deviceLinesOf(const Session& session, const SessionOptions& options,
   const bool isOtherPossible = options.device.empty() && session.runsOnCpu() && lines.size() > 1;
   if (!isVerbose && !isReplaced && !isOtherPossible) return {};
   if (session.backend() == nameOf(kBackendNames, BackendChoice::Vulkan) && session.runsOnCpu())
-    lines.front() += "; a CPU device: --backend cpu may be faster";
+    lines.front() += "; a CPU device: --backend cpu is faster";
   std::string text;
   for (const std::string& line : lines) text += oneLine("asdf-vk: " + line) + "\n";
   return text;
+}
+
+std::string deviceChoiceLine(const Report& report, bool isVerbose) {
+  if (!report.leastRaysForGpu || (!isVerbose && !report.runsOnCpu)) return {};
+  return fmt::format("asdf-vk: {}: {}: {}\n", report.backend, report.device,
+                     backendReason(report, OptionSpelling::Flag));
 }
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {

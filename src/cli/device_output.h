@@ -13,6 +13,10 @@ namespace asdfvk {
 /// text in two cases only: another backend replaces Vulkan, or a CPU device was chosen among several devices.
 [[nodiscard]] std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose);
 
+/// A line about the backend that BackendChoice::Automatic took because of the number of rays. Without isVerbose, there
+/// is a text only for the CPU.
+[[nodiscard]] std::string deviceChoiceLine(const Report& report, bool isVerbose);
+
 /// One line per device; if there is no device, one line with the reason.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -75,15 +76,15 @@ bool hasResult(ExitCode ofMesh) {
   return ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::OverLimit;
 }
 
-void SharedExitCode::add(ExitCode ofMesh) {
-  if (first_ == ExitCode::Done) first_ = ofMesh;
-  if (ofMesh == ExitCode::Cancelled) isCancelled_ = true;
-  (hasResult(ofMesh) ? hasResult_ : lacksResult_) = true;
-}
-
 ExitCode SharedExitCode::code() const {
-  if (isCancelled_) return ExitCode::Cancelled;
-  return hasResult_ && lacksResult_ ? ExitCode::SomeFailed : first_;
+  for (const ExitCode first : {ExitCode::Cancelled, ExitCode::OverLimit})
+    if (codes_.contains(first)) return first;
+  const auto withResult = std::count_if(codes_.begin(), codes_.end(), hasResult);
+  if (withResult == 0)
+    for (const ExitCode next : {ExitCode::Internal, ExitCode::Device, ExitCode::Output, ExitCode::Limit})
+      if (codes_.contains(next)) return next;
+  if (static_cast<size_t>(withResult) < codes_.size()) return withResult > 0 ? ExitCode::SomeFailed : *codes_.begin();
+  return codes_.contains(ExitCode::CheckFailed) ? ExitCode::CheckFailed : ExitCode::Done;
 }
 
 ExitCode exitCodeOf(const CheckReport& check) { return check.passed == false ? ExitCode::CheckFailed : ExitCode::Done; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -10,7 +11,8 @@
 
 namespace asdfvk {
 
-/// Exit status of the program. If a mesh has several failures, the first one determines the code.
+/// Exit status of the program. If a mesh has several failures, the first one determines the code; for several meshes
+/// see SharedExitCode.
 enum class ExitCode : int {
   Done = 0,
   Usage = 1,   ///< The command line is invalid.
@@ -42,21 +44,23 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
      {ExitCode::Cancelled, "cancelled"}}};
 
 inline constexpr const char* kExitCodeOfSeveralMeshes =
-    "With several meshes, a failure does not end the run. The code is 7 if some meshes have a result and others have "
-    "none; meshes with the codes 5 and 6 have a result. In all other cases the code is that of the first failure.";
+    "With several meshes, a failure does not end the run. The code does not depend on their order: 6 if a mesh has "
+    "this "
+    "code, else 7 if some meshes have a result and others have none, else 70, 3, 4, 8 or 2 if none has a result, else "
+    "5. The summary counts all.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
 [[nodiscard]] bool hasResult(ExitCode ofMesh);
 
+/// The exit code for several meshes, in any order: kExitCodeOfSeveralMeshes.
 class SharedExitCode {
  public:
-  void add(ExitCode ofMesh);
+  void add(ExitCode ofMesh) { codes_.insert(ofMesh); }
   [[nodiscard]] ExitCode code() const;
 
  private:
-  ExitCode first_ = ExitCode::Done;
-  bool hasResult_ = false, lacksResult_ = false, isCancelled_ = false;
+  std::set<ExitCode> codes_;
 };
 /// Returns CheckFailed if the check failed, else Done. A check that is not CheckReport::independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);

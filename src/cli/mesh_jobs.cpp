@@ -17,14 +17,17 @@
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "describe/report_json.h"
+#include "pipeline/backend_choice.h"
 
 namespace asdfvk {
 namespace {
 
+/// Points stay.
 Json withoutLists(Json object) {
   Json kept;
   for (auto& [key, value] : object.items())
-    if (!value.is_array()) kept[key] = value.is_object() ? withoutLists(std::move(value)) : std::move(value);
+    if (!value.is_array() || key == "minPlace" || key == "minOpposite")
+      kept[key] = value.is_object() ? withoutLists(std::move(value)) : std::move(value);
   return kept;
 }
 
@@ -34,6 +37,7 @@ void fillRecord(MeshRecord& record, const Report& report) {
   record.thickness = withoutLists(json.at("thickness"));
   record.parts = withoutLists(json.at("parts"));
   record.estimatedError = withoutLists(json.at("estimatedError"));
+  record.findings = json.at("findings");
   record.faceCount = report.faceCount;
   record.vertexCount = report.vertexCount;
   record.componentCount = report.componentCount;
@@ -75,7 +79,10 @@ bool isReadAhead(const Job& job) {
 JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),
       optionsHash_(optionsHash(settings.computation, settings.session, settings.reading, settings.outputs)),
-      options_(optionValues(settings.computation, settings.session)) {}
+      options_(optionValues(settings.computation, settings.session)) {
+  if (const Json limits = settings.policy.limits; !settings.policy.limits.rules.empty())
+    optionsHash_ = contentHash(optionsHash_ + jsonText(limits));
+}
 
 MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;
@@ -143,7 +150,8 @@ MeshComputer::MeshComputer(const MeshSettings& settings, const JobRecords& recor
       records_(records),
       stop_(std::move(stop)),
       showsBar_(showsBar),
-      session_(openSession(settings.session)),
+      sessionOptions_(sessionOptionsFor(settings.session, settings.computation.options)),
+      session_(openSession(sessionOptions_)),
       backend_(session_->backend()) {}
 
 void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
@@ -152,7 +160,7 @@ void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
 }
 
 ComputerDescription MeshComputer::describe() const {
-  return {session_->backend(), deviceLinesOf(*session_, settings_.session, settings_.outputs.verbose),
+  return {session_->backend(), deviceLinesOf(*session_, sessionOptions_, settings_.outputs.verbose),
           session_->runsOnCpu()};
 }
 

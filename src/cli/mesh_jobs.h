@@ -64,6 +64,7 @@ class MeshComputer : public JobComputer {
   const JobRecords& records_;
   const std::stop_token stop_;
   bool showsBar_;
+  const SessionOptions sessionOptions_;
   std::unique_ptr<Session> session_;
   std::string backend_;
   bool isSpent_ = false;

@@ -49,6 +49,8 @@ Json toJson(MeshSettings settings) {
           {"session", valuesOf(sessionRows(settings.session))},
           {"reading", valuesOf(readingRows(settings.reading))},
           {"outputs", valuesOf(outputRows(settings.outputs))},
+          {"limits", settings.policy.limits},
+          {"baseline", settings.policy.baseline},
           {"keepsScene", settings.computation.options.keepsScene},
           {"timeoutSeconds", settings.timeoutSeconds},
           {"makesFolders", settings.makesFolders},
@@ -61,6 +63,8 @@ MeshSettings settingsOf(const Json& json) {
   setValues(sessionRows(settings.session), json.at("session"));
   setValues(readingRows(settings.reading), json.at("reading"));
   setValues(outputRows(settings.outputs), json.at("outputs"));
+  json.at("limits").get_to(settings.policy.limits);
+  json.at("baseline").get_to(settings.policy.baseline);
   settings.computation.options.keepsScene = json.at("keepsScene");
   settings.timeoutSeconds = json.at("timeoutSeconds");
   settings.makesFolders = json.at("makesFolders");

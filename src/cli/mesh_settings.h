@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asdf_vk/files.h"
+#include "cli/check_policy.h"
 #include "cli/other_meshes.h"
 #include "cli/outputs.h"
 #include "describe/computation_options.h"
@@ -18,6 +19,7 @@ struct MeshSettings {
   ReadOptions reading;
   OtherMeshes others;  ///< Empty for one of several meshes and in batches.
   Outputs outputs;
+  CheckPolicy policy;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
   bool makesFolders = false;  ///< Whether a missing folder of the result is created.
   /// Whether the mesh is part of a batch. In a batch, a record beside the result replaces the report, and pages have no

@@ -23,11 +23,13 @@
 #include "core/background_task.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "describe/findings.h"
 #include "describe/unjudged_text.h"
 #include "io/files.h"
 #include "io/points_file.h"
 #include "mesh/orientation.h"
 #include "page/result_page.h"
+#include "pipeline/backend_choice.h"
 #include "process/browser.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
@@ -112,6 +114,26 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
   }
   failures.insert(failures.end(), notJudged.begin(), notJudged.end());
   return failures;
+}
+
+size_t knownCountOf(const Report& report) {
+  return static_cast<size_t>(std::count_if(report.findings.begin(), report.findings.end(),
+                                           [](const Finding& finding) { return finding.isKnown; }));
+}
+
+/// Whether a baseline has all that fails this check.
+bool isKnown(const Failure& failure, const Report& report) {
+  using Kind = FindingKind;
+  if (failure.code != ExitCode::OverLimit || knownCountOf(report) == 0) return false;
+  return std::none_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
+    if (finding.level != FindingLevel::Failure) return false;
+    const bool isThin = finding.kind == Kind::ThinDetail || finding.kind == Kind::ThinEdge;
+    if (failure.name == "tooThin") return isThin || finding.kind == Kind::ThinWall;
+    if (failure.name == "tooClose") return isThin || finding.kind == Kind::NarrowGap;
+    return finding.kind == (failure.name == "tooThick"      ? Kind::ThickBody
+                            : failure.name == "sealedVoids" ? Kind::SealedVoid
+                                                            : Kind::BodiesInContact);
+  });
 }
 
 /// The given options that need shape diameters, for the remedy if no face has a value.
@@ -202,9 +224,17 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
     run.text += textReport(outcome);
   }
   run.report = report;
+  if (const size_t count = knownCountOf(report); count > 0)
+    run.text +=
+        oneLine(fmt::format("asdf-vk: {}: known by the baseline: {}", outcome.mesh, counted(count, "place"))) + "\n";
   for (Failure& failure : failedChecks(outcome.computation, report)) {
+    if (isKnown(failure, report)) continue;
     // The first line of a shown report already has the verdict on the thickness.
-    if (!showsReport || failure.name == "checkFailed") run.text += errorLine(outcome.mesh, failure.message);
+    const bool isVerdict = failure.name != "checkFailed";
+    if (!isVerdict)
+      run.text += errorLine(outcome.mesh, failure.message);
+    else if (!showsReport)
+      run.text += oneLine(fmt::format("asdf-vk: {}: {}", outcome.mesh, failure.message)) + "\n";
     if (!run.failure) run.failure = std::move(failure);
   }
 }
@@ -230,7 +260,8 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
   const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
   const bool hasPicture = !settings.outputs.picture.empty();
   const auto compute = [&] {
-    const CheckedOptions options = settings.computation.checked();
+    const ComputationSettings computation = settings.policy.limits.applied(input, settings.computation);
+    const CheckedOptions options = computation.checked();
     ComputedMesh computed = files.withProgress([&](const RunControl& control) {
       return settings.others.isEmpty()
                  ? ComputedMesh{{}, session.compute(loaded.mesh, options, control)}
@@ -238,17 +269,16 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     });
     Result& result = computed.result;
     if (deadline.token().stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+    const auto find = [&] {
+      result.report.findings = findingsOf(result.report, {computation.failsIfVoids, computation.failsIfContact});
+      settings.policy.baseline.mark(input, result.report.findings);
+    };
+    find();
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] += loaded.seconds;
     const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
-    const MeshOutcome outcome{input,
-                              output,
-                              settings.computation,
-                              settings.session,
-                              settings.others,
-                              settings.outputs,
-                              result,
-                              computed.faceCounts};
+    const MeshOutcome outcome{input,           output,           computation, settings.session,
+                              settings.others, settings.outputs, result,      computed.faceCounts};
     const Stopwatch watch;
     removeOutputRecord(output);
     AtomicFiles written;
@@ -271,6 +301,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     if (isAmongOthers) result.fields = std::move(ofMesh);
     if (settings.outputs.json) run.json += jsonReport(outcome);
     numberFacesByFile(result.report, loaded.mesh.inputFaceCount(), computed.faceCounts);
+    find();
     addReport(outcome, settings.isOfBatch, run);
   };
 
@@ -313,14 +344,15 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
     if (settings.outputs.json) writeStandardOutput(jsonFailure(input, failure.name, failure.message));
     return failure.code;
   };
+  const SessionOptions sessionOptions = sessionOptionsFor(settings.session, settings.computation.options);
   try {
-    session.emplace(settings.session, SessionOpening::InThread);
+    session.emplace(sessionOptions, SessionOpening::InThread);
   } catch (...) {
     return reportOpenFailure();
   }
   const bool printsDevice = !settings.outputs.quiet, wasOpen = session->isOpen();
   const auto printDevice = [&] {
-    writeStandardError(deviceLinesOf(*session, settings.session, settings.outputs.verbose));
+    writeStandardError(deviceLinesOf(*session, sessionOptions, settings.outputs.verbose));
   };
   if (printsDevice && wasOpen) printDevice();
   const Deadline deadline(settings.timeoutSeconds, stop);
@@ -332,11 +364,12 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
       computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
   if (!deadline.token().stop_requested()) {
     try {
-      session->requireOpen();
+      session->finishOpening();
     } catch (...) {
       return reportOpenFailure();
     }
-    if (printsDevice && !wasOpen) printDevice();
+    if (printsDevice && !wasOpen && session->isOpen()) printDevice();
+    if (printsDevice && run.report) writeStandardError(deviceChoiceLine(*run.report, settings.outputs.verbose));
   }
   writeStandardError(run.text);
   writeStandardOutput(run.json);

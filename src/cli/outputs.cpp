@@ -175,6 +175,7 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   for (const InputFile& file : files)
     if (file.path != "-") uses.add(file.path, "an input");
   if (!batch.list.empty() && batch.list != "-") uses.add(batch.list, "the list of --files-from");
+  if (!outputs.limits.empty()) uses.add(outputs.limits, "the file of --limits");
   const auto plan = [&uses](const std::string& path, const std::string& use, const char* option) {
     if (path.empty() || path == "-") return;
     if (const std::string other = uses.add(path, use); !other.empty())
@@ -187,6 +188,8 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
   }
   plan(outputs.picture, "the picture", "--picture");
   plan(outputs.points, "the points", "--points");
+  if (!outputs.reportFormat.empty()) plan(outputs.report, "the report of checks", "--report");
+  if (outputs.updatesBaseline) plan(outputs.baseline, "the baseline", "--baseline");
   plan(batch.log, "the log", "--log");
   return paths;
 }

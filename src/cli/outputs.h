@@ -29,6 +29,10 @@ struct Outputs {
   bool writesResult = true;
   std::string points;      ///< Path of the .ply or .swc file of skeleton points, "-" for standard output; empty: none.
   bool opensPage = false;  ///< Opens the page in the browser.
+  std::string reportFormat;      ///< One of checkFormatNames(); empty: no report of checks.
+  std::string limits, baseline;  ///< Paths of the files of CheckPolicy; empty: none.
+  bool updatesBaseline = false;  ///< Writes the baseline instead of comparing with it.
+  std::string report = "-";      ///< Path of the report of checks; "-" for standard output.
   bool json = false;
   bool quiet = false;
   bool verbose = false;  ///< Prints the full report and the lines about devices.

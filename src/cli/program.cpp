@@ -7,6 +7,7 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/run_control.h"
+#include "batch/check_report.h"
 #include "batch/log_summary.h"
 #include "batch/mesh_record.h"
 #include "cli/batch_run.h"
@@ -32,12 +33,23 @@ ExitCode printDevices(bool requireGpu, bool asJson) {
   return ExitCode::Device;
 }
 
+CheckPolicy policyOf(const Outputs& outputs) {
+  CheckPolicy policy;
+  if (!outputs.limits.empty()) policy.limits = readLimits(outputs.limits);
+  if (!outputs.baseline.empty() && !outputs.updatesBaseline) policy.baseline = readBaseline(outputs.baseline);
+  return policy;
+}
+
+/// Whether the records of the meshes are needed.
+bool needsRecords(const Outputs& outputs) { return !outputs.reportFormat.empty() || outputs.updatesBaseline; }
+
 MeshSettings settingsOf(const CommandLine& line) {
   return {.session = line.session,
           .computation = line.computation,
           .reading = line.reading,
           .others = line.others,
           .outputs = line.outputs,
+          .policy = policyOf(line.outputs),
           .timeoutSeconds = line.batch.timeoutSeconds,
           .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),
           .isOfBatch = line.batch.isBatch()};
@@ -71,8 +83,9 @@ ExitCode summarize(const std::vector<std::string>& arguments) {
         .isRequired = true,
         .isList = true},
        {.names = "--format",
-        .placeholder = "text|json|csv",
-        .text = "text: a summary. json: the summary as one document. csv: a table with a row per mesh",
+        .placeholder = "text|json|csv|sarif|junit|github",
+        .text = "text: a summary. json: the summary as one document. csv: a table with a row per mesh. sarif, junit, "
+                "github: the checks, as by --report-format",
         .receive = into(format)},
        {.names = "--json", .text = "As --format json", .receive = [&isJson](const Argument::Values&) {
           isJson = true;
@@ -84,14 +97,20 @@ ExitCode summarize(const std::vector<std::string>& arguments) {
   if (isJson && !format.empty() && format != "json")
     refuseOptions(fmt::format("--json and --format {} contradict each other; drop one", format));
   if (format.empty()) format = isJson ? "json" : "text";
-  if (format != "text" && format != "json" && format != "csv")
-    throw Error(ErrorCode::UnknownName, fmt::format("--format: '{}' is not one of text|json|csv", format));
+  std::vector<std::string> formats{"text", "json", "csv"};
+  const std::vector<std::string> checkFormats = checkFormatNames();
+  formats.insert(formats.end(), checkFormats.begin(), checkFormats.end());
+  if (std::find(formats.begin(), formats.end(), format) == formats.end())
+    throw Error(ErrorCode::UnknownName, fmt::format("--format: '{}' is not one of {}", format, joined(formats, "|")));
   std::vector<MeshRecord> records;
   size_t invalidCount = 0;
   for (const std::string& log : logs)
     for (MeshRecord& record : readLog(log, invalidCount)) records.push_back(std::move(record));
   const LogSummary summary = summarizeRecords(std::move(records), invalidCount);
-  writeStandardOutput(format == "json" ? jsonOf(summary) : format == "csv" ? csvOf(summary) : textOf(summary));
+  writeStandardOutput(format == "json"   ? jsonOf(summary)
+                      : format == "csv"  ? csvOf(summary)
+                      : format == "text" ? textOf(summary)
+                                         : checkReport(checkFormatOf(format), summary.meshes));
   return ExitCode::Done;
 }
 
@@ -115,7 +134,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   const Interrupt interrupt;
   if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
   if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());
-  if (line.meshes.size() == 1 && !line.batch.isBatch())
+  if (line.meshes.size() == 1 && !line.batch.isBatch() && !needsRecords(line.outputs))
     return computeOneMesh(line.meshes.front(), settingsOf(line), interrupt.token());
   return computeBatch(line.meshes, settingsOf(line), line.batch, interrupt.token());
 }

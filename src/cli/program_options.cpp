@@ -1,5 +1,6 @@
 #include "cli/program_options.h"
 
+#include "batch/check_report.h"
 #include "cli/program_values.h"
 #include "core/text.h"
 #include "describe/computation_options.h"
@@ -46,6 +47,33 @@ OptionRows outputRows(Outputs& outputs) {
                 .text = "Open the page in the browser. Without -o the page is NAME.asdf.html"},
       OptionRow{
           .name = "json", .member = &outputs.json, .text = "Report as JSON on standard output, one line per mesh"},
+      OptionRow{.name = "report-format",
+                .member = &outputs.reportFormat,
+                .text = "Also report the checks of all meshes for continuous integration. sarif: SARIF 2.1.0. junit: "
+                        "a test case per mesh. github: an annotation per place",
+                .more = "[integration.md](integration.md) has examples.",
+                .names = checkFormatNames},
+      OptionRow{.name = "report",
+                .member = memberAs<NameCodec>(&outputs.report),
+                .text = "File of the report of checks; - is standard output",
+                .placeholder = "FILE|-",
+                .needs = "report-format"},
+      OptionRow{.name = "limits",
+                .member = memberAs<NameCodec>(&outputs.limits),
+                .text = "Limits of single meshes: a JSON file of rules, each with a pattern of files and its limits. "
+                        "Without -o, no result is written",
+                .more = "[integration.md](integration.md#limits) describes the file.",
+                .placeholder = "FILE.json"},
+      OptionRow{.name = "baseline",
+                .member = memberAs<NameCodec>(&outputs.baseline),
+                .text = "Known places, which do not fail the check: a JSON file that {update-baseline} writes",
+                .placeholder = "FILE.json"},
+      OptionRow{.name = "update-baseline",
+                .member = &outputs.updatesBaseline,
+                .text =
+                    "Write the places that fail the check to the file of {baseline}; they do not determine the exit "
+                    "code",
+                .needs = "baseline"},
       OptionRow{.name = "format",
                 .member = &outputs.format,
                 .text = "Format of the result if the name of -o does not determine the format",

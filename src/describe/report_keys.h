@@ -27,6 +27,18 @@ inline constexpr ChoiceNames<UnjudgedCause, 7> kUnjudgedCauseNames{
      {"negativeVolumes", UnjudgedCause::NegativeVolumes},
      {"coarseCoordinates", UnjudgedCause::CoarseCoordinates}}};
 
+inline constexpr ChoiceNames<FindingKind, 8> kFindingKindNames{{{"thinWall", FindingKind::ThinWall},
+                                                                {"thinDetail", FindingKind::ThinDetail},
+                                                                {"thinEdge", FindingKind::ThinEdge},
+                                                                {"narrowGap", FindingKind::NarrowGap},
+                                                                {"thickBody", FindingKind::ThickBody},
+                                                                {"sealedVoid", FindingKind::SealedVoid},
+                                                                {"bodiesInContact", FindingKind::BodiesInContact},
+                                                                {"unjudged", FindingKind::Unjudged}}};
+
+inline constexpr ChoiceNames<FindingLevel, 3> kFindingLevelNames{
+    {{"failure", FindingLevel::Failure}, {"notJudged", FindingLevel::NotJudged}, {"note", FindingLevel::Note}}};
+
 inline constexpr ChoiceNames<Stage, 16> kStageNames{{{"read", Stage::Read},
                                                      {"geometry", Stage::Geometry},
                                                      {"graph", Stage::Graph},
@@ -73,6 +85,8 @@ ASDFVK_NAMES(ThinKind, kThinKindNames)
 ASDFVK_NAMES(WallChange, kWallChangeNames)
 ASDFVK_NAMES(ThicknessVerdict, kThicknessVerdictNames)
 ASDFVK_NAMES(UnjudgedCause, kUnjudgedCauseNames)
+ASDFVK_NAMES(FindingKind, kFindingKindNames)
+ASDFVK_NAMES(FindingLevel, kFindingLevelNames)
 ASDFVK_NAMES(Stage, kStageNames)
 ASDFVK_NAMES(WarningCode, kWarningCodeNames)
 ASDFVK_NAMES(TraceKernel, kKernels)
@@ -121,6 +135,8 @@ ASDFVK_KEYS(ComparisonReport, verdict, sentence, newCount, thinnerCount, keptCou
             unmatchedFaceCount, matchedFaceCount, thinnerArea, thinnerAreaShare, thinner)
 ASDFVK_KEYS(SealedVoid, volume, face, place, size, looseBodies, isCertain)
 ASDFVK_KEYS(BodyContact, bodies)
+ASDFVK_KEYS(Finding, kind, level, value, limit, place, opposite, face, oppositeFace, faceCount, isKnown, bodies,
+            message, remedy)
 ASDFVK_KEYS(WorstFace, face, error)
 ASDFVK_KEYS(ErrorEstimate, average, standardError, robustAverage, relativeMedian, relativePercentile90,
             relativeMedianStandardError, heldOutCount, worstFaces)
@@ -134,8 +150,9 @@ ASDFVK_KEYS(Warning, code, message, details)
 ASDFVK_KEYS(DeviceTimes, kernels, copies, raysPerSecond)
 ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, chordError,
             seedCount, rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount,
-            backend, device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, deviceTimes, solver, sdf, postprocess,
-            segmentCount, parts, thickness, gap, comparison, voids, contacts, estimatedError, check, defects, warnings)
+            backend, device, leastRaysForGpu, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, deviceTimes, solver,
+            sdf, postprocess, segmentCount, parts, thickness, gap, comparison, voids, contacts, findings,
+            estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
 #undef ASDFVK_VISIT
 #undef ASDFVK_EACH

@@ -189,7 +189,8 @@ ReportRows summaryRows(const Report& report, bool showsTimes, OptionSpelling spe
   constexpr std::array kListed{"walls", "gaps", "details", "edges"};
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(report, spelling)) {
-    if (!showsTimes && (title == "time" || title == "rate" || title == "on device" || title == "faster")) continue;
+    constexpr std::array kOfMachine{"choice", "time", "rate", "on device", "faster"};
+    if (!showsTimes && std::find(kOfMachine.begin(), kOfMachine.end(), title) != kOfMachine.end()) continue;
     if (title == "device" && report.backend != nameOf(kBackendNames, BackendChoice::Vulkan))
       continue;  // The name of a CPU has the number of threads.
     if (!title.empty()) isThinRow = std::find(kListed.begin(), kListed.end(), title) != kListed.end();
@@ -281,6 +282,7 @@ ReportRows reportRows(const Report& report, OptionSpelling spelling) {
                                              counted(report.clampedCount, "triangle")));
   if (report.reversedFaceCount > 0) rows.emplace_back("reversed", counted(report.reversedFaceCount, "face"));
   rows.emplace_back("backend", report.backend);
+  if (const std::string reason = backendReason(report, spelling); !reason.empty()) rows.emplace_back("choice", reason);
   rows.emplace_back("device", deviceRow(report));
   if (!report.solver.name.empty() && report.solver.name != "none")
     rows.emplace_back("solver", solverRow(report.solver));
@@ -290,6 +292,14 @@ ReportRows reportRows(const Report& report, OptionSpelling spelling) {
   if (report.deviceTimes && hasDiameter) rows.emplace_back("on device", deviceTimeRow(*report.deviceTimes));
   if (const std::string hint = allSeedsRow(report, spelling); !hint.empty()) rows.emplace_back("faster", hint);
   return rows;
+}
+
+std::string backendReason(const Report& report, OptionSpelling spelling) {
+  if (report.leastRaysForGpu)
+    return fmt::format("{} {} rays from which a GPU is faster", report.runsOnCpu ? "fewer than the" : "at least the",
+                       groupDigits(*report.leastRaysForGpu));
+  if (!report.runsOnCpu || report.backend != nameOf(kBackendNames, BackendChoice::Vulkan)) return {};
+  return withSpelledOptions("a CPU device; {backend=cpu} is faster", spelling);
 }
 
 std::string checkFailure(const CheckReport& check) { return "the check failed: " + tracedCheck(check); }

@@ -29,6 +29,9 @@ struct ReportTexts {
 /// showsTimes: if false, the texts depend on mesh and options only.
 [[nodiscard]] ReportTexts reportTexts(const Report& report, bool showsTimes, OptionSpelling spelling);
 
+/// Why BackendChoice::Automatic took a GPU or the CPU; for a CPU device of Vulkan, a remark; else empty.
+[[nodiscard]] std::string backendReason(const Report& report, OptionSpelling spelling);
+
 /// One line: "the check failed: " and the reason.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <string>
+#include <utility>
 
 #include "core/text.h"
 #include "describe/computation_options.h"
@@ -14,60 +15,54 @@ constexpr size_t kShortTextSize = 88;  // A line of the short report has at most
 
 uint64_t negativeCountOf(const UnjudgedReason& reason) { return static_cast<uint64_t>(reason.amount); }
 
-/// "24 faces of open components: 8 edges have one face, the first at (1, 2, 3), face 4; close the mesh".
-std::string reasonText(const UnjudgedReason& reason, OptionSpelling spelling) {
+}  // namespace
+
+std::pair<std::string, std::string> unjudgedTexts(const UnjudgedReason& reason, OptionSpelling spelling) {
   const std::string faces = counted(reason.faceCount, "face"), edges = counted(reason.edgeCount, "edge");
   const std::string place = placeText(reason.place, reason.face) + bodiesText(reason.bodies);
-  const bool isOneEdge = reason.edgeCount == 1;
+  const char* const have = reason.edgeCount == 1 ? "has" : "have";
   const std::string orient = withSpelledOptions("{orient=auto}", spelling);  // Names of bodies may have braces.
-  std::string text;
   switch (reason.cause) {
     case UnjudgedCause::Border:
-      text = fmt::format("{} of open components: {} {} one face, the first {}; close the mesh, a wall may be missing",
-                         faces, edges, isOneEdge ? "has" : "have", place);
-      break;
+      return {fmt::format("{} of open components: {} {} one face, the first {}", faces, edges, have, place),
+              "close the mesh, a wall may be missing"};
     case UnjudgedCause::Branching:
-      text = fmt::format(
-          "{} of ambiguous components: {} {} three faces or more, an odd number, the first {}; give each "
-          "body its own faces, or remove the faces inside",
-          faces, edges, isOneEdge ? "has" : "have", place);
-      break;
+      return {fmt::format("{} of ambiguous components: {} {} three faces or more, an odd number, the first {}", faces,
+                          edges, have, place),
+              "give each body its own faces, or remove the faces inside"};
     case UnjudgedCause::WoundAgainst:
-      text = fmt::format(
-          "{} of components with faces wound against each other: {}, the first {}; {}", faces, edges, place,
-          reason.isRepairable ? orient + " reverses them" : "the surface has no consistent orientation, repair it");
-      break;
+      return {
+          fmt::format("{} of components with faces wound against each other: {}, the first {}", faces, edges, place),
+          reason.isRepairable ? orient + " reverses them" : "the surface has no consistent orientation, repair it"};
     case UnjudgedCause::Inverted:
-      text = fmt::format("{} of components oriented inwards, the first {}; {} reverses them", faces, place, orient);
-      break;
+      return {fmt::format("{} of components oriented inwards, the first {}", faces, place), orient + " reverses them"};
     case UnjudgedCause::DoubleSided:
-      text = fmt::format(
-          "{} have a copy that is wound the other way, the first {}: a double-sided surface bounds no "
-          "material; remove the copies",
-          faces, place);
-      break;
+      return {fmt::format("{} have a copy that is wound the other way, the first {}: a double-sided surface bounds no "
+                          "material",
+                          faces, place),
+              "remove the copies"};
     case UnjudgedCause::NegativeVolumes:
-      text = fmt::format(
-          "{}: {} of the file {} not subtracted; subtract {} in the program that wrote the file, and export the result",
-          faces, counted(negativeCountOf(reason), "negative volume"), negativeCountOf(reason) == 1 ? "was" : "were",
-          negativeCountOf(reason) == 1 ? "it" : "them");
-      break;
+      return {fmt::format("{}: {} of the file {} not subtracted", faces,
+                          counted(negativeCountOf(reason), "negative volume"),
+                          negativeCountOf(reason) == 1 ? "was" : "were"),
+              fmt::format("subtract {} in the program that wrote the file, and export the result",
+                          negativeCountOf(reason) == 1 ? "it" : "them")};
     case UnjudgedCause::CoarseCoordinates:
-      text = fmt::format(
-          "{}: the coordinates have steps of {:.3g}, more than a quarter of the limit, because they are float32 values "
-          "far from the origin; move the mesh to the origin before it is written",
-          faces, reason.amount);
       break;
   }
-  return text;
+  return {fmt::format("{}: the coordinates have steps of {:.3g}, more than a quarter of the limit, because they are "
+                      "float32 values far from the origin",
+                      faces, reason.amount),
+          "move the mesh to the origin before it is written"};
 }
-
-}  // namespace
 
 ReportRows unjudgedRows(const UnjudgedFaces& unjudged, OptionSpelling spelling) {
   ReportRows rows;
   const auto add = [&rows](const std::string& text) { rows.emplace_back(rows.empty() ? "unjudged" : "", text); };
-  for (const UnjudgedReason& reason : unjudged.reasons) add(reasonText(reason, spelling));
+  for (const UnjudgedReason& reason : unjudged.reasons) {
+    const auto [text, remedy] = unjudgedTexts(reason, spelling);
+    add(fmt::format("{}; {}", text, remedy));
+  }
   const auto addCount = [&](uint64_t count, const char* noun, const char* rest) {
     if (count > 0) add(fmt::format("{} {}", counted(count, noun), rest));
   };

@@ -34,6 +34,8 @@ const char* nameOf(UnjudgedCause cause) { return nameOf(kUnjudgedCauseNames, cau
 bool concernsWholeMesh(UnjudgedCause cause) {
   return cause == UnjudgedCause::NegativeVolumes || cause == UnjudgedCause::CoarseCoordinates;
 }
+const char* nameOf(FindingKind kind) { return nameOf(kFindingKindNames, kind); }
+const char* nameOf(FindingLevel level) { return nameOf(kFindingLevelNames, level); }
 const char* nameOf(WarningCode code) { return nameOf(kWarningCodeNames, code); }
 
 std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {

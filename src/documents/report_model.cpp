@@ -18,7 +18,7 @@ namespace {
 class Comments {
  public:
   explicit Comments(const std::filesystem::path& sources) {
-    for (const char* const name : {"thickness_report.h", "report.h"}) {
+    for (const char* const name : {"finding.h", "thickness_report.h", "report.h"}) {
       std::ifstream in(sources / "include/asdf_vk" / name);
       for (std::string line; std::getline(in, line);) lines_.push_back(line);
     }

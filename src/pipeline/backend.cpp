@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "pipeline/backend_choice.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
@@ -70,11 +71,6 @@ auto rowOf(BackendChoice choice) {
                                 [&](const BackendRow& candidate) { return candidate.choice == choice; });
   ASDFVK_CHECK(row != kBackends.end());
   return row;
-}
-
-bool requestsVulkan(const SessionOptions& options) {
-  const TraceVariant& variant = options.variant;
-  return options.requireGpu || !options.device.empty() || variant.kernel || variant.fetch;
 }
 
 NamedBackend open(const BackendRow& row, const SessionOptions& options) {

@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "describe/computation_options.h"
 #include "describe/fields.h"
+#include "describe/findings.h"
 #include "estimate/reference_check.h"
 #include "pipeline/aggregated_mesh.h"
 #include "pipeline/input_face_values.h"
@@ -143,7 +144,7 @@ std::vector<double> finalValues(const FaceDomain& domain, std::vector<double> va
 /// domain, or null.
 RoundsResult onFaces(RoundsResult rounds, const FaceDomain& domain, const AggregatedMesh* aggregated,
                      size_t faceCount) {
-  freeMemory(rounds.seeds.hits);  // With RoundOptions, runRounds() keeps them for further rounds.
+  rounds.seeds.freeHits();  // With RoundOptions, runRounds() keeps them for further rounds.
   for (uint32_t& node : rounds.seeds.nodes) node = domain.faceOf(node);
   std::vector<double>& values = rounds.interpolated.values;
   if (aggregated != nullptr) {
@@ -256,17 +257,18 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
                const RunControl& control, Result& result) {
   Report& report = result.report;
   const auto& [session, sharedScene, part, tracers, former] = input;
-  LazyBackend& backend = *session.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
   const FaceDomain domain = part != nullptr ? part->domain() : wholeMesh(prepared);
   const InputFaceSet region = part != nullptr ? part->inputFaces() : InputFaceSet();
   const bool isLast = tracers == nullptr;
-  if (backend.isDecided()) (void)backend.openFor(requested->solver, control.stop);  // The backend may have changed.
   Options options = withAllSeeds(*requested, domain);
   for (std::optional<LengthLimit>* const limit :
        {&options.thickness.thinnerThan, &options.thickness.thickerThan, &options.thickness.closerThan})
     convertToUnit(*limit, prepared.unit);
   const Cone cone = makeCone(options.cone);
+  const uint64_t rayCount = resolveSeedCount(options, domain.traceable.size()) * cone.directions.size();
+  LazyBackend& backend = isLast ? session.backendFor(options, rayCount, report) : *session.backend;
+  if (backend.isDecided()) (void)backend.openFor(requested->solver, control.stop);  // The backend may have changed.
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, region);
   result.reversedFaces = prepared.reversedFaces;
@@ -291,6 +293,7 @@ void computeOn(const ComputationInput& input, const CheckedOptions& requested, S
     measureSurfaces(result, computation, *sharedScene, former,
                     options.measuresDiameter() ? control.withoutProgress() : control);
   }
+  report.findings = findingsOf(report);
   if (opened.backend->deviceSeconds()) {
     const double seconds = deviceTimes.kernels[Stage::Trace];
     deviceTimes.raysPerSecond = seconds > 0 ? static_cast<double>(report.rayCount) / seconds : 0;

@@ -12,7 +12,7 @@ namespace asdfvk {
 /// that is opened after the device was lost opens it again, and later sessions share it. At most one object may exist.
 class DeviceSharing {
  public:
-  /// Null if sessions with these options do not open a GPU, or if no GPU of a known kind exists. Opens no device.
+  /// Null if sessions with these options do not open a GPU, or if mayHaveGpu() is false. Opens no device.
   /// queueCount: greatest number of queues of the device, which the sessions use in turn.
   [[nodiscard]] static std::unique_ptr<DeviceSharing> ofGpu(const SessionOptions& options, uint32_t queueCount);
   ~DeviceSharing();

@@ -29,18 +29,20 @@ std::shared_future<void> callInThread(std::function<void()> work) {
 }  // namespace
 
 LazyBackend::LazyBackend(const SessionOptions& options, SessionOpening opening) : options_(options) {
-  if (opening == SessionOpening::Now || !mayUseDevice(options.backend)) {
-    opened_ = openBackend(options);
-    return;
-  }
+  if (opening == SessionOpening::Now || !mayUseDevice(options.backend)) opened_ = openBackend(options);
+}
+
+void LazyBackend::begin() {
+  if (hasBegun()) return;
   lavapipeThreads_.emplace();
   work_ = callInThread([this] { opened_ = openBackend(options_); });
 }
 
-bool LazyBackend::isDecided() const { return isReady(work_); }
+bool LazyBackend::isDecided() const { return hasBegun() && isReady(work_); }
 bool LazyBackend::isOpen() const { return isDecided() && opened_.backend != nullptr; }
 
 NamedBackend& LazyBackend::open(const std::stop_token& stop) {
+  begin();
   if (work_.valid()) {
     while (work_.wait_for(kOpeningPollTime) == std::future_status::timeout)
       if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");

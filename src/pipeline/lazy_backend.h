@@ -26,11 +26,15 @@ class LazyBackend {
   LazyBackend(const LazyBackend&) = delete;
   LazyBackend& operator=(const LazyBackend&) = delete;
 
+  /// Begins to open the backend in a thread, unless it is open or its opening has begun.
+  void begin();
+  [[nodiscard]] bool hasBegun() const { return work_.valid() || opened_.backend != nullptr; }
   /// Whether open() would not wait.
   [[nodiscard]] bool isDecided() const;
   /// Whether open() would neither wait nor throw.
   [[nodiscard]] bool isOpen() const;
-  /// Waits for the thread. Throws the errors of openBackend(), the same at each call; Error{Cancelled}.
+  /// Calls begin() and waits for the thread. Throws the errors of openBackend(), the same at each call;
+  /// Error{Cancelled}.
   NamedBackend& open(const std::stop_token& stop = {});
   /// Waits for the thread, also if it fails.
   void finish() noexcept;

@@ -24,9 +24,9 @@ constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.75, kHeldOutTrace
 
 /// What all rounds of a computation use.
 struct RoundTools {
-  explicit RoundTools(const Computation& of)
+  RoundTools(const Computation& of, const RaySource& rays)
       : computation(of),
-        prediction(of),
+        prediction(of, rays.scene),
         solver(of.options, of.backend, of.warnings),
         arcAngles(of.domain.graph, of.domain.geometry),
         interpolation(of.domain, of.prepared.mesh, arcAngles, of.options, solver) {}
@@ -80,13 +80,13 @@ void traceChoice(RoundTools& tools, const SeedChoice& choice, Seeds& seeds, cons
 }
 
 /// Predicts from all seeds except held-out seeds. Returns the error indicator of this prediction, #N.
-UnsetVector<double> indicateErrors(RoundTools& tools, const Seeds& seeds, Stage stageOfPrediction,
-                                   Stage stageOfIndicator, const RunControl& control) {
+UnsetVector<double> indicateErrors(RoundTools& tools, Seeds& seeds, Stage stageOfPrediction, Stage stageOfIndicator,
+                                   const RunControl& control) {
   StageClock& clock = tools.computation.clock;
   const std::vector<uint32_t> nodes = nodesWithoutHeldOut(seeds);
   {
     const auto scope = clock.time(stageOfPrediction);
-    tools.prediction.predict({nodes, seeds.hits}, control);
+    tools.prediction.predict(nodes, seeds, control);
   }
   const auto scope = clock.time(stageOfIndicator);
   return errorIndicator(tools.prediction.last(), nodes, seeds.values);
@@ -152,12 +152,12 @@ void interpolate(RoundTools& tools, size_t firstOfRound, bool estimates, RoundsR
     const auto scope = clock.time(isPredicted ? Stage::Estimate : Stage::Predict);
     const RunControl predicting = control.part(0, kPredictedProgress);
     if (isPredicted)
-      withAll = tools.prediction.withFurtherSeeds({seeds.nodes, seeds.hits}, predicting);
+      withAll = tools.prediction.withFurtherSeeds(seeds, predicting);
     else
-      tools.prediction.predict({seeds.nodes, seeds.hits}, predicting);
+      tools.prediction.predict(seeds.nodes, seeds, predicting);
   }
   const std::span<const double> predicted = isPredicted ? withAll.values : tools.prediction.last().values;
-  if (!tools.tracing) freeMemory(seeds.hits);  // No further round follows.
+  if (!tools.tracing) seeds.freeHits();  // No further round follows.
   control.checkpoint(kPredictedProgress);
   {
     const auto scope = clock.time(Stage::Solve);
@@ -198,8 +198,11 @@ void runRound(RoundTools& tools, const RaySource& source, uint64_t count, Rounds
   freeMemory(result.indicator);
   const SeedChoice choice =
       isFirst ? chooseWhileOpening(tools, source, first, control) : choose(tools, seeds, first, {}, control);
-  if (isFirst) result.traceVariant = tools.tracing->traceVariant();
-  seeds.hits.reserve(seeds.hits.size() + count * seeds.hitsPerSeed);
+  if (isFirst) {
+    result.traceVariant = tools.tracing->traceVariant();
+    seeds.hitsOnDevice = tools.tracing->makeDeviceHits();
+  }
+  tools.tracing->reserveHits(seeds, count, control);
   traceChoice(tools, choice, seeds, control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
   if (refines) {
     const UnsetVector<double> density =
@@ -222,7 +225,7 @@ void runRound(RoundTools& tools, const RaySource& source, uint64_t count, Rounds
 }  // namespace
 
 RoundsResult runRounds(const Computation& computation, const RaySource& source, const RunControl& control) {
-  RoundTools tools(computation);
+  RoundTools tools(computation, source);
   RoundsResult result;
   result.seeds.hitsPerSeed = computation.keepsHits() ? computation.cone.directions.size() : 0;
   const uint64_t traceableCount = computation.domain.traceable.size();

@@ -4,6 +4,7 @@
 
 #include "describe/warnings.h"
 #include "pipeline/kept_tracers.h"
+#include "pipeline/seed_tracing.h"
 
 namespace asdfvk {
 
@@ -35,7 +36,7 @@ void SeedPrediction::continueOnCpu(const Error& failure) {
 }
 
 template <typename Run>
-void SeedPrediction::runWithDevice(const Run& run) {
+void SeedPrediction::runWithDevice(Seeds& seeds, const RunControl& control, const Run& run) {
   if (DevicePredictor* const device = devicePredictor()) {
     try {
       return run(device);
@@ -44,23 +45,24 @@ void SeedPrediction::runWithDevice(const Run& run) {
     }
     predictor_.reset();
   }
+  if (seeds.hitsOnDevice) moveHitsToHost(computation_, scene_, seeds, control);
   run(nullptr);
 }
 
-void SeedPrediction::predict(const SeedHitsView& hits, const RunControl& control) {
-  if (hits.hits.empty()) return;
-  runWithDevice([&](DevicePredictor* device) {
-    last_ = predictValues(computation_.scene, computation_.domain, computation_.cone, hits, {},
+void SeedPrediction::predict(std::span<const uint32_t> used, Seeds& seeds, const RunControl& control) {
+  if (seeds.hitsOf(used).isEmpty()) return;
+  runWithDevice(seeds, control, [&](DevicePredictor* device) {
+    last_ = predictValues(computation_.scene, computation_.domain, computation_.cone, seeds.hitsOf(used), {},
                           std::exchange(last_, {}), device, control);
   });
 }
 
-Prediction SeedPrediction::withFurtherSeeds(const SeedHitsView& hits, const RunControl& control) {
+Prediction SeedPrediction::withFurtherSeeds(Seeds& seeds, const RunControl& control) {
   Prediction result;
-  if (hits.hits.empty()) return result;
-  runWithDevice([&](DevicePredictor* device) {
-    result = asdfvk::withFurtherSeeds(last_, computation_.scene, computation_.domain, computation_.cone, hits, {},
-                                      device, control);
+  if (seeds.hitsOf(seeds.nodes).isEmpty()) return result;
+  runWithDevice(seeds, control, [&](DevicePredictor* device) {
+    result = asdfvk::withFurtherSeeds(last_, computation_.scene, computation_.domain, computation_.cone,
+                                      seeds.hitsOf(seeds.nodes), {}, device, control);
   });
   return result;
 }

@@ -6,7 +6,9 @@
 
 #include "asdf_vk/error.h"
 #include "pipeline/computation.h"
+#include "pipeline/prepared_scene.h"
 #include "predict/prediction.h"
+#include "trace/seeds.h"
 
 namespace asdfvk {
 
@@ -15,16 +17,16 @@ namespace asdfvk {
 /// reason.
 class SeedPrediction {
  public:
-  /// The computation must outlive this object.
-  explicit SeedPrediction(const Computation& computation) : computation_(computation) {}
+  /// The computation and the scene must outlive this object.
+  SeedPrediction(const Computation& computation, PreparedScene& scene) : computation_(computation), scene_(scene) {}
 
-  /// Predicts all nodes from the hits of these seeds. Does nothing if Computation::keepsHits() is false. A seed that
-  /// was in `hits` of an earlier call, and is in `hits` again, must have the same index. A new seed must have an index
-  /// that no other seed had. An entry kNoFace leaves a seed out. Throws Error{Cancelled}.
-  void predict(const SeedHitsView& hits, const RunControl& control);
+  /// Predicts all nodes from the hits of seeds. used: #S, the nodes of the seeds; kNoFace leaves a seed out. Does
+  /// nothing if Computation::keepsHits() is false. If the CPU predicts, the hits move to the host. Throws
+  /// Error{Cancelled}.
+  void predict(std::span<const uint32_t> used, Seeds& seeds, const RunControl& control);
   /// The last prediction with the seeds that have no cell yet, see asdfvk::withFurtherSeeds(); empty if
   /// Computation::keepsHits() is false. Throws the errors of predict().
-  [[nodiscard]] Prediction withFurtherSeeds(const SeedHitsView& hits, const RunControl& control);
+  [[nodiscard]] Prediction withFurtherSeeds(Seeds& seeds, const RunControl& control);
   /// The last prediction; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& last() const { return last_; }
 
@@ -33,9 +35,10 @@ class SeedPrediction {
   void continueOnCpu(const Error& failure);
   /// Calls run(device). device: null if the CPU predicts; after a failure of the device, run(null) is called.
   template <typename Run>
-  void runWithDevice(const Run& run);
+  void runWithDevice(Seeds& seeds, const RunControl& control, const Run& run);
 
   const Computation& computation_;
+  PreparedScene& scene_;
   Prediction last_;
   std::unique_ptr<DevicePredictor> predictor_;  ///< Created at first use.
   bool hasFailed_ = false;

@@ -51,6 +51,10 @@ class SeedTracing {
 
   /// The variant of the kernels; unset without Vulkan.
   [[nodiscard]] const std::optional<TraceVariant>& traceVariant() const { return tracer_->variant; }
+  /// Memory for the hits of the seeds on the device that predicts from them; null if no device predicts.
+  [[nodiscard]] std::unique_ptr<DeviceHits> makeDeviceHits() const;
+  /// Makes room for the hits of `count` further seeds. If the device has too little memory, the hits move to the host.
+  void reserveHits(Seeds& seeds, size_t count, const RunControl& control);
   /// Appends nodes that are no seeds yet. kinds: one per node.
   void trace(std::span<const uint32_t> nodes, std::span<const SeedKind> kinds, Seeds& seeds, const RunControl& control);
   void trace(std::span<const uint32_t> nodes, SeedKind kind, Seeds& seeds, const RunControl& control) {
@@ -62,8 +66,13 @@ class SeedTracing {
 
  private:
   const Computation& computation_;
-  Bvh* released_;  ///< The hierarchy whose nodes are released; null: none.
+  PreparedScene& scene_;
+  bool keepsNodes_;
   std::shared_ptr<KeptTracer> tracer_;
 };
+
+/// Copies hits from the device to the host. If the device fails, the reference traces the seeds again. Throws
+/// Error{Cancelled}.
+void moveHitsToHost(const Computation& computation, PreparedScene& scene, Seeds& seeds, const RunControl& control);
 
 }  // namespace asdfvk

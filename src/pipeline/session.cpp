@@ -2,6 +2,7 @@
 
 #include "describe/session_options.h"
 #include "pipeline/backend.h"
+#include "pipeline/backend_choice.h"
 #include "pipeline/compute.h"
 
 namespace asdfvk {
@@ -13,7 +14,9 @@ Session::Session(const SessionOptions& options, SessionOpening opening) {
 Session::~Session() = default;
 
 bool Session::isOpen() const { return state_->backend->isOpen(); }
-void Session::requireOpen() const { (void)state_->backend->open(); }
+void Session::finishOpening() const {
+  if (state_->backend->hasBegun()) (void)state_->backend->open();
+}
 const std::vector<std::string>& Session::deviceLines() const { return state_->backend->open().deviceLines; }
 const std::string& Session::backend() const { return state_->backend->open().name; }
 bool Session::runsOnCpu() const { return state_->backend->open().backend->runsOnCpu(); }
@@ -24,7 +27,8 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
 
 Result Session::compute(const MeshView& mesh, const CheckedOptions& options, const RunControl& control) {
   // Fails before the mesh is prepared if possible.
-  if (state_->backend->isDecided()) (void)state_->backend->openFor(options->solver, control.stop);
+  if (needsBackend(*options) && state_->backend->isDecided())
+    (void)state_->backend->openFor(options->solver, control.stop);
   return state_->compute(!solverNeedsDevice(options->solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);

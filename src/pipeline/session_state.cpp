@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "describe/warnings.h"
+#include "pipeline/backend_choice.h"
 
 namespace asdfvk {
 namespace {
@@ -18,6 +20,32 @@ bool isFailureOfDevice(ErrorCode code) {
 }
 
 }  // namespace
+
+SessionState::SessionState(const SessionOptions& options, SessionOpening opening)
+    : backend(std::make_unique<LazyBackend>(options, opening)),
+      options_(options),
+      choosesByRays_(options.backend == BackendChoice::Automatic && !requestsVulkan(options)),
+      isUsed_(opening == SessionOpening::Now) {
+  if (!choosesByRays_ || !mayHaveGpu()) backend->begin();
+}
+
+std::optional<uint64_t> SessionState::leastRays(const Options& options) const {
+  if (!choosesByRays_ || solverNeedsDevice(options.solver)) return std::nullopt;
+  const bool hasGpu = isUsed_ ? !backend->open().backend->runsOnCpu() : mayHaveGpu();
+  return hasGpu ? std::optional(leastRaysForGpu(threadLimit(), isUsed_)) : std::nullopt;
+}
+
+LazyBackend& SessionState::backendFor(const Options& options, uint64_t rayCount, Report& report) {
+  const bool needsNone = sessionOptionsFor(options_, options).backend != options_.backend;
+  if (!needsNone) report.leastRaysForGpu = leastRays(options);
+  if (needsNone || rayCount < report.leastRaysForGpu.value_or(0)) {
+    if (!cpu_) cpu_ = std::make_unique<LazyBackend>(SessionOptions{.backend = BackendChoice::Cpu}, SessionOpening::Now);
+    return *cpu_;
+  }
+  isUsed_ = true;
+  backend->begin();
+  return *backend;
+}
 
 bool SessionState::replaceBackend(const Error& failure) {
   if (!isFailureOfDevice(failure.code()) || !backend->isOpen()) return false;

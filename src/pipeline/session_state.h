@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "asdf_vk/session.h"
@@ -12,8 +13,12 @@ namespace asdfvk {
 /// The state behind a Session.
 class SessionState {
  public:
-  SessionState(const SessionOptions& options, SessionOpening opening)
-      : backend(std::make_unique<LazyBackend>(options, opening)), options_(options) {}
+  SessionState(const SessionOptions& options, SessionOpening opening);
+
+  /// The backend for a computation that traces so many rays: `backend`, or the CPU if the options need no backend, or
+  /// if BackendChoice::Automatic can take a GPU but there are too few rays. Sets Report::leastRaysForGpu. Begins to
+  /// open the backend.
+  LazyBackend& backendFor(const Options& options, uint64_t rayCount, Report& report);
 
   /// Calls compute(control). If the device fails, is lost or is out of memory, and another backend may be used, calls
   /// compute() again with the other backend; the progress never decreases. The session continues with the other
@@ -39,7 +44,13 @@ class SessionState {
     ~Return() { state.returnToDevice(); }
   };
 
+  /// The number of rays from which a GPU computes, if the session can take a GPU and has another choice.
+  [[nodiscard]] std::optional<uint64_t> leastRays(const Options& options) const;
+
   SessionOptions options_;
+  bool choosesByRays_;
+  bool isUsed_;                       // Whether `backend` is open because of an earlier computation or the constructor.
+  std::unique_ptr<LazyBackend> cpu_;  // For computations without rays or with few of them; null before the first one.
   std::vector<Warning> warnings_;
   std::vector<std::unique_ptr<LazyBackend>> replaced_;  // Kept: tracers of scenes may refer to them.
   bool lacksMemory_ = false;                            // Whether the last of `replaced_` lacked memory for this mesh.

@@ -262,10 +262,9 @@ std::vector<uint32_t> claimNodes(const FaceDomain& domain, std::span<const uint3
 /// device: null predicts on the CPU.
 void predict(const PredictionInput& input, std::span<double> values, DevicePredictor* device,
              const RunControl& control) {
-  if (device != nullptr)
-    device->predict(input, values, control);
-  else
-    predictOnCpu(input, values);
+  if (device != nullptr) return device->predict(input, values, control);
+  ASDFVK_CHECK(input.hits.onDevice == nullptr);
+  predictOnCpu(input, values);
 }
 
 }  // namespace
@@ -277,13 +276,21 @@ bool PredictionInput::hasEarlierSeeds(uint32_t cell) const {
 Prediction predictValues(const TraceScene& scene, const FaceDomain& domain, const Cone& cone, const SeedHitsView& hits,
                          const PredictionOptions& options, Prediction earlier, DevicePredictor* device,
                          const RunControl& control) {
-  ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
+  if (hits.onDevice == nullptr) ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
   SeedCells cells = buildSeedCells(domain.graph, hits.seeds);
   Prediction prediction{filledInParallel(domain.size(), kNoValue),
                         {},
                         NearestCells(cells, domain.graph, domain.geometry, hits.seeds, options.neighbourCount)};
   const std::vector<uint32_t> faces = facesOfSeeds(domain, hits.seeds), order = cellsInOrder(scene, faces);
-  predict({scene, domain, cone, {faces, hits.hits}, cells.faces, prediction.nearest, options, order, earlier},
+  predict({scene,
+           domain,
+           cone,
+           {faces, hits.hits, hits.onDevice},
+           cells.faces,
+           prediction.nearest,
+           options,
+           order,
+           earlier},
           prediction.values, device, control);
   prediction.cellOf = std::move(cells.cellOf);
   return prediction;
@@ -304,8 +311,8 @@ Prediction withFurtherSeeds(const Prediction& prediction, const TraceScene& scen
   result.nearest.update(newCells, cells, result.cellOf, domain.graph, domain.geometry, hits.seeds);
   const std::vector<uint32_t> faces = facesOfSeeds(domain, hits.seeds);
   const Prediction none;
-  predict({scene, domain, cone, {faces, hits.hits}, cells, result.nearest, options, newCells, none}, result.values,
-          device, control);
+  predict({scene, domain, cone, {faces, hits.hits, hits.onDevice}, cells, result.nearest, options, newCells, none},
+          result.values, device, control);
   return result;
 }
 

@@ -48,9 +48,10 @@ void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const
   control.checkpoint(1);
 }
 
-/// Like forEachChunk(), for a device that works while the host continues. start(slot, begin, end) submits a range,
-/// wait(slot) waits for the range, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight:
-/// the host reads one and prepares another while the device works. After an exception, ranges may still be in flight.
+/// Like forEachChunk(), for a device that works while the host continues. start(slot, begin, end) submits a range, or a
+/// first part of it, and returns the end. wait(slot) waits for the range, and read(slot, begin, end) takes its results.
+/// Up to kSlotCount ranges are in flight: the host reads one and prepares another while the device works. After an
+/// exception, ranges may still be in flight.
 template <size_t kSlotCount, typename Start, typename Wait, typename Read>
 void forEachChunkInFlight(size_t count, ChunkSize size, const RunControl& control, const Start& start, const Wait& wait,
                           const Read& read) {
@@ -65,10 +66,9 @@ void forEachChunkInFlight(size_t count, ChunkSize size, const RunControl& contro
   for (size_t readCount = 0, done = 0; done < count; ++readCount) {
     control.checkpoint(static_cast<double>(done) / static_cast<double>(count));
     for (; begun < count && startedCount < readCount + kSlotCount; ++startedCount) {
-      const size_t end = std::min<size_t>(begun + size.current(), count);
-      ranges[startedCount % kSlotCount] = {begun, end, stopwatch.seconds()};
-      start(startedCount % kSlotCount, begun, end);
-      begun = end;
+      const size_t slot = startedCount % kSlotCount;
+      ranges[slot] = {begun, 0, stopwatch.seconds()};
+      begun = ranges[slot].end = start(slot, begun, std::min<size_t>(begun + size.current(), count));
     }
     const size_t slot = readCount % kSlotCount;
     const Range& range = ranges[slot];

@@ -12,6 +12,7 @@
 #include "core/check.h"
 #include "shared/cone_hit.h"
 #include "trace/cone_start.h"
+#include "trace/device_hits.h"
 #include "trace/trace_scene.h"
 
 namespace asdfvk {
@@ -28,6 +29,8 @@ struct ConeResults {
   /// The nearest hit of each ray, rejected hits included. N * R entries for N cones of R rays: ray r of cone i has the
   /// index i * R + r. Rays are in the order of Cone::directions. Empty: hits are not written.
   std::span<ConeHit> hits = {};
+  /// If set, hits are added to it instead. Precondition: the tracer made it, and it has room.
+  DeviceHits* onDevice = nullptr;
 };
 
 inline constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
@@ -53,6 +56,9 @@ class ConeTracer {
   /// trace().
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;
+
+  /// Memory on the device for hits; null without a device.
+  [[nodiscard]] virtual std::unique_ptr<DeviceHits> makeDeviceHits() const { return nullptr; }
 
   /// Seconds that the constructor took to encode the nodes of the hierarchy for a device. Its triangles are encoded
   /// during the upload. 0 without a device.

@@ -9,9 +9,12 @@
 namespace asdfvk {
 
 struct SeedHitsView {
-  std::span<const uint32_t> seeds;  ///< #S nodes; kNoFace: this seed and its hits are ignored.
-  std::span<const ConeHit> hits;    ///< #S x rays, see ConeResults::hits.
+  std::span<const uint32_t> seeds;       ///< #S nodes; kNoFace: this seed and its hits are ignored.
+  std::span<const ConeHit> hits;         ///< #S x rays, see ConeResults::hits.
+  const DeviceHits* onDevice = nullptr;  ///< The hits; then `hits` is empty.
 
+  /// Whether there is nothing to predict from.
+  [[nodiscard]] bool isEmpty() const { return seeds.empty() || (hits.empty() && onDevice == nullptr); }
   [[nodiscard]] std::span<const ConeHit> of(uint32_t seed) const {
     const size_t rayCount = seeds.empty() ? 0 : hits.size() / seeds.size();
     return hits.subspan(seed * rayCount, rayCount);

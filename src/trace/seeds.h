@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "core/unset_vector.h"
 #include "mesh/mesh.h"
 #include "trace/cone_tracer.h"
+#include "trace/seed_hits.h"
 
 namespace asdfvk {
 
@@ -27,10 +31,17 @@ struct Seeds {
   /// Sampling weight of each held-out seed, in their order; see HeldOutFaces.
   std::vector<double> heldOutWeights;
   size_t hitsPerSeed = 0;     ///< 0 if hits are not kept.
-  UnsetVector<ConeHit> hits;  ///< #S x hitsPerSeed, see ConeResults::hits.
+  UnsetVector<ConeHit> hits;  ///< #S x hitsPerSeed, see ConeResults::hits; empty if the hits are on the device.
+  std::shared_ptr<DeviceHits> hitsOnDevice;  ///< Null if the hits are on the host.
   TraceStatistics statistics;
 
   [[nodiscard]] size_t size() const { return nodes.size(); }
+  /// used: #S nodes; kNoFace leaves a seed out.
+  [[nodiscard]] SeedHitsView hitsOf(std::span<const uint32_t> used) const { return {used, hits, hitsOnDevice.get()}; }
+  void freeHits() {
+    freeMemory(hits);
+    hitsOnDevice.reset();
+  }
   [[nodiscard]] bool isHeldOut(size_t seed) const { return kinds[seed] == SeedKind::HeldOut; }
 };
 

@@ -17,23 +17,8 @@
 namespace asdfvk {
 namespace {
 
-/// The memory types that may hold a buffer of the given kind, the best first.
-std::vector<uint32_t> rankMemoryTypes(const Device& device, uint32_t allowed, MemoryKind kind) {
-  using Flags = VkMemoryPropertyFlags;
-  const Flags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-  const Flags preferences[2][3] = {{local | kMappableMemory | cached, local, 0},
-                                   {kMappableMemory | cached, kMappableMemory, kMappableMemory}};
-  std::vector<uint32_t> ranked;
-  for (const Flags wanted : preferences[kind == MemoryKind::HostVisible ? 1 : 0])
-    while (const auto type = device.findMemoryType(allowed, wanted)) {
-      ranked.push_back(*type);
-      allowed &= ~(1u << *type);
-    }
-  return ranked;
-}
-
 MemoryKind kindOn(const Device& device, MemoryKind kind) {
-  return kind == MemoryKind::DeviceLocal && !device.facts().mapsDeviceMemory ? MemoryKind::DeviceOnly : kind;
+  return kind != MemoryKind::HostVisible && !device.facts().mapsDeviceMemory ? MemoryKind::DeviceOnly : kind;
 }
 
 /// Writes items on several threads. One thread does not saturate the memory, and the first write to a page of new
@@ -72,7 +57,8 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
 
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(device.handle(), guard.buffer_, &requirements);
-  const std::vector<uint32_t> types = rankMemoryTypes(device, requirements.memoryTypeBits, kindOn(device, kind));
+  const std::vector<uint32_t> types =
+      rankMemoryTypes(device.memoryTypes(), requirements.memoryTypeBits, kindOn(device, kind), byteCount);
   if (types.empty())
     throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory type for this buffer", device.facts().name));
   MemoryArena::Range range;
@@ -152,7 +138,7 @@ Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCoun
 }
 
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
-  if (buffer.mapped() != nullptr) {
+  if (buffer.isCached()) {
     CommandList wait(device);
     wait.begin();
     wait.barrier();

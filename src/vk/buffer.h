@@ -8,14 +8,9 @@
 
 #include "core/function_ref.h"
 #include "vk/device.h"
+#include "vk/memory_types.h"
 
 namespace asdfvk {
-
-enum class MemoryKind {
-  DeviceLocal,  ///< Fastest for kernels; also mapped if device and host share memory.
-  DeviceOnly,   ///< Never mapped, as on a device with separate memory; for tests.
-  HostVisible,  ///< Mapped and coherent; cached if the device has such memory.
-};
 
 /// A buffer with memory of the best type that has enough left, and with unspecified contents. The destructor waits for
 /// uploads; no other submitted work may use the buffer. Throws Error{OutOfDeviceMemory, DeviceLimit}.
@@ -69,9 +64,9 @@ class TexelView {
 /// Piece size of copies between host memory and buffers that are not mapped.
 inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
 
-/// A device-local buffer with the given bytes, but at least 16 bytes, because an empty buffer cannot be bound.
+/// A buffer with the given bytes, but at least 16 bytes, because an empty buffer cannot be bound.
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
-                                  MemoryKind kind = MemoryKind::DeviceLocal);
+                                  MemoryKind kind = MemoryKind::Uploaded);
 
 /// Writes consecutive items to `bytes`; `first` is the number of the first of them. Several threads call it at the same
 /// time. The memory may be uncached: the function writes every byte, in ascending order, and reads none.
@@ -85,7 +80,7 @@ using WriteItems = FunctionRef<void(size_t first, std::span<std::byte> bytes)>;
 template <typename Item, typename Write>
 [[nodiscard]] Buffer uploadItems(const Device& device, size_t itemCount, VkBufferUsageFlags usage, const Write& write) {
   static_assert(std::is_trivially_copyable_v<Item>);
-  return uploadWritten(device, itemCount, sizeof(Item), usage, MemoryKind::DeviceLocal,
+  return uploadWritten(device, itemCount, sizeof(Item), usage, MemoryKind::Uploaded,
                        [&](size_t first, std::span<std::byte> bytes) {
                          write(first, std::span(reinterpret_cast<Item*>(bytes.data()), bytes.size() / sizeof(Item)));
                        });

@@ -3,7 +3,6 @@
 #include <volk.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +13,12 @@
 #include "vk/instance.h"
 #include "vk/logical_device.h"
 #include "vk/memory_arena.h"
+#include "vk/memory_types.h"
 #include "vk/physical_device.h"
 
 namespace asdfvk {
 
 class UploadQueue;
-
-/// Flags of the memory types that the host accesses.
-inline constexpr VkMemoryPropertyFlags kMappableMemory =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 /// A logical device with memory, descriptor sets and command buffers for one thread. Not thread-safe.
 class Device {
@@ -48,10 +44,10 @@ class Device {
   /// The time of all submissions for which the host has waited; 0 on a device without timestamps.
   [[nodiscard]] const DeviceSeconds& seconds() const { return seconds_; }
   void addSeconds(const DeviceSeconds& further) const { seconds_ += further; }
-  [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
-    return logical_->findMemoryType(allowedTypes, wanted);
+  [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memoryTypes() const { return logical_->memoryTypes(); }
+  [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
+    return memoryTypes().memoryTypes[type].propertyFlags;
   }
-  [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const { return logical_->memoryFlags(type); }
 
  private:
   std::shared_ptr<LogicalDevice> logical_;

@@ -57,14 +57,4 @@ VkResult LogicalDevice::Queue::submit(const VkSubmitInfo& info, VkFence fence) {
   return vkQueueSubmit(queue_, 1, &info, fence);
 }
 
-std::optional<uint32_t> LogicalDevice::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
-  // Memory with these properties needs a feature that is not enabled, or is for other resources.
-  constexpr VkMemoryPropertyFlags kSpecial =
-      VK_MEMORY_PROPERTY_PROTECTED_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
-      VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD | VK_MEMORY_PROPERTY_RDMA_CAPABLE_BIT_NV;
-  for (uint32_t i = 0; i < memoryTypes_.memoryTypeCount; ++i)
-    if (!(memoryFlags(i) & kSpecial) && (allowedTypes & (1u << i)) && (memoryFlags(i) & wanted) == wanted) return i;
-  return {};
-}
-
 }  // namespace asdfvk

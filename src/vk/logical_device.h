@@ -7,7 +7,6 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "vk/device_choice.h"
 
@@ -41,11 +40,7 @@ class LogicalDevice {
   void note(VkResult result) {
     if (result == VK_ERROR_DEVICE_LOST) isLost_ = true;
   }
-  /// The first type among `allowedTypes` with all flags of `wanted`.
-  [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
-  [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
-    return memoryTypes_.memoryTypes[type].propertyFlags;
-  }
+  [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memoryTypes() const { return memoryTypes_; }
 
  private:
   struct Destroy {

@@ -18,7 +18,7 @@ class SharedBuffer {
       : device_(device),
         buffer_(device, byteCount,
                 usage | (host == Host::Writes ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : VK_BUFFER_USAGE_TRANSFER_SRC_BIT),
-                MemoryKind::DeviceLocal),
+                host == Host::Writes ? MemoryKind::Uploaded : MemoryKind::DeviceLocal),
         isDirect_(buffer_.mapped() != nullptr && (host == Host::Writes || buffer_.isCached())),
         host_(host) {}
 

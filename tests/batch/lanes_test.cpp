@@ -111,6 +111,7 @@ TEST_CASE("loops of a lane use its share of the threads") {
   LaneRun lanes;
   std::atomic<size_t> otherCount = 0;
   (void)lanes.run(4, {2, 1}, [&](size_t) {
+    CHECK_EQ(threadLimit(), 1);
     const std::thread::id own = std::this_thread::get_id();
     forEachTask(20, [&](size_t) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));  // Long enough for a further thread to begin a task.

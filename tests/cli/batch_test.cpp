@@ -22,7 +22,7 @@ TEST_CASE("a tree of meshes gives a tree of results, a record of each, and exit 
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 7);
   CHECK(outcome.error.find("bad.off: ") != std::string::npos);
-  CHECK(outcome.error.find("9 done, 2 failed") != std::string::npos);
+  CHECK(outcome.error.find("9 done, 2 unreadable") != std::string::npos);
   const auto results = resultsIn(tree / "out");
   CHECK_EQ(results.size(), 9);
   CHECK(results.count("deep/er/cube.asdf.npy") == 1);

@@ -41,6 +41,27 @@ TEST_CASE("a required Vulkan device, kernel or GPU that is missing gives 3 and n
   CHECK_EQ(folder.names(), std::vector<std::string>{"cube.off"});
 }
 
+TEST_CASE("a mesh with too few rays for a GPU, and a thickness, are computed without a device") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  ChildOptions few = kNoDriver;
+  few.environment.emplace_back("ASDF_VK_GPU_RAYS", "1000");
+  const ChildOutcome outcome = runAsdf({mesh, "--json"}, few);
+  CHECK_EQ(outcome.exitCode, 0);
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("leastRaysForGpu").get<int>(), 1000);
+  const std::string line = linesOf(outcome.error).at(0);
+  CHECK(line.starts_with("asdf-vk: cpu: CPU, "));
+  CHECK(line.ends_with(": fewer than the 1,000 rays from which a GPU is faster"));
+  CHECK(outcome.error.find("not available") == std::string::npos);
+  for (const char* const backend : {"auto", "vulkan", "cpu"}) {
+    const ChildOutcome thickness = runAsdf({mesh, "--measure", "thickness", "--backend", backend, "--json"}, kNoDriver);
+    CHECK_EQ(thickness.exitCode, 0);
+    CHECK(thickness.error.find("not available") == std::string::npos);
+    CHECK_EQ(nlohmann::json::parse(thickness.output).at("backend").get<std::string>(), "cpu");
+  }
+  checkFailure(runAsdf({mesh, "--measure", "thickness", "--require-gpu", "--quiet"}, kNoDriver), 3, "--require-gpu");
+}
+
 TEST_CASE("the list of devices is empty with a reason where there is none") {
   const ChildOutcome text = runAsdf({"--list-devices"}, kNoDriver);
   CHECK_EQ(text.exitCode, 0);

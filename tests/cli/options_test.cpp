@@ -152,6 +152,12 @@ const std::vector<OptionCase>& optionCases() {
       {{"--ascii"}, [](const Line& l) { return l.outputs.ascii; }},
       {{"--open", "-o", "b.html"}, [](const Line& l) { return l.outputs.opensPage; }},
       {{"--json"}, [](const Line& l) { return l.outputs.json; }},
+      {{"--limits", "b.json"}, [](const Line& l) { return l.outputs.limits == "b.json" && !l.outputs.writesResult; }},
+      {{"--baseline", "b.json"}, [](const Line& l) { return l.outputs.baseline == "b.json"; }},
+      {{"--update-baseline", "--baseline", "b.json"}, [](const Line& l) { return l.outputs.updatesBaseline; }},
+      {{"--report-format", "junit"},
+       [](const Line& l) { return l.outputs.reportFormat == "junit" && l.outputs.report == "-"; }},
+      {{"--report", "b.xml", "--report-format", "junit"}, [](const Line& l) { return l.outputs.report == "b.xml"; }},
       {{"--quiet"}, [](const Line& l) { return l.outputs.quiet; }},
       {{"--verbose"}, [](const Line& l) { return l.outputs.verbose; }},
       {{"--picture", "b.png"},
@@ -208,14 +214,36 @@ TEST_CASE("the table of options above is complete") {
 }
 
 TEST_CASE("every option changes the hash that --skip-existing compares, except those that do not change an output") {
-  const std::set<std::string> exceptions{
-      "--json",       "--quiet",   "--verbose", "--open",  // Not in the output.
-      "-o",           "--output",  "--points",  "--picture",   "--picture-of",   "--picture-view",
-      "--picture-up",  // Other outputs.
-      "--log",        "--shard",   "--null",    "--recursive", "--files-from",   "--skip-existing",
-      "--jobs",       "--threads", "--isolate", "--timeout",   "--memory-limit", "--max-faces",
-      "--with",  // For one mesh only.
-      "--compare"};
+  const std::set<std::string> exceptions{"--report-format",
+                                         "--limits",
+                                         "--baseline",
+                                         "--update-baseline",
+                                         "--report",
+                                         "--json",
+                                         "--quiet",
+                                         "--verbose",
+                                         "--open",  // Not in the output.
+                                         "-o",
+                                         "--output",
+                                         "--points",
+                                         "--picture",
+                                         "--picture-of",
+                                         "--picture-view",
+                                         "--picture-up",  // Other outputs.
+                                         "--log",
+                                         "--shard",
+                                         "--null",
+                                         "--recursive",
+                                         "--files-from",
+                                         "--skip-existing",
+                                         "--jobs",
+                                         "--threads",
+                                         "--isolate",
+                                         "--timeout",
+                                         "--memory-limit",
+                                         "--max-faces",
+                                         "--with",  // For one mesh only.
+                                         "--compare"};
   const auto hashOf = [](std::vector<std::string> arguments, const std::vector<std::string>& more = {}) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     arguments.emplace_back("a.ply");
@@ -227,7 +255,8 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
     INFO(name);
     if (exceptions.contains(name)) {
       // --points implies a field, --open a format, --compare a measure; a batch refuses them.
-      if (name != "--points" && name != "--open" && name != "--compare") CHECK_EQ(hashOf(option.arguments), hashOf({}));
+      if (name != "--limits" && name != "--points" && name != "--open" && name != "--compare")
+        CHECK_EQ(hashOf(option.arguments), hashOf({}));
     } else {
       CHECK_MESSAGE(hashes.insert(hashOf(option.arguments)).second, "the hash of other options");
     }

@@ -89,10 +89,32 @@ TEST_CASE("the full report has the times of the device, and on a GPU a hint wher
               "\n  faster    --seeds all would trace for about 0.1 s here, instead of 0.11 s for seeds and "
               "interpolation\n"));
   report.stageSeconds[Stage::Solve] = 0.06;
-  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "faster"));
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "  faster  "));
   report.stageSeconds[Stage::Solve] = 1;
   report.runsOnCpu = true;
-  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "faster"));
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "  faster  "));
+}
+
+TEST_CASE("the full report says why the automatic backend is a GPU or the CPU, and that lavapipe is slow") {
+  const CommandLine line = fullReport();
+  Result result = sampleResult();
+  Report& report = result.report;
+  report.leastRaysForGpu = 6'400'000;
+  report.runsOnCpu = false;
+  report.backend = "vulkan";
+  CHECK(holds(textReport(outcomeOf(line, result)),
+              "\n  choice    at least the 6,400,000 rays from which a GPU is faster\n"));
+  CHECK_EQ(deviceChoiceLine(report, false), "");
+  CHECK(deviceChoiceLine(report, true).ends_with(": at least the 6,400,000 rays from which a GPU is faster\n"));
+  report.runsOnCpu = true;
+  report.backend = "cpu";
+  CHECK(holds(textReport(outcomeOf(line, result)),
+              "\n  choice    fewer than the 6,400,000 rays from which a GPU is faster\n"));
+  CHECK(deviceChoiceLine(report, false).starts_with("asdf-vk: cpu: "));
+  report.leastRaysForGpu.reset();
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "\n  choice "));
+  report.backend = "vulkan";
+  CHECK(holds(textReport(outcomeOf(line, result)), "\n  choice    a CPU device; --backend cpu is faster\n"));
 }
 
 TEST_CASE("the full report has the areas of parts, the estimate and every exception") {

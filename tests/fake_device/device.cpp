@@ -14,7 +14,7 @@ namespace {
 void restrictTypes(const DeviceState& device, VkMemoryRequirements& requirements) {
   if (!device.settings.hasSeparateMemory) return;
   const bool isAllowed = (requirements.memoryTypeBits & (1u << device.driverMemoryType)) != 0;
-  requirements.memoryTypeBits = isAllowed ? (1u << kSeparateTypeCount) - 1 : 0;
+  requirements.memoryTypeBits = isAllowed ? (1u << separateTypeCount(device.settings)) - 1 : 0;
 }
 
 VKAPI_ATTR void VKAPI_CALL getBufferRequirements(VkDevice handle, VkBuffer buffer, VkMemoryRequirements* requirements) {

@@ -2,7 +2,7 @@
 # devices` adds fake-DEVICE-FOLDER-all with the label `fake-all`: all cases, which takes minutes.
 set(casesOf_vk "*")
 set(casesOf_trace "turned cones*" "all tracers agree on cones*" "hits of cones that the reference redoes*"
-    "hits do not depend on where a chunk ends" "rays without a hit are misses*"
+    "hits do not depend on where a chunk ends" "hits on the device*" "rays without a hit are misses*"
     "copies of faces*" "two runs on the device*" "a trace on the device stops*" "details too small*"
     "the kernel is chosen by*" "each field of the shared structs*" "a hierarchy beyond the texel limit*")
 set(casesOf_trace_lanes128 "any number of rays gives the reference's hits")

@@ -68,10 +68,14 @@ void change(VkPhysicalDeviceMemoryProperties& memory, const Settings& settings) 
   memory.memoryHeapCount = 2;
   memory.memoryHeaps[0] = {byteCount, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
   memory.memoryHeaps[1] = {byteCount, 0};
-  memory.memoryTypeCount = kSeparateTypeCount;
+  memory.memoryTypeCount = separateTypeCount(settings);
   memory.memoryTypes[kLocalType] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
   memory.memoryTypes[kHostType] = {kMappable, 1};
   memory.memoryTypes[kCachedHostType] = {kMappable | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, 1};
+  if (!settings.mappableByteCount) return;
+  memory.memoryHeapCount = 3;
+  memory.memoryHeaps[2] = {*settings.mappableByteCount, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+  memory.memoryTypes[kMappableLocalType] = {kMappable | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 2};
 }
 
 VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties) {

@@ -68,6 +68,7 @@ Settings readSettings() {
     return numberOf<uint32_t>(variable, valueOf(variable)).value_or(0);
   };
   settings.hasSeparateMemory = numberOrZero("ASDF_VK_FAKE_SEPARATE_MEMORY") != 0;
+  read("ASDF_VK_FAKE_MAPPABLE_MEMORY", settings.mappableByteCount);
   settings.openingMilliseconds = numberOrZero("ASDF_VK_FAKE_OPENING_MS");
   settings.pipelineMilliseconds = numberOrZero("ASDF_VK_FAKE_PIPELINE_MS");
   read("ASDF_VK_FAKE_POISON", settings.poison);

@@ -30,6 +30,9 @@ struct Settings {
   std::optional<uint64_t> maxAllocationByteCount;  ///< ASDF_VK_FAKE_MAX_ALLOCATION
   /// ASDF_VK_FAKE_SEPARATE_MEMORY=1: memory that is local to the device and cannot be mapped, and memory of the host.
   bool hasSeparateMemory = false;
+  /// ASDF_VK_FAKE_MAPPABLE_MEMORY: bytes of the device that the host maps, in a heap of their own; with separate
+  /// memory.
+  std::optional<uint64_t> mappableByteCount;
   uint32_t openingMilliseconds = 0;   ///< ASDF_VK_FAKE_OPENING_MS: that the creation of a device takes longer
   uint32_t pipelineMilliseconds = 0;  ///< ASDF_VK_FAKE_PIPELINE_MS: that the creation of a pipeline takes longer
   std::optional<uint32_t> poison;  ///< ASDF_VK_FAKE_POISON: word that fills fresh memory, for example a NaN, 0x7fc00001

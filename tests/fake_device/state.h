@@ -110,6 +110,9 @@ inline States<DeviceState>& devices() {
 /// A type of the driver's memory that buffers can be in, and that the host can map.
 [[nodiscard]] uint32_t findMappableType(const InstanceState& instance, VkPhysicalDevice device);
 /// The types of separate memory.
-enum SeparateMemoryType : uint32_t { kLocalType, kHostType, kCachedHostType, kSeparateTypeCount };
+enum SeparateMemoryType : uint32_t { kLocalType, kHostType, kCachedHostType, kMappableLocalType };
+[[nodiscard]] inline uint32_t separateTypeCount(const Settings& settings) {
+  return settings.mappableByteCount ? kMappableLocalType + 1 : kMappableLocalType;
+}
 
 }  // namespace asdfvk::fake

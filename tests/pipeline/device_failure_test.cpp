@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
-#include <volk.h>
 
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -11,6 +9,7 @@
 #include "shared/cone_layout.h"
 #include "shared/prediction_layout.h"
 #include "support/bits.h"
+#include "support/changed_push.h"
 #include "support/fake_device.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
@@ -26,8 +25,10 @@ using test::ScopedVariable;
 namespace {
 
 /// A GPU with memory of its own: uploads are submissions, and `auto` solves on the device.
-const FakeDevice::Variables kGpu{
-    {"ASDF_VK_FAKE_TYPE", "discrete"}, {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"}, {"ASDF_VK_FAKE_STORAGE_BUFFERS", "8"}};
+const FakeDevice::Variables kGpu{{"ASDF_VK_FAKE_TYPE", "discrete"},
+                                 {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"},
+                                 {"ASDF_VK_FAKE_STORAGE_BUFFERS", "8"},
+                                 {"ASDF_VK_GPU_RAYS", "0"}};
 
 /// While it exists, the nth submission of each device, and later ones, lose it.
 struct LostDevice : ScopedVariable {
@@ -39,41 +40,13 @@ struct FullDevice : ScopedVariable {
   explicit FullDevice(uint32_t n = 1) : ScopedVariable("ASDF_VK_FAKE_NO_MEMORY_AT", std::to_string(n) + "+") {}
 };
 
-/// While it exists, `change` changes the push constants of this type, in fact all of its size.
-template <typename Push>
-class ChangedPush {
- public:
-  using Change = void (*)(Push&);
-
-  explicit ChangedPush(Change change) : push_(vkCmdPushConstants) {
-    original = push_;
-    changePush = change;
-    vkCmdPushConstants = [](VkCommandBuffer commands, VkPipelineLayout layout, VkShaderStageFlags stages,
-                            uint32_t offset, uint32_t byteCount, const void* bytes) {
-      Push push;
-      if (byteCount != sizeof push) return original(commands, layout, stages, offset, byteCount, bytes);
-      std::memcpy(&push, bytes, sizeof push);
-      changePush(push);
-      original(commands, layout, stages, offset, byteCount, &push);
-    };
-  }
-  ~ChangedPush() { vkCmdPushConstants = push_; }
-  ChangedPush(const ChangedPush&) = delete;
-  ChangedPush& operator=(const ChangedPush&) = delete;
-
- private:
-  static inline PFN_vkCmdPushConstants original = nullptr;
-  static inline Change changePush = nullptr;
-  PFN_vkCmdPushConstants push_;
-};
-
 /// While it exists, kernels drop all hits as false, so that no face has a value.
-struct WrongDevice : ChangedPush<ConePush> {
+struct WrongDevice : test::ChangedPush<ConePush> {
   WrongDevice() : ChangedPush([](ConePush& push) { push.falseHitCosine = -2; }) {}
 };
 
 /// While it exists, the device predicts from no hit.
-struct WrongPredictions : ChangedPush<PredictionPush> {
+struct WrongPredictions : test::ChangedPush<PredictionPush> {
   WrongPredictions() : ChangedPush([](PredictionPush& push) { push.maxNormalCosine = -2; }) {}
 };
 

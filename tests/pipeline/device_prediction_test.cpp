@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "asdf_vk/session.h"
 #include "bvh/bvh.h"
 #include "generate/shapes.h"
 #include "pipeline/rounds.h"
+#include "shared/prediction_layout.h"
 #include "support/bits.h"
+#include "support/changed_push.h"
+#include "support/fake_device.h"
 #include "support/require_failure.h"
 #include "support/shared_session.h"
 
@@ -72,6 +76,29 @@ class GpuBackend final : public Backend {
   std::unique_ptr<Backend> vulkan_;
 };
 
+/// While it exists, the nth prediction on a device loses the device.
+class LostInPrediction {
+ public:
+  explicit LostInPrediction(int n)
+      : push_([](PredictionPush&) {
+          if (++count == last) lost = std::make_unique<test::ScopedVariable>("ASDF_VK_FAKE_LOST_AT", "1");
+        }) {
+    count = 0;
+    last = n;
+  }
+  ~LostInPrediction() { lost.reset(); }
+  LostInPrediction(const LostInPrediction&) = delete;
+  LostInPrediction& operator=(const LostInPrediction&) = delete;
+
+  /// Predictions so far.
+  static inline int count = 0;
+
+ private:
+  static inline int last = 0;
+  static inline std::unique_ptr<test::ScopedVariable> lost;
+  test::ChangedPush<PredictionPush> push_;
+};
+
 struct DeviceOutcome {
   std::vector<double> values;
   std::vector<Warning> warnings;
@@ -123,6 +150,28 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
       CHECK(sum / static_cast<double>(other->size()) < 1e-3 * high);
     }
   }
+}
+
+TEST_CASE("a device that is lost in the last prediction takes the hits with it: the CPU traces, predicts and solves") {
+  const test::FakeDevice fake({{"ASDF_VK_FAKE_TYPE", "discrete"}, {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"}});
+  const Mesh mesh = makeAnimal(8000).mesh;
+  Session session({.backend = BackendChoice::Vulkan});
+  (void)session.compute(makeAnimal(1000).mesh, test::tenthOfFaces());  // Checks the kernels.
+  int predictionCount = 0;
+  std::vector<double> expected;
+  {
+    const LostInPrediction never(0);
+    expected = session.compute(mesh, test::tenthOfFaces()).sdf();
+    predictionCount = LostInPrediction::count;
+  }
+  CHECK(predictionCount >= 2);
+  const LostInPrediction lost(predictionCount);
+  const Result result = session.compute(mesh, test::tenthOfFaces());
+  CHECK(test::findWarning(result.report, WarningCode::PredictedOnCpu) != nullptr);
+  CHECK(test::findWarning(result.report, WarningCode::SolvedOnCpu) != nullptr);
+  double sum = 0;
+  for (size_t face = 0; face < expected.size(); ++face) sum += std::abs(result.sdf()[face] - expected[face]);
+  CHECK(sum / static_cast<double>(expected.size()) < 1e-3 * *std::ranges::max_element(expected));
 }
 
 TEST_CASE("with a named solver of the device a prediction that fails there is an error") {

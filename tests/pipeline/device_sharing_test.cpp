@@ -25,11 +25,9 @@ using test::tenthOfFaces;
 namespace {
 
 /// A GPU with memory of its own.
-const FakeDevice::Variables kSharedGpu{{"ASDF_VK_FAKE_TYPE", "discrete"},
-                                       {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"},
-                                       {"ASDF_VK_FAKE_VENDOR", "0x10de"},
-                                       {"ASDF_VK_FAKE_SUBGROUP_SIZE", "32"},
-                                       {"ASDF_VK_FAKE_QUEUES", "2"}};
+const FakeDevice::Variables kSharedGpu{{"ASDF_VK_FAKE_TYPE", "discrete"}, {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"},
+                                       {"ASDF_VK_FAKE_VENDOR", "0x10de"}, {"ASDF_VK_FAKE_SUBGROUP_SIZE", "32"},
+                                       {"ASDF_VK_FAKE_QUEUES", "2"},      {"ASDF_VK_GPU_RAYS", "1"}};
 const SessionOptions kVulkan{.backend = BackendChoice::Vulkan};
 
 /// Counts calls of all threads while it exists.

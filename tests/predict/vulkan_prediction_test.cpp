@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <ranges>
 #include <stop_token>
@@ -18,6 +19,7 @@
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/test_device.h"
+#include "trace/vk/vulkan_tracer.h"
 
 using namespace asdfvk;
 using test::SeededMesh;
@@ -167,6 +169,25 @@ TEST_CASE("predictions of the device have the same bits in every call, with any 
     const auto other = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, size);
     CHECK(test::haveSameBits(predictOn(few, {}, other.get()), fewExpected));
     CHECK(test::haveSameBits(predictOn(seeded, {}, other.get()), expected));
+  }
+}
+
+TEST_CASE("hits that stay on the device give the same bits as uploaded ones, with any size of batches") {
+  const test::ValidatedDevice device;
+  SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  const VulkanConeKernel tracing(*device, {30, true});
+  const auto tracer = makeVulkanTracer(tracing, seeded.scene(), seeded.cone);
+  const std::unique_ptr<DeviceHits> kept = tracer->makeDeviceHits();
+  kept->reserve(seeded.seeds.size());
+  (void)tracer->trace(seeded.seeds, {.values = seeded.values, .onDevice = kept.get()}, {});
+  (void)tracer->trace(seeded.seeds, {seeded.values, seeded.hits}, {});
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  for (const PredictionBatchSize& size : {PredictionBatchSize{1000, 4000}, PredictionBatchSize{50, 17}}) {
+    const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, size);
+    const UnsetVector<double> values = predictValues(seeded.scene(), seeded.domain(), seeded.cone,
+                                                     {seeded.seeds, {}, kept.get()}, {}, {}, predictor.get())
+                                           .values;
+    CHECK(test::haveSameBits(values, predictOn(seeded, {}, predictor.get())));
   }
 }
 

@@ -16,13 +16,15 @@ struct Log {
   size_t inFlightCount = 0, maxInFlightCount = 0, waitCount = 0;
 };
 
-void run(Log& log, size_t count, const RunControl& control = {}) {
+/// maxCount: of the items that start() submits.
+void run(Log& log, size_t count, const RunControl& control = {}, size_t maxCount = 1000) {
   forEachChunkInFlight<2>(
       count, ChunkSize(10, 1000), control,
-      [&](size_t slot, size_t begin, size_t) {
+      [&](size_t slot, size_t begin, size_t end) {
         CHECK(slot == log.begins.size() % 2);
         log.begins.push_back(begin);
         log.maxInFlightCount = std::max(log.maxInFlightCount, ++log.inFlightCount);
+        return std::min(end, begin + maxCount);
       },
       [&](size_t slot) {
         CHECK(slot == log.waitCount % 2);
@@ -30,6 +32,7 @@ void run(Log& log, size_t count, const RunControl& control = {}) {
       },
       [&](size_t, size_t begin, size_t end) {
         CHECK(begin == log.begins[log.ends.size()]);
+        CHECK(end - begin <= maxCount);
         CHECK(log.waitCount == log.ends.size() + 1);
         log.ends.push_back(end);
         --log.inFlightCount;
@@ -41,7 +44,9 @@ void run(Log& log, size_t count, const RunControl& control = {}) {
 TEST_CASE("ranges in flight cover all items once, in order, two at a time") {
   for (const size_t count : {0u, 1u, 10u, 11u, 5000u}) {
     CAPTURE(count);
-    Log log;
+    Log log, ofParts;
+    run(ofParts, count, {}, 7);
+    CHECK(ofParts.ends.size() == (count + 6) / 7);
     run(log, count);
     REQUIRE(log.begins.size() == log.ends.size());
     for (size_t i = 0; i < log.begins.size(); ++i) CHECK(log.begins[i] == (i == 0 ? 0 : log.ends[i - 1]));

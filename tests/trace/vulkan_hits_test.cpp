@@ -1,11 +1,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
 #include "generate/shapes.h"
 #include "hit_checks.h"
 #include "hit_comparison.h"
+#include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/test_device.h"
 #include "vulkan_variants.h"
@@ -125,6 +129,59 @@ TEST_CASE("hits of cones that the reference redoes are the reference's") {
   CHECK(some.statistics.redoneConeCount > 0);
   CHECK(some.statistics.redoneConeCount < reference.values.size());
   CHECK(differingRays(some.hits, reference.hits) <= reference.hits.size() / 1000);
+}
+
+TEST_CASE("hits on the device are those on the host: of several calls, in growing memory, and of redone cones") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  const std::vector<uint32_t> seeds = traced.seedFaces();
+  const Cone cone = makeCone({});
+  for (const bool redoes : {false, true}) {
+    VulkanWorkgroupShape shape{32, 1};
+    if (redoes) shape.iterationLimit = 45;
+    const VulkanConeKernel kernel(*device, {kRayCount, true}, shape);
+    const TraceResults expected = hitsByKernel(kernel, traced);
+    const auto tracer = makeVulkanTracer(kernel, traced.scene(), cone);
+    const std::unique_ptr<DeviceHits> kept = tracer->makeDeviceHits();
+    std::vector<double> values(seeds.size());
+    uint64_t redoneCount = 0;
+    size_t done = 0;
+    for (const size_t count : {size_t{300}, size_t{0}, size_t{1}, seeds.size() - 301}) {
+      kept->reserve(done + count);
+      redoneCount += tracer
+                         ->trace(std::span(seeds).subspan(done, count),
+                                 {.values = std::span(values).subspan(done, count), .onDevice = kept.get()}, {})
+                         .redoneConeCount;
+      done += count;
+    }
+    CHECK((redoneCount > 0) == redoes);
+    CHECK(redoneCount < seeds.size());
+    std::vector<ConeHit> hits(seeds.size() * kRayCount);
+    kept->download(hits);
+    CHECK(test::haveSameBits(values, expected.values));
+    CHECK(test::haveSameBits(hits, expected.hits));
+  }
+}
+
+TEST_CASE("where the hits exceed a limit of the device, the earlier ones remain") {
+  const auto limited =
+      test::ValidatedDevice::changed([](DeviceFacts& facts) { facts.maxStorageBufferRange = 1 << 20; });
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  const std::vector<uint32_t> seeds{5, 3, 700};
+  VulkanTraceChoice choice = defaultTraceChoice(limited->facts());
+  const Cone cone = makeCone({});
+  const VulkanConeKernel kernel(*limited, {kRayCount, true, choice});
+  const auto tracer = makeVulkanTracer(kernel, traced.scene(), cone);
+  const std::unique_ptr<DeviceHits> kept = tracer->makeDeviceHits();
+  std::vector<double> values(seeds.size());
+  std::vector<ConeHit> hits(seeds.size() * kRayCount), expected(hits.size());
+  kept->reserve(seeds.size());
+  (void)tracer->trace(seeds, {.values = values, .onDevice = kept.get()}, {});
+  (void)tracer->trace(seeds, {values, expected}, {});
+  test::requireFailure([&] { kept->reserve((1 << 20) / (kRayCount * sizeof(ConeHit)) + 1); }, ErrorCode::DeviceLimit,
+                       "in one storage buffer");
+  kept->download(hits);
+  CHECK(test::haveSameBits(hits, expected));
 }
 
 TEST_CASE("hits do not depend on where a chunk ends") {

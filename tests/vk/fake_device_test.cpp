@@ -129,6 +129,25 @@ TEST_CASE("memory of a fake device is separate and poisoned") {
   CHECK(host.mappedAs<uint32_t>()[1023] == 0x7fc00001);
 }
 
+TEST_CASE("uploads go straight to memory of the device if the host can map more than a window of it") {
+  for (const uint64_t mappableByteCount : {kMaxWindowByteCount, 4 * kMaxWindowByteCount}) {
+    CAPTURE(mappableByteCount);
+    const bool isWindow = mappableByteCount == kMaxWindowByteCount;
+    FakeDevice::Variables variables = kDiscrete;
+    variables.emplace_back("ASDF_VK_FAKE_MAPPABLE_MEMORY", std::to_string(mappableByteCount));
+    const FakeDevice fake(variables);
+    const Instance instance;
+    const OpenedDevice opened = openDevice(instance, {});
+    const std::vector<uint32_t> words(5000, 7);
+    const Buffer uploaded = uploadBuffer(*opened.device, std::as_bytes(std::span(words)), kUsage);
+    CHECK((uploaded.mapped() != nullptr) == !isWindow);
+    CHECK_FALSE(uploaded.isCached());
+    CHECK(wordsOf(*opened.device, uploaded) == words);
+    CHECK(Buffer(*opened.device, 4096, kUsage, MemoryKind::DeviceLocal).mapped() == nullptr);
+    CHECK(Buffer(*opened.device, 4096, kUsage, MemoryKind::HostVisible).isCached());
+  }
+}
+
 TEST_CASE("the validation layer sees the fake device") {
   FakeDevice::Variables variables = kDiscrete;
   variables.emplace_back("ASDF_VK_FAKE_TEXELS", "65536");

@@ -1,15 +1,11 @@
 #include "pipeline/vk/shared_device.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
+#include "pipeline/backend_choice.h"
 #include "pipeline/device_sharing.h"
 #include "vk/physical_device.h"
 
@@ -22,18 +18,6 @@ DeviceRequest requestOf(const SessionOptions& options) {
 
 std::shared_ptr<const Instance> makeInstance() {
   return std::make_shared<const Instance>(InstanceOptions{.validation = validationRequestedByEnvironment()});
-}
-
-/// Whether a GPU may exist. An instance, which loads all drivers, takes 0.04 s of CPU time, which a batch on a CPU
-/// device does not need to spend.
-bool mayHaveGpu() {
-  if (std::getenv("VK_INSTANCE_LAYERS") != nullptr) return true;  // A layer may report other devices.
-  // Devices of the kernel: all GPUs with open drivers, NVIDIA, Windows, Adreno, Mali.
-  constexpr std::array kNodes{"/dev/dri", "/dev/nvidiactl", "/dev/dxg", "/dev/kgsl-3d0", "/dev/mali0"};
-  return std::any_of(kNodes.begin(), kNodes.end(), [](const char* node) {
-    std::error_code ignored;
-    return std::filesystem::exists(node, ignored);
-  });
 }
 
 /// The state of the DeviceSharing that exists.

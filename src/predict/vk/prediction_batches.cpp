@@ -20,7 +20,7 @@ PredictionBatches::PredictionBatches(const PredictionInput& input)
         hasEarlierSeeds_[cell] ? std::ranges::count_if(faces, [&](uint32_t face) { return !isKept(cell, face); })
                                : static_cast<std::ptrdiff_t>(faces.size()));
   });
-  for (const uint32_t count : faceCounts_) faceCount_ += count;
+  for (const uint32_t count : faceCounts_) allFaceCount_ += count;
 }
 
 bool PredictionBatches::next(const PredictionBatchSize& size) {

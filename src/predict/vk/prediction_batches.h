@@ -25,13 +25,10 @@ class PredictionBatches {
   [[nodiscard]] bool isKept(uint32_t cell, uint32_t node) const {
     return hasEarlierSeeds_[cell] && input_.earlier.cellOf[node] == cell;
   }
-  /// Share of the faces that were in batches so far, 0 to 1.
-  [[nodiscard]] double progress() const {
-    return doneCount_ < faceCount_ ? static_cast<double>(doneCount_) / static_cast<double>(faceCount_) : 1;
-  }
-
+  /// Number of faces in all batches together.
+  [[nodiscard]] size_t allFaceCount() const { return allFaceCount_; }
   /// Whether no face is left after the current batch.
-  [[nodiscard]] bool isLast() const { return doneCount_ + batchFaceCount_ == faceCount_; }
+  [[nodiscard]] bool isLast() const { return doneCount_ + batchFaceCount_ == allFaceCount_; }
 
   /// Makes the next batch. Returns false if no face is left.
   bool next(const PredictionBatchSize& size);
@@ -57,7 +54,7 @@ class PredictionBatches {
   const PredictionInput& input_;
   std::vector<uint8_t> hasEarlierSeeds_;  // One entry per cell.
   std::vector<uint32_t> faceCounts_;      // One entry per cell.
-  size_t faceCount_ = 0, doneCount_ = 0;
+  size_t allFaceCount_ = 0, doneCount_ = 0;
   size_t nextCell_ = 0;  // Index in the order of the input.
   uint32_t nextFace_ = 0;
 

@@ -13,7 +13,6 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
-#include "core/stopwatch.h"
 #include "predict/prediction_kernel.h"
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
@@ -22,6 +21,7 @@
 #include "spirv/hit_points.comp.h"
 #include "spirv/predict_faces.comp.h"
 #include "trace/adaptive_chunks.h"
+#include "trace/vk/vulkan_hits.h"
 #include "vk/command_list.h"
 #include "vk/shared_buffer.h"
 
@@ -32,6 +32,7 @@ constexpr uint64_t kMaxPointByteCount = 32u << 20;
 // The time of a face is proportional to the number of rays.
 constexpr size_t kFirstBatchRayCount = size_t{1} << 22, kFirstBatchRayCountOnCpu = size_t{1} << 18,
                  kMaxBatchRayCount = size_t{1} << 23;
+constexpr size_t kBatchesInFlight = 2;
 constexpr size_t kMaxBatchFaceCount = size_t{1} << 18;
 // Every Vulkan device supports workgroups of 128 lanes.
 constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;
@@ -97,8 +98,7 @@ class VulkanPredictor final : public DevicePredictor {
         rules_(PredictionKernel::rulesOf(cone)),
         faces_(uploadFaces(kernels.device(), scene)),
         values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)), kStorage,
-                SharedBuffer::Host::Reads),
-        commands_(kernels.device()) {
+                SharedBuffer::Host::Reads) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernels.rayCount()});
     ASDFVK_CHECK(cone.definition == kernels.definition());
     ASDFVK_CHECK_OP(batchSize.maxSeedCount, >=, size_t{kMaxContributingSeedCount});
@@ -126,78 +126,97 @@ class VulkanPredictor final : public DevicePredictor {
   }
 
  private:
-  /// Memory for one batch.
-  struct Memory {
-    Memory(const VulkanPredictionKernels& kernels, const Buffer& faces, const Buffer& values, size_t seeds,
-           size_t items)
-        : seedCount(seeds),
-          faceCount(items),
-          table(kernels.device(), kernels.rayCount() * sizeof(PredictionRay) + seeds * sizeof(PredictionSeed), kStorage,
-                SharedBuffer::Host::Writes),
-          work(kernels.device(), (2 * items + kMaxContributingSeedCount * seeds) * sizeof(uint32_t), kStorage,
+  /// Largest numbers of the batches of an input. Small meshes need less memory than the largest batch. A batch of all
+  /// seeds has room for those of one more cell (PredictionBatches::next()).
+  [[nodiscard]] PredictionBatchSize sizeFor(const PredictionInput& input) const {
+    return {std::min(batchSize_.maxSeedCount, input.hits.seeds.size() + kMaxContributingSeedCount),
+            std::min(batchSize_.maxFaceCount, input.cells.entries.size())};
+  }
+
+  /// Memory and commands for one batch.
+  struct Batch {
+    /// kept: the hits on the device; null: those of a batch are uploaded.
+    Batch(const VulkanPredictionKernels& kernels, const PredictionBatchSize& size, const VulkanHits* kept,
+          const Buffer& faces, const Buffer& values)
+        : table(kernels.device(),
+                kernels.rayCount() * sizeof(PredictionRay) + size.maxSeedCount * sizeof(PredictionSeed) +
+                    placeByteCount(size.maxSeedCount),
+                kStorage, SharedBuffer::Host::Writes),
+          work(kernels.device(),
+               (2 * size.maxFaceCount + kMaxContributingSeedCount * size.maxSeedCount) * sizeof(uint32_t), kStorage,
                SharedBuffer::Host::Writes),
-          hits(kernels.device(), seeds * kernels.rayCount() * sizeof(ConeHit), kStorage, SharedBuffer::Host::Writes),
-          points(kernels.device(), seeds * (kernels.rayCount() + 1) * sizeof(PredictionPoint), kStorage,
+          hits(kernels.device(), kept == nullptr ? size.maxSeedCount * kernels.rayCount() * sizeof(ConeHit) : 16,
+               kStorage, SharedBuffer::Host::Writes),
+          points(kernels.device(), size.maxSeedCount * (kernels.rayCount() + 1) * sizeof(PredictionPoint), kStorage,
                  MemoryKind::DeviceLocal),
           pointBindings(kernels.device(), kernels.points(),
-                        std::array<Binding, 4>{faces, table.onDevice(), hits.onDevice(), points}),
+                        std::array<Binding, 4>{faces, table.onDevice(),
+                                               kept == nullptr ? hits.onDevice() : kept->buffer(), points}),
           faceBindings(kernels.device(), kernels.faces(),
-                       std::array<Binding, 4>{faces, points, work.onDevice(), values}) {}
+                       std::array<Binding, 4>{faces, points, work.onDevice(), values}),
+          commands(kernels.device()) {}
 
-    size_t seedCount, faceCount;
-    SharedBuffer table, work, hits;
+    SharedBuffer table, work;  // See PredictionSeed and PredictionPush.
+    SharedBuffer hits;         // Not used if the hits are on the device.
     Buffer points;
     BindingSet pointBindings, faceBindings;
+    CommandList commands;  // Destroyed first; its destructor waits.
   };
 
-  /// Allocates the memory of a batch. Small meshes need less than the largest batch.
-  void reserve(const PredictionInput& input) {
-    const size_t seedCount =
-        std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, input.hits.seeds.size()));
-    const size_t faceCount = std::min(batchSize_.maxFaceCount, input.cells.entries.size());
-    if (memory_ && memory_->seedCount >= seedCount && memory_->faceCount >= faceCount) return;
-    memory_.reset();
-    memory_.emplace(kernels_, faces_, values_.onDevice(), seedCount, faceCount);
-    const std::span<PredictionRay> rays = memory_->table.onHost<PredictionRay>();
-    for (size_t i = 0; i < cone_.directions.size(); ++i)
-      rays[i] = {toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
-  }
+  static uint64_t placeByteCount(size_t seedCount) { return divideUp(seedCount, 4) * 4 * sizeof(uint32_t); }
 
   void predictBatches(const PredictionInput& input, PredictionBatches& batches, const RunControl& control) {
-    reserve(input);
-    const bool isCpu = kernels_.device().facts().isCpu();
-    const size_t firstRayCount = isCpu ? kFirstBatchRayCountOnCpu : kFirstBatchRayCount;
-    ChunkSize size(std::max<size_t>(1, firstRayCount / kernels_.rayCount()), memory_->faceCount);
-    while (batches.next({memory_->seedCount, size.current()})) {
-      control.checkpoint(batches.progress());
-      writeSeeds(input, batches.seeds());
-      batches.write(memory_->work.onHost<uint32_t>());
-      const Stopwatch stopwatch;
-      dispatch(input, batches);
-      size.adapt(batches.faceCount(), stopwatch.seconds());
-    }
-    control.checkpoint(1);
+    const PredictionBatchSize largest = sizeFor(input);
+    const auto* const kept = static_cast<const VulkanHits*>(input.hits.onDevice);
+    const size_t firstRayCount = kernels_.device().facts().isCpu() ? kFirstBatchRayCountOnCpu : kFirstBatchRayCount;
+    const ChunkSize size(std::max<size_t>(1, firstRayCount / kernels_.rayCount()), largest.maxFaceCount,
+                         ChunkSize::kTargetSeconds / kBatchesInFlight);
+    std::array<std::optional<Batch>, kBatchesInFlight> inFlight;
+    const auto start = [&](size_t slot, size_t begin, size_t end) {
+      std::optional<Batch>& batch = inFlight[slot];
+      if (!batch) batch.emplace(kernels_, largest, kept, faces_, values_.onDevice());
+      (void)batches.next({largest.maxSeedCount, end - begin});
+      writeTable(input, batches.seeds(), kept, batch->table.onHost<std::byte>());
+      if (kept == nullptr) writeHits(input, batches.seeds(), batch->hits.onHost<ConeHit>());
+      batches.write(batch->work.onHost<uint32_t>());
+      submit(input, batches, *batch);
+      return begin + batches.faceCount();
+    };
+    forEachChunkInFlight<kBatchesInFlight>(
+        batches.allFaceCount(), size, control, start, [&](size_t slot) { inFlight[slot]->commands.wait(); },
+        [](size_t, size_t, size_t) {});
   }
 
-  void writeSeeds(const PredictionInput& input, std::span<const uint32_t> seeds) {
-    const size_t rayCount = kernels_.rayCount();
-    const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
-    const std::span<ConeHit> hits = memory_->hits.onHost<ConeHit>();
+  void writeTable(const PredictionInput& input, std::span<const uint32_t> seeds, const VulkanHits* kept,
+                  std::span<std::byte> table) const {
+    for (size_t i = 0; i < cone_.directions.size(); ++i) {
+      const PredictionRay ray{toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
+      std::memcpy(&table[i * sizeof ray], &ray, sizeof ray);
+    }
+    const std::span<std::byte> ofSeeds = table.subspan(cone_.directions.size() * sizeof(PredictionRay)),
+                               places = ofSeeds.subspan(seeds.size() * sizeof(PredictionSeed));
     constexpr size_t kPrefetchDistance = 8;  // The normals of the seeds are far from each other in memory.
     forEachInParallel(seeds.size(), [&](uint32_t i) {
       if (i + kPrefetchDistance < seeds.size())
         prefetchMemory(&scene_.geometry.normals[input.hits.seeds[seeds[i + kPrefetchDistance]]]);
-      const uint32_t face = input.hits.seeds[seeds[i]];
+      const uint32_t face = input.hits.seeds[seeds[i]], place = kept == nullptr ? i : kept->placeOf(seeds[i]);
       const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face};
-      std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
+      std::memcpy(&ofSeeds[i * sizeof seed], &seed, sizeof seed);
+      std::memcpy(&places[i * sizeof place], &place, sizeof place);
+    });
+  }
+
+  void writeHits(const PredictionInput& input, std::span<const uint32_t> seeds, std::span<ConeHit> hits) const {
+    const size_t rayCount = kernels_.rayCount();
+    forEachInParallel(seeds.size(), [&](uint32_t i) {
       std::ranges::copy(input.hits.of(seeds[i]), hits.subspan(i * rayCount).begin());
     });
   }
 
-  void dispatch(const PredictionInput& input, const PredictionBatches& batch) {
-    const auto seedCount = static_cast<uint32_t>(batch.seeds().size());
+  void submit(const PredictionInput& input, const PredictionBatches& batches, Batch& batch) {
+    const auto seedCount = static_cast<uint32_t>(batches.seeds().size());
     const PointPush pointPush{static_cast<float>(cone_.falseHitCosine), static_cast<float>(cone_.outliers.deviations)};
-    const PredictionPush push{static_cast<uint32_t>(batch.faceCount()),
+    const PredictionPush push{static_cast<uint32_t>(batches.faceCount()),
                               kernels_.rayCount(),
                               rules_.minCosine,
                               rules_.maxNormalCosine,
@@ -205,23 +224,25 @@ class VulkanPredictor final : public DevicePredictor {
                               rules_.outlierDeviations,
                               rules_.outlierSlack,
                               static_cast<float>(input.options.distanceDeviation)};
-    commands_.begin();
-    memory_->table.recordCopy(commands_,
-                              kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
-    memory_->hits.recordCopy(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
-    memory_->work.recordCopy(
-        commands_, (2 * batch.faceCount() + kMaxContributingSeedCount * batch.cellCount()) * sizeof(uint32_t));
-    commands_.barrier();
-    commands_.dispatch(kernels_.points(), memory_->pointBindings, bytesOf(pointPush), seedCount);
-    commands_.barrier();
-    commands_.dispatch(kernels_.faces(), memory_->faceBindings, bytesOf(push),
-                       divideUp(batch.faceCount(), VulkanPredictionKernels::kFaceLaneCount));
-    commands_.barrier();
-    if (batch.isLast()) {
-      values_.recordCopy(commands_, scene_.geometry.areas.size() * sizeof(uint32_t));
-      commands_.barrier();
+    CommandList& commands = batch.commands;
+    commands.begin();
+    batch.table.recordCopy(commands, kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed) +
+                                         placeByteCount(seedCount));
+    if (input.hits.onDevice == nullptr)
+      batch.hits.recordCopy(commands, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
+    batch.work.recordCopy(
+        commands, (2 * batches.faceCount() + kMaxContributingSeedCount * batches.cellCount()) * sizeof(uint32_t));
+    commands.barrier();
+    commands.dispatch(kernels_.points(), batch.pointBindings, bytesOf(pointPush), seedCount);
+    commands.barrier();
+    commands.dispatch(kernels_.faces(), batch.faceBindings, bytesOf(push),
+                      divideUp(batches.faceCount(), VulkanPredictionKernels::kFaceLaneCount));
+    commands.barrier();
+    if (batches.isLast()) {
+      values_.recordCopy(commands, scene_.geometry.areas.size() * sizeof(uint32_t));
+      commands.barrier();
     }
-    commands_.submitAndWait();
+    commands.submit();
   }
 
   const VulkanPredictionKernels& kernels_;
@@ -231,8 +252,6 @@ class VulkanPredictor final : public DevicePredictor {
   PredictionKernel::Rules rules_;
   Buffer faces_;         // A PredictionFace per face.
   SharedBuffer values_;  // One value per face, see predict_faces.comp.
-  std::optional<Memory> memory_;
-  CommandList commands_;
 };
 
 }  // namespace

@@ -49,7 +49,7 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
                           joined(scene.hierarchyBindings(), {seeds_, origins_.onDevice()}));
 }
 
-void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
+void ConeChunk::submit(const ConePush& push, Input input, const HitTarget& hits) {
   const VulkanWorkgroupShape& shape = kernel_.shape();
   commands_.begin();
   if (input == Input::Seeds)
@@ -65,7 +65,8 @@ void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
                      groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
   commands_.barrier();
   results_.recordCopy(commands_, push.coneCount * sizeof(uint32_t));
-  if (readsHits) hits_->recordCopy(commands_, byteCountPerRay(kernel_, push.coneCount, sizeof(ConeHit)));
+  if (hits.isHost) hits_->recordCopy(commands_, byteCountPerRay(kernel_, push.coneCount, sizeof(ConeHit)));
+  if (hits.onDevice != nullptr) hits.onDevice->recordCopy(commands_, hits_->onDevice(), hits.place, push.coneCount);
   commands_.barrier();
   commands_.submit();
 }

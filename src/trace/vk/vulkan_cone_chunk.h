@@ -7,6 +7,7 @@
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "trace/vk/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_hits.h"
 #include "vk/command_list.h"
 #include "vk/shared_buffer.h"
 
@@ -29,8 +30,13 @@ class ConeChunk {
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
 
   enum class Input { Seeds, Starts };
-  /// readsHits: whether the caller will read hits().
-  void submit(const ConePush& push, Input input, bool readsHits);
+  /// Where the hits go: to hits(), or to memory of the device, from a place on.
+  struct HitTarget {
+    bool isHost = false;
+    const VulkanHits* onDevice = nullptr;
+    size_t place = 0;
+  };
+  void submit(const ConePush& push, Input input, const HitTarget& hits);
   void wait() { commands_.wait(); }
 
   /// See shared/cone_layout.h.

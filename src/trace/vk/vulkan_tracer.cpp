@@ -18,6 +18,7 @@
 #include "trace/vk/device_seeds.h"
 #include "trace/vk/vulkan_cone_chunk.h"
 #include "trace/vk/vulkan_cone_kernel.h"
+#include "trace/vk/vulkan_hits.h"
 
 namespace asdfvk {
 namespace {
@@ -50,24 +51,24 @@ class VulkanTracer final : public ConeTracer {
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
     const auto startOf = [&](uint32_t i) { return coneStartOfFace(scene_, cone_, seedFaces[i]); };
-    const auto submit = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
-      if (kernel_.origins() == nullptr) return submitStarts(chunk, cones, startOf, results);
+    const auto write = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
+      if (kernel_.origins() == nullptr) return writeStarts(chunk, cones, startOf);
       const std::span<ConeSeed> seeds = chunk.seeds();
       forEachInParallel(cones.size(), [&](uint32_t i) {
         const double rotation = coneRotation(cone_, seedFaces[cones[i].index]);
         seeds[i] = {cones[i].seed, static_cast<float>(std::tan(rotation / 2))};
       });
-      chunk.submit(pushFor(cones.size()), ConeChunk::Input::Seeds, !results.hits.empty());
+      return ConeChunk::Input::Seeds;
     };
     return traceAll(
-        seedFaces.size(), [&] { return seeds_.inDeviceOrder(seedFaces); }, submit, startOf, results, control);
+        seedFaces.size(), [&] { return seeds_.inDeviceOrder(seedFaces); }, write, startOf, results, control);
   }
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                           const RunControl& control) override {
     const auto startOf = [&](uint32_t i) -> const ConeStart& { return starts[i]; };
-    const auto submit = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
-      submitStarts(chunk, cones, startOf, results);
+    const auto write = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
+      return writeStarts(chunk, cones, startOf);
     };
     const auto sorted = [&] {
       const std::vector<uint32_t> order = spatialOrder(starts);
@@ -77,23 +78,29 @@ class VulkanTracer final : public ConeTracer {
       });
       return cones;
     };
-    return traceAll(starts.size(), sorted, submit, startOf, results, control);
+    return traceAll(starts.size(), sorted, write, startOf, results, control);
+  }
+
+  std::unique_ptr<DeviceHits> makeDeviceHits() const override {
+    return std::make_unique<VulkanHits>(kernel_.device(), kernel_.rayCount());
   }
 
   double encodeSeconds() const override { return encodeSeconds_; }
 
  private:
-  /// sorted(): all cones, in the order of the device. submit(chunk, cones): writes the input of these cones and submits
-  /// the chunk. startOf(i): the start of cone i.
-  template <typename Sorted, typename Submit, typename StartOf>
-  TraceStatistics traceAll(size_t coneCount, const Sorted& sorted, const Submit& submit, const StartOf& startOf,
+  /// sorted(): all cones, in the order of the device. write(chunk, cones): writes the input of these cones and returns
+  /// its kind. startOf(i): the start of cone i.
+  template <typename Sorted, typename Write, typename StartOf>
+  TraceStatistics traceAll(size_t coneCount, const Sorted& sorted, const Write& write, const StartOf& startOf,
                            const ConeResults& results, const RunControl& control) {
     checkSizes(results, coneCount, kernel_.rayCount());
-    ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
+    auto* const kept = static_cast<VulkanHits*>(results.onDevice);
+    ASDFVK_CHECK((results.hits.empty() && kept == nullptr) || kernel_.writesHits());
     const uint64_t rayCount = coneCount * cone_.directions.size();
     if (scene_.bvh.nodes.empty()) {
       std::fill(results.values.begin(), results.values.end(), kNoValue);
       std::fill(results.hits.begin(), results.hits.end(), kMiss);
+      ASDFVK_CHECK(kept == nullptr || coneCount == 0);
       return {rayCount, 0};
     }
     UnsetVector<DeviceCone> cones = sorted();
@@ -103,17 +110,21 @@ class VulkanTracer final : public ConeTracer {
       const auto firstUnfit = std::stable_partition(cones.begin(), cones.end(), fits);
       std::transform(firstUnfit, cones.end(), std::back_inserter(redone),
                      [](const DeviceCone& cone) { return cone.index; });
-      cones.erase(firstUnfit, cones.end());
     }
+    const size_t firstKept = kept == nullptr ? 0 : kept->coneCount();
+    if (kept != nullptr) kept->add(cones);
+    cones.resize(coneCount - redone.size());
     const double deviceShare = static_cast<double>(cones.size()) / static_cast<double>(std::max<size_t>(1, coneCount));
-    traceOnDevice(cones, submit, results, redone, control.part(0, deviceShare));
-    redo(redone, startOf, results, control.part(deviceShare, 1));
+    traceOnDevice(cones, write, results, firstKept, redone, control.part(0, deviceShare));
+    redo(redone, startOf, results, firstKept, control.part(deviceShare, 1));
     return {rayCount, redone.size()};
   }
 
-  template <typename Submit>
-  void traceOnDevice(std::span<const DeviceCone> cones, const Submit& submit, const ConeResults& results,
-                     std::vector<uint32_t>& redone, const RunControl& control) {
+  /// firstKept: the index of the first cone in results.onDevice.
+  template <typename Write>
+  void traceOnDevice(std::span<const DeviceCone> cones, const Write& write, const ConeResults& results,
+                     size_t firstKept, std::vector<uint32_t>& redone, const RunControl& control) {
+    const auto* const kept = static_cast<const VulkanHits*>(results.onDevice);
     const uint64_t largest = largestConeChunk(kernel_);
     const bool isCpu = kernel_.device().facts().isCpu();
     const uint64_t firstRayCount = isCpu ? kFirstChunkRayCountOnCpu : kFirstChunkRayCount;
@@ -126,7 +137,9 @@ class VulkanTracer final : public ConeTracer {
         chunk.reset();
         chunk.emplace(kernel_, buffers_, std::min<uint64_t>(std::bit_ceil(end - begin), largest));
       }
-      submit(*chunk, cones.subspan(begin, end - begin));
+      const ConeChunk::Input input = write(*chunk, cones.subspan(begin, end - begin));
+      chunk->submit(pushFor(end - begin), input, {!results.hits.empty(), kept, firstKept + begin});
+      return end;
     };
     const auto read = [&](size_t slot, size_t begin, size_t end) {
       readChunk(*chunks[slot], cones.subspan(begin, end - begin), results, redone);
@@ -136,15 +149,14 @@ class VulkanTracer final : public ConeTracer {
   }
 
   template <typename StartOf>
-  void submitStarts(ConeChunk& chunk, std::span<const DeviceCone> cones, const StartOf& startOf,
-                    const ConeResults& results) const {
+  ConeChunk::Input writeStarts(ConeChunk& chunk, std::span<const DeviceCone> cones, const StartOf& startOf) const {
     const std::span<ConeOrigin> origins = chunk.starts();
     forEachInParallel(cones.size(), [&](uint32_t i) {
       const ConeStart& start = startOf(cones[i].index);
       origins[i] = {
           toGlsl(start.origin), start.skippedFace, toGlsl(start.frame.tangent), 0, toGlsl(start.frame.bitangent), 0};
     });
-    chunk.submit(pushFor(cones.size()), ConeChunk::Input::Starts, !results.hits.empty());
+    return ConeChunk::Input::Starts;
   }
 
   [[nodiscard]] ConePush pushFor(size_t coneCount) const {
@@ -181,11 +193,12 @@ class VulkanTracer final : public ConeTracer {
   }
 
   template <typename StartOf>
-  void redo(const std::vector<uint32_t>& redone, const StartOf& startOf, const ConeResults& results,
+  void redo(const std::vector<uint32_t>& redone, const StartOf& startOf, const ConeResults& results, size_t firstKept,
             const RunControl& control) const {
+    auto* const kept = static_cast<VulkanHits*>(results.onDevice);
     const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
-    const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // Number of hits per cone.
-    const size_t blockSize = largestConeChunk(kernel_);                     // Bounds the copies of starts and hits.
+    const bool needsHits = !results.hits.empty() || kept != nullptr;
+    const size_t blockSize = largestConeChunk(kernel_);  // Bounds the copies of starts and hits.
     const auto total = static_cast<double>(redone.size());
     for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
       const std::span<const uint32_t> block =
@@ -194,7 +207,7 @@ class VulkanTracer final : public ConeTracer {
       starts.reserve(block.size());
       for (const uint32_t i : block) starts.push_back(startOf(i));
       std::vector<double> values(block.size());
-      std::vector<ConeHit> hits(block.size() * hitCount);
+      std::vector<ConeHit> hits(needsHits ? block.size() * kernel_.rayCount() : 0);
       reference->traceAt(
           starts, {values, hits},
           control.part(static_cast<double>(begin) / total, static_cast<double>(begin + block.size()) / total));
@@ -202,6 +215,7 @@ class VulkanTracer final : public ConeTracer {
       if (!results.hits.empty())
         copyHits(
             block.size(), [&](uint32_t i) { return block[i]; }, hits, results.hits);
+      if (kept != nullptr) kept->write(firstKept, block, hits);
     }
   }
 

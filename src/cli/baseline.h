@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/finding.h"
+#include "batch/mesh_record.h"
+#include "core/json.h"
+#include "core/vec3.h"
+
+namespace asdfvk {
+
+/// A finding that was accepted in an earlier run.
+struct KnownPlace {
+  std::string kind;
+  std::optional<double> value;
+  std::optional<double> limit;
+  std::optional<std::array<double, 3>> place;
+  std::vector<std::string> bodies;
+};
+
+/// The known places of each mesh (--baseline). Paths of meshes are relative to the folder of the file.
+struct Baseline {
+  std::string folder;
+  std::map<std::string, std::vector<KnownPlace>> places;
+
+  /// Makes the failures that are known to notes. A finding is known if a known place of the same kind and the same
+  /// bodies is at most the limit away from it or from its opposite point, and if it is not thinner, closer or greater
+  /// by more than 5 %.
+  void mark(const std::string& mesh, std::vector<Finding>& findings) const;
+};
+
+ASDFVK_JSON(KnownPlace, kind, value, limit, place, bodies)
+ASDFVK_JSON(Baseline, folder, places)
+
+/// Throws Error{UnreadableInput}.
+[[nodiscard]] Baseline readBaseline(const std::string& path);
+
+/// Writes the failures of the records as known places. Known places of other meshes stay. Meshes without a result keep
+/// theirs, too. Throws Error{OutputNotWritable} and the errors of readBaseline().
+void updateBaseline(const std::string& path, std::span<const MeshRecord> records);
+
+/// The path of a mesh relative to a folder; "-" stays.
+[[nodiscard]] std::string pathBelow(const std::string& folder, const std::string& mesh);
+
+/// Reads a JSON object. use: for messages, such as "the baseline". Throws Error{UnreadableInput}.
+[[nodiscard]] Json readObject(const std::string& path, const std::string& use);
+
+}  // namespace asdfvk

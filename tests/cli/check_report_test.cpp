@@ -1,0 +1,115 @@
+#include <filesystem>
+#include <set>
+
+#include "cli/mesh_tree.h"
+#include "cli/refusal.h"
+
+namespace asdfvk::test {
+namespace {
+
+/// A thin box, a thick one, an open one, and a file that is no mesh.
+struct Parts {
+  ScratchFolder folder;
+  std::string root = folder / "in";
+  Parts() {
+    std::filesystem::create_directory(root);
+    folder.write("in/thick.off", boxOff(2, true));
+    folder.write("in/thin.off", boxOff(0.5, true));
+    folder.write("in/open.off", boxOff(2, false));
+    folder.write("in/bad.off", "nonsense");
+  }
+
+  static std::string boxOff(double height, bool isClosed) {
+    const std::string z = std::to_string(height);
+    std::string off = std::string("OFF\n8 ") + (isClosed ? "6" : "5") + " 0\n0 0 0\n9 0 0\n9 9 0\n0 9 0\n";
+    for (const char* const corner : {"0 0 ", "9 0 ", "9 9 ", "0 9 "}) off += corner + z + "\n";
+    off += "4 3 2 1 0\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+    return isClosed ? off + "4 4 5 6 7\n" : off;
+  }
+};
+
+TEST_CASE("a check of a folder reports thin, unjudged and unreadable meshes, and the thin one determines the code") {
+  const Parts parts;
+  const std::string root = parts.root, log = parts.folder / "log.jsonl";
+  for (const std::vector<std::string>& how : {std::vector<std::string>{}, {"--jobs", "2"}, {"--isolate"}}) {
+    std::vector<std::string> arguments{"-r", root, "--fail-if-thinner", "0.8", "--report-format", "sarif"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const ChildOutcome outcome = runAsdf(arguments);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 6);
+    CHECK(outcome.error.find("1 ok, 1 not judged, 1 thin, 1 unreadable; ") != std::string::npos);
+    CHECK(outcome.error.find("error: " + root + "/thin.off") == std::string::npos);  // A verdict is no error.
+    INFO(outcome.output);
+    std::multiset<std::string> rules;
+    const nlohmann::json sarif = nlohmann::json::parse(outcome.output);
+    for (const auto& result : sarif.at("runs").at(0).at("results"))
+      rules.insert(result.at("ruleId").get<std::string>());
+    CHECK(rules == std::multiset<std::string>{"thinWall", "unjudged", "unreadableInput"});
+  }
+  CHECK_EQ(runAsdf({"-r", root, "--fail-if-thinner", "0.8", "--log", log, "--quiet"}).exitCode, 6);
+  for (const auto& record : recordsIn(log))
+    if (record.at("input").get<std::string>().ends_with("thin.off")) {
+      CHECK_EQ(record.at("findings").at(0).at("kind").get<std::string>(), "thinWall");
+      CHECK_EQ(record.at("thickness").at("minPlace").size(), 3);
+    }
+  for (const char* const format : {"sarif", "junit", "github"}) {
+    const ChildOutcome summary = runAsdf({"summarize", log, "--format", format});
+    CHECK_EQ(summary.exitCode, 0);
+    CHECK(summary.output.find("thinWall") != std::string::npos);
+    CHECK(summary.output.find("unreadableInput") != std::string::npos);
+  }
+}
+
+TEST_CASE("limits of single meshes and known places determine the code, also in worker processes") {
+  const Parts parts;
+  const std::string limits = parts.folder.write(
+      "limits.json",
+      R"({"limits": [{"files": "in/*", "fail-if-thinner": 0.8}, {"files": "open.*", "fail-if-thinner": null},
+                                    {"files": "bad.*", "fail-if-thinner": null}]})");
+  const std::string baseline = parts.folder / "walls.json";
+  std::filesystem::remove(parts.root + "/bad.off");
+  for (const std::vector<std::string>& how : {std::vector<std::string>{}, {"--isolate"}}) {
+    const auto run = [&](std::vector<std::string> more) {
+      more.insert(more.end(), how.begin(), how.end());
+      more.insert(more.end(), {"-r", parts.root, "--limits", limits});
+      return runAsdf(more);
+    };
+    CHECK(run({}).error.find("2 ok, 1 thin; ") != std::string::npos);
+    CHECK_EQ(run({}).exitCode, 6);
+    checkFailure(run({"--baseline", baseline}), 2, "--update-baseline writes it");
+    CHECK_EQ(run({"--baseline", baseline, "--update-baseline"}).exitCode, 0);
+    const ChildOutcome known = run({"--baseline", baseline, "--report-format", "sarif"});
+    CHECK_EQ(known.exitCode, 0);
+    CHECK(known.error.find("thin.off: known by the baseline: 1 place") != std::string::npos);
+    CHECK(known.error.find("3 ok; ") != std::string::npos);
+    const nlohmann::json sarif = nlohmann::json::parse(known.output);
+    CHECK_EQ(sarif.at("runs").at(0).at("results").at(1).at("baselineState"), "unchanged");
+    std::filesystem::remove(baseline);
+  }
+  CHECK_FALSE(std::filesystem::exists(parts.root + "/thin.asdf.ply"));
+}
+
+TEST_CASE("the report of one mesh goes to a file, beside its usual report") {
+  const Parts parts;
+  const std::string report = parts.folder / "report.xml";
+  const ChildOutcome outcome =
+      runAsdf({parts.root + "/thin.off", "--fail-if-thinner", "0.8", "--report-format", "junit", "--report", report});
+  CHECK_EQ(outcome.exitCode, 6);
+  CHECK_EQ(outcome.output, "");
+  CHECK(outcome.error.find("FAIL: 1 wall thinner than 0.8: 0.5") != std::string::npos);
+  CHECK(parts.folder.read("report.xml").find("<failure type=\"tooThin\"") != std::string::npos);
+}
+
+TEST_CASE("a report of checks does not share standard output or a file") {
+  const Parts parts;
+  const std::string mesh = parts.root + "/thick.off";
+  checkFailure(runAsdf({mesh, "--report-format", "github", "--json"}), 1, "--report");
+  checkFailure(runAsdf({mesh, "--report-format", "github", "-o", "-"}), 1, "--report");
+  checkFailure(runAsdf({mesh, "--report-format", "xml"}), 1, "sarif");
+  checkFailure(runAsdf({mesh, "--report", "x.json"}), 1, "--report-format");
+  checkFailure(runAsdf({mesh, "--report-format", "sarif", "--report", mesh}), 1, "choose another --report");
+  checkFailure(runAsdf({mesh, "--report-format", "sarif", "--report", "/missing/x.sarif", "--quiet"}), 4, "/missing");
+}
+
+}  // namespace
+}  // namespace asdfvk::test
