@@ -1,6 +1,6 @@
 #version 450
-// Replaces shaders/trace/trace_rays.comp in bench/feed.cpp. Does not trace: lengths and hits are a smooth function of
-// the origin, so that only writing them takes time.
+// Replaces shaders/trace/trace_rays.comp in bench/constant_backend.cpp. Does not trace: lengths and hits are a smooth
+// function of the origin, so that only writing them takes time.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/specialization_ids.h"

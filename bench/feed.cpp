@@ -1,32 +1,28 @@
 // Measures how many rays per second the host can feed to a device, and the time of each step. The first table is for
 // the tracer alone, with a device that takes no time. The second table is for the whole computation, with a kernel that
-// writes lengths instead of tracing rays.
+// writes lengths instead of tracing rays. The third table is for lanes of a batch, with a device that takes no time.
 #include <fmt/format.h>
 #include <volk.h>
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <memory>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "asdf_vk/files.h"
+#include "constant_backend.h"
 #include "core/text.h"
+#include "feed_lanes.h"
 #include "generate/creatures.h"
 #include "generate/generated_shape.h"
+#include "idle_device.h"
 #include "pipeline/compute.h"
-#include "predict/vk/vulkan_prediction.h"
 #include "seeds/random_permutation.h"
 #include "seeds/samplers.h"
-#include "spirv/constant_lengths.comp.h"
-#include "spirv/trace_rays.comp.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
-#include "trace/vk/vulkan_cone_kernel.h"
-#include "trace/vk/vulkan_tracer.h"
 
 namespace {
 
@@ -40,6 +36,9 @@ struct Arguments {
   uint32_t roundCount = 5;
   std::string solver = "auto";
   uint64_t generatedFaceCount = 1'500'000;
+  std::vector<uint32_t> laneCounts = {1, 2, 4};
+  uint64_t laneFaceCount = 100'000;
+  bool hasLanesOnly = false;
 };
 
 /// Waits and copies between host and device.
@@ -129,109 +128,6 @@ class StageWaits {
   Stage current_ = Stage::Geometry;
 };
 
-/// During its lifetime, submissions end at once without running their commands. Mapped memory is filled with a length,
-/// so that values are valid, but not hits.
-class IdleDevice {
- public:
-  IdleDevice() {
-    submit_ = vkQueueSubmit, allocate_ = vkAllocateMemory, map_ = vkMapMemory;
-    vkQueueSubmit = [](VkQueue queue, uint32_t, const VkSubmitInfo*, VkFence fence) {
-      return submit_(queue, 0, nullptr, fence);
-    };
-    vkAllocateMemory = [](VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks,
-                          VkDeviceMemory* memory) {
-      byteCount_ = info->allocationSize;
-      return allocate_(device, info, callbacks, memory);
-    };
-    vkMapMemory = [](VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
-                     VkMemoryMapFlags flags, void** data) {
-      const VkResult result = map_(device, memory, offset, size, flags, data);
-      if (result == VK_SUCCESS) std::fill_n(static_cast<float*>(*data), byteCount_ / sizeof(float), 0.25f);
-      return result;
-    };
-  }
-  ~IdleDevice() { vkQueueSubmit = submit_, vkAllocateMemory = allocate_, vkMapMemory = map_; }
-  IdleDevice(const IdleDevice&) = delete;
-  IdleDevice& operator=(const IdleDevice&) = delete;
-
- private:
-  static inline PFN_vkQueueSubmit submit_ = nullptr;
-  static inline PFN_vkAllocateMemory allocate_ = nullptr;
-  static inline PFN_vkMapMemory map_ = nullptr;
-  static inline uint64_t byteCount_ = 0;  // Size of the last allocation, in bytes.
-};
-
-/// During its lifetime, kernels are compiled from constant_lengths.comp instead of trace_rays.comp.
-class ConstantLengths {
- public:
-  ConstantLengths() {
-    create_ = vkCreateShaderModule;
-    vkCreateShaderModule = [](VkDevice device, const VkShaderModuleCreateInfo* info,
-                              const VkAllocationCallbacks* callbacks, VkShaderModule* module) {
-      VkShaderModuleCreateInfo used = *info;
-      if (std::ranges::equal(std::span(info->pCode, info->codeSize / sizeof(uint32_t)), k_trace_rays_comp)) {
-        used.pCode = k_constant_lengths_comp;
-        used.codeSize = sizeof k_constant_lengths_comp;
-      }
-      return create_(device, &used, callbacks, module);
-    };
-  }
-  ~ConstantLengths() { vkCreateShaderModule = create_; }
-  ConstantLengths(const ConstantLengths&) = delete;
-  ConstantLengths& operator=(const ConstantLengths&) = delete;
-
- private:
-  static inline PFN_vkCreateShaderModule create_ = nullptr;
-};
-
-class ConstantBackend final : public Backend {
- public:
-  explicit ConstantBackend(const std::string& device) : opened_(openDevice(instance_, {.selector = device})) {}
-
-  [[nodiscard]] std::string deviceName() const override { return facts().name + ", driver " + facts().driver; }
-  [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
-  [[nodiscard]] bool runsOnCpu() const override { return facts().isCpu(); }
-  [[nodiscard]] std::optional<TraceVariant> traceVariant() const override {
-    return defaultTraceChoice(facts()).variant();
-  }
-  [[nodiscard]] BvhOptions bvhOptions() const override { return {.maxLeafTriangleCount = kMaxWideLeafTriangleCount}; }
-  [[nodiscard]] bool hasDevice() const override { return true; }
-  [[nodiscard]] const Solver& automaticSolver() const override { return defaultSolver(!runsOnCpu()); }
-  [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const override {
-    return asdfvk::makeSolver(choice, opened_.device.get());
-  }
-  [[nodiscard]] const Device& device() const { return *opened_.device; }
-
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       const TracerNeeds& needs,
-                                                       std::unique_ptr<EncodedScene> encoded) override {
-    const ConeKernelRequest request{.rayCount = static_cast<uint32_t>(cone.directions.size()),
-                                    .writesHits = needs.hits,
-                                    .choice = traceChoiceFor(facts(), {}, scene.bvh)};
-    std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
-    if (!kernel) {
-      const ConstantLengths constant;
-      kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
-    }
-    return makeVulkanTracer(*kernel, scene, cone, std::move(encoded));
-  }
-
-  [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
-    if (!predictionKernels_)
-      predictionKernels_ = std::make_unique<VulkanPredictionKernels>(*opened_.device, cone.definition,
-                                                                     static_cast<uint32_t>(cone.directions.size()));
-    return makeVulkanPredictor(*predictionKernels_, scene, cone);
-  }
-
- private:
-  [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
-
-  Instance instance_;
-  OpenedDevice opened_;
-  std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
-  std::unique_ptr<VulkanPredictionKernels> predictionKernels_;
-};
-
 std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Arguments& arguments,
                           const RunControl& control) {
   const TraceableMesh mesh(source);
@@ -308,9 +204,10 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
   return text;
 }
 
-void run(const Arguments& arguments, const RunControl& control) {
+void measureOneSession(const Arguments& arguments, const RunControl& control) {
+  const ConstantDevice device(arguments.device);
   SessionState session({.backend = BackendChoice::Reference}, SessionOpening::Now);
-  auto backend = std::make_unique<ConstantBackend>(arguments.device);
+  auto backend = std::make_unique<ConstantBackend>(device);
   ConstantBackend& constant = *backend;
   session.backend =
       std::make_unique<LazyBackend>(NamedBackend{BackendChoice::Vulkan, "vulkan", std::move(backend), {}});
@@ -325,6 +222,14 @@ void run(const Arguments& arguments, const RunControl& control) {
   if (arguments.meshes.empty()) measure("generated animal", makeAnimal(arguments.generatedFaceCount).mesh);
 }
 
+void run(const Arguments& arguments, const RunControl& control) {
+  if (!arguments.hasLanesOnly) measureOneSession(arguments, control);
+  const Mesh mesh = makeAnimal(arguments.laneFaceCount).mesh;
+  writeOutput(fmt::format("generated animal: {} faces\n", groupDigits(mesh.faceCount())));
+  for (const uint32_t percent : arguments.percents)
+    writeOutput(measureLanes(arguments.device, mesh, percent, arguments.laneCounts, arguments.roundCount, control));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -334,6 +239,10 @@ int main(int argc, char** argv) {
   program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
   program.add("--rounds", arguments.roundCount, "Rounds, after one for warm-up", {1, 1000});
   program.add("--seeds", arguments.percents, "Shares of the faces that cast rays, in percent", {1, 100});
+  program.add("--lanes", arguments.laneCounts, "Numbers of lanes", {1, 64});
+  program.add("--lane-faces", arguments.laneFaceCount, "Faces of the mesh of the lanes",
+              {kMinFaceCount, kMaxFaceCount});
+  program.add("--only-lanes", arguments.hasLanesOnly, "Measures only the lanes");
   program.add("--solver", arguments.solver, "Solver; with a solver of the device, the device also predicts");
   program.add("--device", arguments.device, "Vulkan device: index or part of its name");
   return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });

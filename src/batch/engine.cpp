@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "batch/input_list.h"
+#include "batch/lanes.h"
 #include "batch/message_channel.h"
 #include "batch/worker.h"
 #include "core/abandoned_files.h"
@@ -38,17 +39,31 @@ class Engine {
   void run() {
     std::vector<size_t> pending = addFinished();
     monitor_.beginComputation();
-    for (const JobPhase& phase : planJobs(jobs_, std::move(pending), options_.requestedAtOnce, options_.threadCount)) {
+    const std::vector<JobPhase> phases =
+        planJobs(jobs_, std::move(pending), options_.requestedAtOnce, options_.threadCount);
+    const bool hasLanes = sharesDevice(phases);
+    for (const JobPhase& phase : phases) {
       if (stop_.stop_requested()) return;
-      if (phase.atOnce > 1 || options_.isolates) {
+      if (options_.isolates || (phase.atOnce > 1 && !hasLanes)) {
         runInWorkerPool(phase);
       } else {
-        runHere(phase);
+        runHere(phase, atOnceOnGpu(phase));
       }
     }
   }
 
  private:
+  [[nodiscard]] uint32_t atOnceOnGpu(const JobPhase& phase) const {
+    return options_.requestedAtOnce > 0 ? phase.atOnce : std::min(phase.atOnce, kMaxLanesOnGpu);
+  }
+
+  /// Whether phases with several jobs at once run in this process.
+  [[nodiscard]] bool sharesDevice(const std::vector<JobPhase>& phases) const {
+    uint32_t count = 1;
+    for (const JobPhase& phase : phases) count = std::max(count, atOnceOnGpu(phase));
+    return count > 1 && !options_.isolates && client_.shareDevice && client_.shareDevice(count);
+  }
+
   /// Adds the results of earlier runs. Returns the indices of the jobs without such a result.
   [[nodiscard]] std::vector<size_t> addFinished() {
     std::vector<size_t> pending(jobs_.size());
@@ -66,22 +81,27 @@ class Engine {
     return pending;
   }
 
-  void runHere(const JobPhase& phase) {
-    std::unique_ptr<JobComputer> computer;
-    for (size_t i = 0; i < phase.jobs.size() && !stop_.stop_requested(); ++i) {
-      if (!computer) {
-        computer = client_.open();
-        monitor_.announce(computer->describe());
-      }
-      const Job* const next = i + 1 < phase.jobs.size() ? &jobs_[phase.jobs[i + 1]] : nullptr;
-      monitor_.add(phase.jobs[i], computer->compute(jobs_[phase.jobs[i]], next));
-      if (computer->isSpent()) computer.reset();
-    }
+  /// Computes the phase in this process.
+  void runHere(const JobPhase& phase, uint32_t laneCount) {
+    const auto jobAt = [&](size_t i) { return i < phase.jobs.size() ? &jobs_[phase.jobs[i]] : nullptr; };
+    const LaneClient client{.open =
+                                [&] {
+                                  std::unique_ptr<JobComputer> computer = client_.open();
+                                  monitor_.announce(computer->describe());
+                                  return computer;
+                                },
+                            .compute =
+                                [&](JobComputer& computer, size_t i) {
+                                  const Job* const next = laneCount == 1 ? jobAt(i + 1) : nullptr;
+                                  monitor_.add(phase.jobs[i], computer.compute(*jobAt(i), next));
+                                }};
+    const LaneOptions lanes{laneCount, phase.threadCount * phase.atOnce / laneCount};
+    if (const auto failure = runInLanes(phase.jobs.size(), lanes, client, stop_))
+      monitor_.note(fmt::format("not all lanes have reopened the device: {}", failure->what()));
   }
 
   void runInWorkerPool(const JobPhase& phase) {
-    const bool isRequested = options_.requestedAtOnce > 0;
-    const uint32_t onGpu = isRequested ? phase.atOnce : std::min(phase.atOnce, kMaxWorkersOnGpu);
+    const uint32_t onGpu = atOnceOnGpu(phase);
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
     const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, even if its file was replaced.
                                  .arguments = client_.workerArguments,

@@ -27,8 +27,8 @@ inline constexpr uint64_t kSmallMeshBytes = uint64_t{16} << 20;
 /// Least work per worker: number of meshes, and total size of their files with kBytesPerMesh added per mesh. A worker
 /// opens a device at its start. For less work, the start takes more time than the worker saves.
 inline constexpr uint64_t kMinMeshesPerWorker = 4, kMinBytesPerWorker = uint64_t{1} << 20;
-/// Greatest number of workers on one GPU if the caller requests no number. Estimated; not measured on a GPU.
-inline constexpr uint32_t kMaxWorkersOnGpu = 4;
+/// Greatest number of lanes or workers on one GPU if the caller requests no number. Estimated; not measured on a GPU.
+inline constexpr uint32_t kMaxLanesOnGpu = 4;
 
 /// Assigns each pending job to one phase. pending: indices of the jobs. requested: number of concurrent jobs; 0: the
 /// sizes of the meshes decide. With 0, the first phase has the large meshes, one after another with all threads. The
@@ -49,8 +49,11 @@ struct EngineOptions {
 struct EngineClient {
   /// Returns the result of an earlier run if this result is up to date. Must be thread-safe.
   std::function<std::optional<JobResult>(const Job&)> findFinished;
-  /// Opens a JobComputer in this process. Throws OpenFailure.
+  /// Opens a JobComputer in this process. Throws OpenFailure. Must be thread-safe after shareDevice() returned true.
   std::function<std::unique_ptr<JobComputer>()> open;
+  /// Prepares open() for this number of JobComputers that compute at the same time in this process. Returns false, also
+  /// where it is null, if worker processes compute faster.
+  std::function<bool(uint32_t count)> shareDevice;
   /// Returns the result of a job whose worker returned none.
   std::function<JobResult(const Job&, const JobOutcome&)> fail;
   /// Arguments that make this program a worker (serveJobs()), and Greeting::settings of the worker.
@@ -59,10 +62,11 @@ struct EngineClient {
   Json recordOptions;  ///< MeshRecord::options for all jobs.
 };
 
-/// Computes the jobs in the phases of planJobs(). A phase runs in worker processes if it has several jobs at once or if
-/// EngineOptions::isolates is true. Any other phase runs in this process. Adds each result to the monitor. Replaces a
-/// JobComputer whose device failed. A stop request drops the current jobs, and no further job begins. Throws
-/// OpenFailure if no device can be opened for the remaining jobs, and the errors of the monitor.
+/// Computes the jobs in the phases of planJobs(). A phase with several jobs at once runs in lanes (runInLanes()) if
+/// EngineClient::shareDevice() allows them, and otherwise in worker processes. With EngineOptions::isolates, all phases
+/// run in worker processes. Any other phase runs in this process, one job after another. Adds each result to the
+/// monitor. Replaces a JobComputer whose device failed. A stop request drops the current jobs, and no further job
+/// begins. Throws OpenFailure if no device can be opened for the remaining jobs, and the errors of the monitor.
 void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
              const std::stop_token& stop);
 

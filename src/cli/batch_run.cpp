@@ -23,6 +23,8 @@
 #include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "page/result_page.h"
+#include "pipeline/backend_choice.h"
+#include "pipeline/device_sharing.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 
@@ -182,12 +184,19 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
                               .isolates = batch.isolates,
                               .timeoutSeconds = batch.timeoutSeconds,
                               .memoryBytes = batch.memoryBytes};
+  std::unique_ptr<DeviceSharing> sharing;
   EngineClient client{
       .open =
           [&] {
-            auto computer = std::make_unique<MeshComputer>(settings, records, stop, !batch.isBatch() && !outputs.quiet);
+            const bool showsBar = !batch.isBatch() && !outputs.quiet && !sharing;
+            auto computer = std::make_unique<MeshComputer>(settings, records, stop, showsBar);
             if (page) computer->collectIn(*page, jobs);
             return computer;
+          },
+      .shareDevice =
+          [&](uint32_t count) {
+            sharing = DeviceSharing::ofGpu(sessionOptionsFor(settings.session, settings.computation.options), count);
+            return sharing != nullptr;
           },
       .fail = [&](const Job& job, const JobOutcome& outcome) { return records.fail(job, failureOf(outcome, batch)); },
       .workerArguments = {"asdf-vk", kWorkerArgument},

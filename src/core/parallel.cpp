@@ -10,12 +10,24 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
 #include "asdf_vk/run_control.h"
 #include "core/background_task.h"
 
 namespace asdfvk {
 
-size_t threadLimit() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
+namespace {
+
+thread_local size_t threadCountOfCall = SIZE_MAX;  // The argument of callWithThreads() on this thread.
+
+}  // namespace
+
+size_t threadLimit() {
+  return std::min(threadCountOfCall, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
 
 size_t defaultThreadCount() { return static_cast<size_t>(tbb::info::default_concurrency()); }
 
@@ -59,6 +71,11 @@ void callBoth(FunctionRef<void()> first, FunctionRef<void()> second) { tbb::para
 void callIsolated(FunctionRef<void()> body) { tbb::this_task_arena::isolate(body); }
 
 void callWithThreads(uint32_t threadCount, FunctionRef<void()> body) {
+  struct Restore {
+    size_t outer;
+    ~Restore() { threadCountOfCall = outer; }
+  };
+  const Restore restore{std::exchange(threadCountOfCall, size_t{threadCount})};
   tbb::task_arena(static_cast<int>(threadCount)).execute(body);
 }
 

@@ -18,6 +18,7 @@ namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
+/// The greatest number of threads of a loop that this thread begins, by ThreadLimit and callWithThreads().
 [[nodiscard]] size_t threadLimit();
 /// The number of threads if no limit exists.
 [[nodiscard]] size_t defaultThreadCount();

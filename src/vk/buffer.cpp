@@ -139,7 +139,10 @@ Buffer uploadWritten(const Device& device, size_t itemCount, size_t itemByteCoun
 
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
   if (buffer.isCached()) {
-    requireSuccess(vkQueueWaitIdle(device.queue()), "waiting for " + device.facts().name);
+    CommandList wait(device);
+    wait.begin();
+    wait.barrier();
+    wait.submitAndWait();
     std::ranges::copy(std::span(buffer.mapped(), bytes.size()), bytes.begin());
     return;
   }

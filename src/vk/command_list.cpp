@@ -104,8 +104,7 @@ void CommandList::submit() {
   VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   info.commandBufferCount = 1;
   info.pCommandBuffers = &objects_.commands;
-  requireSuccess(vkQueueSubmit(device_.queue(), 1, &info, objects_.fence),
-                 "submitting work to " + device_.facts().name);
+  device_.submit(info, objects_.fence);
   isPending_ = true;
 }
 
@@ -118,7 +117,7 @@ void CommandList::wait() {
   const VkResult result =
       hasEnded() ? VK_SUCCESS : vkWaitForFences(device_.handle(), 1, &objects_.fence, VK_TRUE, UINT64_MAX);
   isPending_ = result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST;
-  requireSuccess(result, "waiting for " + device_.facts().name);
+  device_.requireWaited(result);
   requireSuccess(vkResetFences(device_.handle(), 1, &objects_.fence), "resetting a fence");
   addSeconds();
 }

@@ -21,6 +21,7 @@ struct DeviceFacts {
   DeviceVendor vendor = DeviceVendor::Other;
   uint32_t apiVersion = 0;  ///< Packed like VK_MAKE_API_VERSION.
   std::optional<uint32_t> computeQueueFamily;
+  uint32_t computeQueueCount = 1;  ///< Queues of this family.
   uint32_t subgroupSize = 1;
   /// Sizes that a compute pipeline can require: powers of two between these two. Both are 0 if it can require none.
   uint32_t minRequiredSubgroupSize = 0, maxRequiredSubgroupSize = 0;
@@ -63,6 +64,7 @@ struct DeviceRequest {
   /// ("4090"). Empty: any device.
   std::string selector;
   bool requireGpu = false;  ///< Refuse CPU devices.
+  bool operator==(const DeviceRequest&) const = default;
 };
 
 struct DeviceChoice {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <memory>
+#include <mutex>
 
 namespace asdfvk {
 namespace {
@@ -10,8 +11,10 @@ namespace {
 /// Jobs of a batch that are computed in this process.
 struct Batch {
   std::vector<Job> jobs;
+  std::mutex mutex;
   std::vector<std::string> computed, readAhead;
   size_t openCount = 0;
+  uint32_t sharingCount = 0;  ///< The number of computers that share the device.
   std::stop_source stop;
 
   /// Each mesh in one file of a byte.
@@ -23,9 +26,13 @@ struct Batch {
 /// Drops *stop*, which requests a stop; its device is lost after *lose*.
 class FakeComputer : public JobComputer {
  public:
-  explicit FakeComputer(Batch& batch) : batch_(batch) { ++batch.openCount; }
+  explicit FakeComputer(Batch& batch) : batch_(batch) {
+    const std::lock_guard lock(batch_.mutex);
+    ++batch.openCount;
+  }
   [[nodiscard]] ComputerDescription describe() const override { return {"reference", "", true}; }
   [[nodiscard]] JobResult compute(const Job& job, const Job* next) override {
+    const std::lock_guard lock(batch_.mutex);
     batch_.computed.push_back(job.input);
     if (next != nullptr) batch_.readAhead.push_back(next->input);
     JobResult result;
@@ -46,7 +53,8 @@ class FakeComputer : public JobComputer {
 };
 
 /// Returns the monitor after the run.
-std::unique_ptr<Monitor> run(Batch& batch, size_t maxOpenCount = 100) {
+std::unique_ptr<Monitor> run(Batch& batch, size_t maxOpenCount = 100,
+                             const EngineOptions& options = {.requestedAtOnce = 1}) {
   auto monitor = std::make_unique<Monitor>(MonitorOptions{.isQuiet = true}, batch.jobs);
   const EngineClient client{.findFinished = [](const Job& job) -> std::optional<JobResult> {
                               if (job.input != "finished") return std::nullopt;
@@ -59,9 +67,14 @@ std::unique_ptr<Monitor> run(Batch& batch, size_t maxOpenCount = 100) {
                               if (batch.openCount == maxOpenCount)
                                 throw OpenFailure(3, "noDevice", "no device is left");
                               return std::make_unique<FakeComputer>(batch);
-                            }};
+                            },
+                            .shareDevice =
+                                [&](uint32_t count) {
+                                  batch.sharingCount = count;
+                                  return true;
+                                }};
   try {
-    runJobs(batch.jobs, {.requestedAtOnce = 1}, client, *monitor, batch.stop.get_token());
+    runJobs(batch.jobs, options, client, *monitor, batch.stop.get_token());
     monitor->finish();
   } catch (...) {
     monitor->finish();
@@ -81,6 +94,22 @@ TEST_CASE("jobs that are not finished are computed in their order by one compute
   CHECK(monitor->unfinishedJobs().empty());
   CHECK_FALSE(monitor->hasUnfinished());
   CHECK_EQ(monitor->codes(), std::vector<int>(4, 0));
+}
+
+TEST_CASE("several jobs at once are computed in lanes, which read no file ahead; by default at most four") {
+  for (const uint32_t requested : {0U, 3U, 6U}) {
+    Batch batch(Names(40, "a"));
+    for (Job& job : batch.jobs) job.byteCount = 1'000'000;
+    batch.jobs[7].input = "finished";
+    CHECK_FALSE(run(batch, 100, {.requestedAtOnce = requested, .threadCount = 8})->hasUnfinished());
+    CHECK_EQ(batch.sharingCount, requested == 0 ? 4 : requested);
+    CHECK_EQ(batch.computed.size(), 39);
+    CHECK(batch.readAhead.empty());
+    CHECK_LE(batch.openCount, batch.sharingCount);
+  }
+  Batch alone({"a", "b"});
+  CHECK_FALSE(run(alone)->hasUnfinished());
+  CHECK_EQ(alone.sharingCount, 0);
 }
 
 TEST_CASE("no computer is opened where all jobs are finished, and none after the last job") {

@@ -73,8 +73,15 @@ VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice handle, VkDeviceMemory memory, VkDev
   return device.next<PFN_vkMapMemory>("vkMapMemory")(handle, memory, offset, byteCount, flags, bytes);
 }
 
+VKAPI_ATTR void VKAPI_CALL getQueue(VkDevice handle, uint32_t family, uint32_t index, VkQueue* queue) {
+  const DeviceState& device = devices().of(handle);
+  const auto get = device.next<PFN_vkGetDeviceQueue>("vkGetDeviceQueue");
+  get(handle, family, device.settings.queueCount ? 0 : index, queue);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
   DeviceState& device = devices().of(queue);
+  const std::lock_guard lock(device.queueMutex);
   if (losesDeviceAt(++device.submissionCount) && !device.isLost.exchange(true)) {
     // What was submitted before may still use memory that the program frees now.
     (void)device.next<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(device.handle);
@@ -165,6 +172,7 @@ PFN_vkVoidFunction findDeviceFunction(const char* name) {
       named("vkFreeMemory", release),
       named("vkMapMemory", map),
       named("vkCreateComputePipelines", createPipelines),
+      named("vkGetDeviceQueue", getQueue),
       named("vkQueueSubmit", submit),
       named("vkWaitForFences", waitForFences),
       named("vkGetFenceStatus", getFenceStatus),

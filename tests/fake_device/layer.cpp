@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <thread>
+#include <vector>
 
 #include "state.h"
 
@@ -49,6 +50,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
   find(instance.next.getProperties2, "vkGetPhysicalDeviceProperties2");
   find(instance.next.getMemory, "vkGetPhysicalDeviceMemoryProperties");
   find(instance.next.getMemory2, "vkGetPhysicalDeviceMemoryProperties2");
+  find(instance.next.getQueueFamilies, "vkGetPhysicalDeviceQueueFamilyProperties");
   return VK_SUCCESS;
 }
 
@@ -67,7 +69,13 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
   std::this_thread::sleep_for(std::chrono::milliseconds(instance.settings.openingMilliseconds));
   const auto create = reinterpret_cast<PFN_vkCreateDevice>(nextOfInstance(instance.handle, "vkCreateDevice"));
-  const VkResult result = create(physical, info, allocator, handle);
+  VkDeviceCreateInfo changed = *info;
+  std::vector<VkDeviceQueueCreateInfo> queues(info->pQueueCreateInfos,
+                                              info->pQueueCreateInfos + info->queueCreateInfoCount);
+  if (instance.settings.queueCount)
+    for (VkDeviceQueueCreateInfo& family : queues) family.queueCount = 1;
+  changed.pQueueCreateInfos = queues.data();
+  const VkResult result = create(physical, &changed, allocator, handle);
   if (result != VK_SUCCESS) return result;
   DeviceState& device = devices().add(*handle);
   device.handle = *handle;

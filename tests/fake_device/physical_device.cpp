@@ -102,6 +102,14 @@ VKAPI_ATTR void VKAPI_CALL getMemory2(VkPhysicalDevice device, VkPhysicalDeviceM
   change(memory->memoryProperties, instance.settings);
 }
 
+VKAPI_ATTR void VKAPI_CALL getQueueFamilies(VkPhysicalDevice device, uint32_t* count,
+                                            VkQueueFamilyProperties* families) {
+  const InstanceState& instance = instances().of(device);
+  instance.next.getQueueFamilies(device, count, families);
+  for (uint32_t i = 0; families != nullptr && i < *count; ++i)
+    families[i].queueCount = instance.settings.queueCount.value_or(families[i].queueCount);
+}
+
 }  // namespace
 
 uint32_t findMappableType(const InstanceState& instance, VkPhysicalDevice device) {
@@ -122,6 +130,7 @@ PFN_vkVoidFunction findPhysicalDeviceFunction(const char* name) {
   if (is("vkGetPhysicalDeviceMemoryProperties")) return reinterpret_cast<PFN_vkVoidFunction>(getMemory);
   if (is("vkGetPhysicalDeviceMemoryProperties2") || is("vkGetPhysicalDeviceMemoryProperties2KHR"))
     return reinterpret_cast<PFN_vkVoidFunction>(getMemory2);
+  if (is("vkGetPhysicalDeviceQueueFamilyProperties")) return reinterpret_cast<PFN_vkVoidFunction>(getQueueFamilies);
   return nullptr;
 }
 

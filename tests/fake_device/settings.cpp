@@ -56,6 +56,7 @@ Settings readSettings() {
   read("ASDF_VK_FAKE_SUBGROUP_SIZE", settings.subgroupSize);
   read("ASDF_VK_FAKE_MIN_SUBGROUP_SIZE", settings.minSubgroupSize);
   read("ASDF_VK_FAKE_MAX_SUBGROUP_SIZE", settings.maxSubgroupSize);
+  read("ASDF_VK_FAKE_QUEUES", settings.queueCount);
   read("ASDF_VK_FAKE_TEXELS", settings.texelCount);
   read("ASDF_VK_FAKE_STORAGE_RANGE", settings.storageBufferRange);
   read("ASDF_VK_FAKE_STORAGE_BUFFERS", settings.storageBufferCount);

@@ -20,6 +20,7 @@ struct Settings {
   /// ASDF_VK_FAKE_MIN_SUBGROUP_SIZE, ASDF_VK_FAKE_MAX_SUBGROUP_SIZE: sizes that compute pipelines can require. The
   /// driver, which has one size, does not see the required size; other sizes fail.
   std::optional<uint32_t> minSubgroupSize, maxSubgroupSize;
+  std::optional<uint32_t> queueCount;              ///< ASDF_VK_FAKE_QUEUES: of a family; all are one of the driver
   std::optional<uint32_t> texelCount;              ///< ASDF_VK_FAKE_TEXELS: maxTexelBufferElements
   std::optional<uint32_t> storageBufferRange;      ///< ASDF_VK_FAKE_STORAGE_RANGE: bytes
   std::optional<uint32_t> storageBufferCount;      ///< ASDF_VK_FAKE_STORAGE_BUFFERS: per stage

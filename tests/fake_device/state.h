@@ -23,6 +23,7 @@ struct InstanceFunctions {
   PFN_vkGetPhysicalDeviceProperties2 getProperties2 = nullptr;
   PFN_vkGetPhysicalDeviceMemoryProperties getMemory = nullptr;
   PFN_vkGetPhysicalDeviceMemoryProperties2 getMemory2 = nullptr;
+  PFN_vkGetPhysicalDeviceQueueFamilyProperties getQueueFamilies = nullptr;
 };
 
 /// An instance, for its physical devices too.
@@ -42,6 +43,7 @@ struct DeviceState {
   std::atomic<uint64_t> submissionCount = 0;
   std::atomic<uint64_t> allocationCount = 0;
   std::atomic<bool> isLost = false;
+  std::mutex queueMutex;  ///< All queues of the program are one of the driver.
   std::mutex mutex;
   std::unordered_set<VkDeviceMemory> unmappable;
 

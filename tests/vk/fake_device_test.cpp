@@ -39,6 +39,7 @@ std::vector<uint32_t> wordsOf(const Device& device, const Buffer& buffer) {
 TEST_CASE("the fake device has the properties and limits that its variables request") {
   FakeDevice::Variables variables = kDiscrete;
   variables.insert(variables.end(), {{"ASDF_VK_FAKE_TEXELS", "65536"},
+                                     {"ASDF_VK_FAKE_QUEUES", "3"},
                                      {"ASDF_VK_FAKE_STORAGE_RANGE", "1048576"},
                                      {"ASDF_VK_FAKE_STORAGE_BUFFERS", "5"},
                                      {"ASDF_VK_FAKE_WORKGROUP_INVOCATIONS", "128"},
@@ -52,6 +53,7 @@ TEST_CASE("the fake device has the properties and limits that its variables requ
   CHECK(std::string(toString(facts.kind)) == "discrete GPU");
   CHECK(facts.vendor == DeviceVendor::Nvidia);
   CHECK(facts.subgroupSize == 32);
+  CHECK(facts.computeQueueCount == 3);
   CHECK(facts.maxTexelBufferElements == 65'536);
   CHECK(facts.maxStorageBufferRange == 1'048'576);
   CHECK(facts.maxStorageBuffersPerStage == 5);

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "pipeline/lavapipe_threads.h"
 #include "pipeline/vk/kernel_check.h"
+#include "pipeline/vk/shared_device.h"
 #include "predict/vk/vulkan_prediction.h"
 #include "trace/vk/vulkan_cone_kernel.h"
 #include "trace/vk/vulkan_trace_choice.h"
@@ -24,19 +25,19 @@ class VulkanBackend final : public Backend {
  public:
   explicit VulkanBackend(const SessionOptions& options)
       : request_(options.variant),
-        instance_(InstanceOptions{.validation = validationRequestedByEnvironment()}),
-        opened_(openDevice(instance_, {.selector = options.device, .requireGpu = options.requireGpu})),
+        shared_(openSharedDevice(options)),
+        device_(shared_->opened().device),
         choice_(traceChoiceFor(facts(), request_)) {}
 
   [[nodiscard]] std::string deviceName() const override {
     return fmt::format("{}, driver {}", facts().name, facts().driver);
   }
-  [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return shared_->opened().reasons; }
   [[nodiscard]] bool runsOnCpu() const override { return facts().isCpu(); }
   [[nodiscard]] std::optional<TraceVariant> traceVariant() const override { return choice_.variant(); }
   [[nodiscard]] BvhOptions bvhOptions() const override { return {.maxLeafTriangleCount = kMaxWideLeafTriangleCount}; }
   [[nodiscard]] bool hasDevice() const override { return true; }
-  [[nodiscard]] const Device& device() const { return *opened_.device; }
+  [[nodiscard]] const Device& device() const { return device_; }
 
   void prepare(const KernelNeeds& needs) override {
     (void)tracing({needs.rayCount, needs.hits, choice_, needs.definition});
@@ -61,43 +62,46 @@ class VulkanBackend final : public Backend {
                                                                                             : defaultSolver(false);
   }
   [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(SolverChoice choice) const override {
-    return asdfvk::makeSolver(choice, opened_.device.get());
+    return asdfvk::makeSolver(choice, &device_);
   }
 
   [[nodiscard]] std::optional<DeviceSeconds> deviceSeconds() const override {
     if (facts().timestampBits == 0) return std::nullopt;
-    opened_.device->uploads().releaseEnded();  // Adds their time.
-    return opened_.device->seconds();
+    device_.uploads().releaseEnded();  // Adds their time.
+    return device_.seconds();
   }
 
   void requireSilentValidation() const override {
-    if (!instance_.validationLog()) return;
-    const std::vector<std::string> messages = instance_.validationLog()->messages();
+    const std::shared_ptr<ValidationLog>& log = shared_->instance().validationLog();
+    if (!log) return;
+    const std::vector<std::string> messages = log->messages();
     if (!messages.empty())
       throw Error(ErrorCode::ValidationFailed, fmt::format("the validation layers report {}, first: {}",
                                                            counted(messages.size(), "problem"), messages.front()));
   }
 
  private:
-  [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
+  [[nodiscard]] const DeviceFacts& facts() const { return device_.facts(); }
 
   /// The kernels for a request, which are made and checked at the first request.
   const VulkanConeKernel& tracing(const ConeKernelRequest& request) {
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
-    if (!kernel) {
-      auto compiled = std::make_unique<VulkanConeKernel>(*opened_.device, request);
-      requireRight(checkKernel(*compiled), "values");
-      kernel = std::move(compiled);
-    }
+    if (!kernel)
+      shared_->makeKernels(request, [&](bool isChecked) {
+        auto compiled = std::make_unique<VulkanConeKernel>(device_, request);
+        if (!isChecked) requireRight(checkKernel(*compiled), "values");
+        kernel = std::move(compiled);
+      });
     return *kernel;
   }
   const VulkanPredictionKernels& prediction(Definition definition, uint32_t rayCount) {
     std::unique_ptr<VulkanPredictionKernels>& kernels = predictionKernels_[{definition, rayCount}];
-    if (!kernels) {
-      auto compiled = std::make_unique<VulkanPredictionKernels>(*opened_.device, definition, rayCount);
-      requireRight(checkKernels(*compiled), "predictions");
-      kernels = std::move(compiled);
-    }
+    if (!kernels)
+      shared_->makeKernels(std::pair(definition, rayCount), [&](bool isChecked) {
+        auto compiled = std::make_unique<VulkanPredictionKernels>(device_, definition, rayCount);
+        if (!isChecked) requireRight(checkKernels(*compiled), "predictions");
+        kernels = std::move(compiled);
+      });
     return *kernels;
   }
 
@@ -111,8 +115,8 @@ class VulkanBackend final : public Backend {
 
   // Members are destroyed in reverse order: each member depends on the members before it.
   TraceVariant request_;
-  Instance instance_;
-  OpenedDevice opened_;
+  std::shared_ptr<SharedDevice> shared_;
+  Device device_;
   VulkanTraceChoice choice_;
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
   std::map<std::pair<Definition, uint32_t>, std::unique_ptr<VulkanPredictionKernels>> predictionKernels_;
@@ -134,8 +138,7 @@ std::vector<DeviceInfo> listDevices(std::string* reason, bool requireGpu) {
   std::vector<DeviceInfo> devices;
   try {
     const Instance instance;
-    std::vector<DeviceFacts> facts;
-    for (const VkPhysicalDevice device : instance.physicalDevices()) facts.push_back(describeDevice(device));
+    const std::vector<DeviceFacts> facts = describeDevices(instance.physicalDevices());
     const DeviceRequest request{.requireGpu = requireGpu};
     const DeviceChoice choice = chooseDevice(facts, request);
     for (size_t i = 0; i < facts.size(); ++i) {
