@@ -38,9 +38,11 @@ class SolidSurface {
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return scene_.geometry.normals[face]; }
   [[nodiscard]] PlaneTriangle triangle(uint32_t face) const { return triangleOf(scene_, face); }
 
-  /// The nearest point of the solid, or any point that is less than `enough` away.
-  [[nodiscard]] SurfacePoint nearest(const Vec3d& p, double enough = 0) const {
-    return nearestSurfacePoint(scene_, p, enough, [&](uint32_t face) { return copyOf(face); });
+  /// The nearest point of the solid, or any point that is less than `enough` away. atMost: see nearestSurfacePoint().
+  [[nodiscard]] SurfacePoint nearest(const Vec3d& p, double enough = 0,
+                                     double atMost = std::numeric_limits<double>::infinity()) const {
+    return nearestSurfacePoint(
+        scene_, p, enough, [&](uint32_t face) { return copyOf(face); }, atMost);
   }
 
   /// Whether the surface within `radius` of the point is not empty and lies in the plane of `face`. If true, the
@@ -80,6 +82,7 @@ struct Cube {
   Vec3d centre;
   double halfSide = 0;
   double bound = 0;  ///< Bound of the radii of balls with their centres in the cube.
+  Vec3d foot;        ///< The point of the surface nearest to the centre.
   bool operator<(const Cube& other) const { return bound < other.bound; }
 };
 
@@ -100,7 +103,7 @@ class Search {
       const Vec3d corner{double(i % kFirstCubeCount), double(i / kFirstCubeCount % kFirstCubeCount),
                          double(i / (kFirstCubeCount * kFirstCubeCount))};
       if (corner.x * side < size.x && corner.y * side < size.y && corner.z * side < size.z)
-        add(box.min + side * (corner + Vec3d{0.5, 0.5, 0.5}), side / 2);
+        add(box.min + side * (corner + Vec3d{0.5, 0.5, 0.5}), side / 2, nullptr);
     }
     for (uint32_t count = 0; !cubes_.empty() && cubes_.top().bound > (1 + kSectionTolerance) * radius_; ++count) {
       if (count % 256 == 0) stopOnly.checkpoint(0);
@@ -111,7 +114,7 @@ class Search {
       cubes_.pop();
       for (uint32_t i = 0; i < 8; ++i) {
         const double half = cube.halfSide / 2;
-        add(cube.centre + Vec3d{i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half}, half);
+        add(cube.centre + Vec3d{i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half}, half, &cube.foot);
       }
     }
     return {centre_, 2 * radius_, 2 * (1 + kSectionTolerance) * radius_};
@@ -126,19 +129,22 @@ class Search {
     if (hit.face != kNoFace) improve(start + 0.5 * (hit.distance + kContactDistance) * inwards);
   }
 
-  void add(const Vec3d& centre, double halfSide) {
+  /// known: a point of the surface near the cube, or null.
+  void add(const Vec3d& centre, double halfSide, const Vec3d* known) {
     const double reach = std::sqrt(3.0) * halfSide;
     const double enough = (1 + kSectionTolerance) * radius_ - reach;
-    const SurfacePoint foot = surface_.nearest(centre, enough);
+    const double atMost = known != nullptr ? length(centre - *known) : std::numeric_limits<double>::infinity();
+    if (atMost < enough) return;
+    const SurfacePoint foot = surface_.nearest(centre, enough, atMost);
     if (foot.face == kNoFace || foot.distance < enough) return;
     if (foot.side >= 0) {  // The centre is outside of the solid.
-      if (reach - foot.distance > radius_) cubes_.push({centre, halfSide, reach - foot.distance});
+      if (reach - foot.distance > radius_) cubes_.push({centre, halfSide, reach - foot.distance, foot.point});
       return;
     }
     offer(centre, foot.distance);
     double bound = foot.distance + reach;
     if (bound > radius_ && foot.distance > 0) bound = std::min(bound, boundByWalls(centre, foot, reach));
-    if (bound > (1 + kSectionTolerance) * radius_) cubes_.push({centre, halfSide, bound});
+    if (bound > (1 + kSectionTolerance) * radius_) cubes_.push({centre, halfSide, bound, foot.point});
   }
 
   void offer(const Vec3d& centre, double radius) {

@@ -11,6 +11,8 @@ namespace {
 
 /// Because of rounding, distances that differ by at most this number count as equal.
 constexpr double kEqualDistance = 1e-12;
+/// Relative and absolute margin of a given bound.
+constexpr double kBoundMargin = 1e-9;
 
 void offer(const TraceScene& scene, uint32_t face, const Vec3d& p, SurfacePoint& best) {
   const PlaneTriangle triangle = triangleOf(scene, face);
@@ -45,26 +47,34 @@ Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p) {
 }
 
 SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
-                                 FunctionRef<uint32_t(uint32_t)> faceOf) {
-  SurfacePoint best;
+                                 FunctionRef<uint32_t(uint32_t)> faceOf, double atMost) {
+  struct Entry {
+    uint32_t node;
+    double squaredDistance;
+  };
+  // The distance of the first face may exceed atMost by rounding.
+  SurfacePoint best{.distance = atMost * (1 + kBoundMargin) + kBoundMargin};
   const std::span<const BvhNode> nodes = scene.bvh.nodes;
-  std::array<uint32_t, kMaxBvhDepth + 1> stack;
+  std::array<Entry, kMaxBvhDepth + 1> stack;
   size_t stackSize = 0;
-  if (!nodes.empty()) stack[stackSize++] = 0;
-  while (stackSize > 0 && !(best.distance < enough)) {
-    const BvhNode& node = nodes[stack[--stackSize]];
+  if (!nodes.empty()) stack[stackSize++] = {0, 0};
+  while (stackSize > 0 && (best.face == kNoFace || !(best.distance < enough))) {
+    const auto [index, squaredDistance] = stack[--stackSize];
+    const BvhNode& node = nodes[index];
     const double reach = best.distance + kEqualDistance;
-    if (squaredDistanceToBox(node, p) > reach * reach) continue;
+    if (squaredDistance > reach * reach) continue;
     if (node.isLeaf()) {
       for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
         if (const uint32_t face = faceOf(scene.bvh.primitiveFaces[i]); face != kNoFace) offer(scene, face, p, best);
       continue;
     }
-    const bool leftFirst = squaredDistanceToBox(nodes[node.first], p) < squaredDistanceToBox(nodes[node.first + 1], p);
-    stack[stackSize++] = node.first + (leftFirst ? 1 : 0);
-    stack[stackSize++] = node.first + (leftFirst ? 0 : 1);
+    const Entry left{node.first, squaredDistanceToBox(nodes[node.first], p)};
+    const Entry right{node.first + 1, squaredDistanceToBox(nodes[node.first + 1], p)};
+    const bool leftFirst = left.squaredDistance < right.squaredDistance;
+    stack[stackSize++] = leftFirst ? right : left;
+    stack[stackSize++] = leftFirst ? left : right;
   }
-  return best;
+  return best.face == kNoFace ? SurfacePoint{} : best;
 }
 
 }  // namespace asdfvk

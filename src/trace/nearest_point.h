@@ -24,8 +24,10 @@ struct SurfacePoint {
 /// The point of the surface nearest to p. faceOf(primitive face): the face that replaces the primitive face, or kNoFace
 /// to ignore the primitive. The search ends at the first point less than `enough` away. If the nearest point is on an
 /// edge or a vertex, the result has the face with the greatest abs(side). If several faces have this greatest number,
-/// the first of them in the hierarchy is taken.
+/// the first of them in the hierarchy is taken. atMost: a distance of some point of the surface, which shortens the
+/// search and does not change its result.
 [[nodiscard]] SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
-                                               FunctionRef<uint32_t(uint32_t)> faceOf);
+                                               FunctionRef<uint32_t(uint32_t)> faceOf,
+                                               double atMost = std::numeric_limits<double>::infinity());
 
 }  // namespace asdfvk

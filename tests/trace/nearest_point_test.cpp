@@ -69,6 +69,12 @@ TEST_CASE("the nearest point is that of brute force, with all faces or some") {
         CHECK(distanceFrom(traced, found.face, found.point) < 1e-9);
         const Vec3d& normal = traced.geometry.normals[found.face];
         CHECK(found.side * found.distance == doctest::Approx(dot(p - found.point, normal)).epsilon(1e-6));
+        for (const double factor : {1.0, 1.5}) {
+          const SurfacePoint bounded = nearestSurfacePoint(traced.scene(), p, 0, faceOf, factor * found.distance);
+          CHECK(bounded.face == found.face);
+          CHECK(bounded.distance == found.distance);
+          CHECK(bounded.point == found.point);
+        }
       }
     }
   }
