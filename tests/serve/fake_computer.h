@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "asdf_vk/error.h"
@@ -22,7 +24,10 @@ class FakeComputer : public RequestComputer {
       begun_.notify_all();
     }
     if (progress)
-      for (const double fraction : {0.1, 0.1, 0.6, 0.5, 1.0}) progress(fraction);
+      for (const double fraction : {0.1, 0.1, 0.6, 0.5, 1.0}) {
+        progress(fraction);
+        std::this_thread::sleep_for(std::chrono::milliseconds(110));  // Longer than between two notifications.
+      }
     if (request.mesh == "slow") waitForStop(context.stop);
     if (context.stop.stop_requested()) return failed(nameOf(ErrorCode::Cancelled), "cancelled", 130);
     if (request.mesh == "missing") return failed(nameOf(ErrorCode::UnreadableInput), "missing: cannot be opened", 2);
