@@ -51,6 +51,21 @@ def test_thin_walls(tmp_path: Path, program: Path) -> None:
     assert re.search(r"thin.ply: [1-9]\d* faces thinner than 0.5$", thin)
 
 
+def test_the_client_of_the_server(tmp_path: Path, program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asdf_vk.write(tmp_path / "cube.ply", cube())
+    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+    (block,) = re.findall(r"```python\n(.*?)```", (_ROOT / "docs/serve.md").read_text(), re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(block, names)
+    with names["server"] as server:
+        assert names["check"](str(tmp_path / "cube.ply"), 1e-3)["verdict"] == "passed"
+        assert names["check"](str(tmp_path / "cube.ply"), 1e3)["verdict"] == "failed"
+        with pytest.raises(RuntimeError, match="cannot be opened"):
+            names["check"](str(tmp_path / "missing.ply"), 1)
+        server.stdin.close()
+    assert server.returncode == 0
+
+
 @pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/cgal.md"])
 def test_the_python_of_the_pages(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     vertices, faces = dumbbell()

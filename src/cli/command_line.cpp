@@ -115,30 +115,6 @@ std::string helpText(const OptionRow& row, const OptionRows& rows) {
   return withSpelledOptions(rows, text, OptionSpelling::Flag);
 }
 
-/// Adds an argument for each row that has a flag. The argument sets the option.
-void addArguments(const OptionRows& rows, std::vector<Argument>& arguments) {
-  for (const OptionRow& row : rows) {
-    const std::string flag = spelled(row, OptionSpelling::Flag);
-    if (flag.empty()) continue;
-    Argument argument{.names = row.flags != nullptr ? row.flags : flag,
-                      .placeholder = isFlag(row) ? "" : placeholderOf(row),
-                      .text = helpText(row, rows),
-                      .receive = {},
-                      .group = row.group,
-                      .isRepeatable = row.isRepeatable};
-    if (isFlag(row))
-      argument.receive = [row, value = !flag.starts_with("--no-")](const Argument::Values&) {
-        setOption(row, value, "", OptionSpelling::Flag);
-      };
-    else
-      argument.receive = [row](const Argument::Values& values) {
-        setOptionText(row, values.empty() ? row.bareValue : values.front());
-      };
-    if (row.bareValue != nullptr) argument.takesNext = [row](const std::string& next) { return takesNext(row, next); };
-    arguments.push_back(std::move(argument));
-  }
-}
-
 bool estimates(const Options& options) {
   return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
 }
@@ -306,6 +282,29 @@ OptionRows deviceRows(CommandLine& line) {
 
 }  // namespace
 
+void addArguments(const OptionRows& rows, std::vector<Argument>& arguments) {
+  for (const OptionRow& row : rows) {
+    const std::string flag = spelled(row, OptionSpelling::Flag);
+    if (flag.empty()) continue;
+    Argument argument{.names = row.flags != nullptr ? row.flags : flag,
+                      .placeholder = isFlag(row) ? "" : placeholderOf(row),
+                      .text = helpText(row, rows),
+                      .receive = {},
+                      .group = row.group,
+                      .isRepeatable = row.isRepeatable};
+    if (isFlag(row))
+      argument.receive = [row, value = !flag.starts_with("--no-")](const Argument::Values&) {
+        setOption(row, value, "", OptionSpelling::Flag);
+      };
+    else
+      argument.receive = [row](const Argument::Values& values) {
+        setOptionText(row, values.empty() ? row.bareValue : values.front());
+      };
+    if (row.bareValue != nullptr) argument.takesNext = [row](const std::string& next) { return takesNext(row, next); };
+    arguments.push_back(std::move(argument));
+  }
+}
+
 std::vector<OptionRows> optionTables(CommandLine& line) {
   return {computationRows(line.computation),
           readingRows(line.reading),
@@ -331,6 +330,24 @@ ArgumentParser parserOf(CommandLine& line) {
   return parser;
 }
 
+void completeLine(CommandLine& line, const GivenOptions& given) {
+  line.computation.compares = !line.others.former.empty();
+  complete(line.computation, given);
+  requireValid(line.session, given.spelling);
+  for (const OptionRows& rows : optionTables(line)) requireNeeds(rows, given);
+  if (Options& options = line.computation.options;
+      line.outputs.verbose && (options.measuresThickness() || options.measuresGap()))
+    options.thickness.findsNextWall = true;
+  completeLimits(line, given);
+  completeFields(line);
+  completeReading(line);
+  completeResult(line, given);
+  completePage(line);
+  completeBatch(line, given);
+  validateOptions(line);
+  validateOthers(line);
+}
+
 CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   CommandLine line;
   ArgumentParser parser = parserOf(line);
@@ -348,21 +365,7 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
     for (const OptionRow& row : rows)
       if (const std::string flag = spelled(row, OptionSpelling::Flag); !flag.empty() && parser.isGiven(flag))
         given.names.insert(row.name);
-  line.computation.compares = !line.others.former.empty();
-  complete(line.computation, given);
-  requireValid(line.session, given.spelling);
-  for (const OptionRows& rows : optionTables(line)) requireNeeds(rows, given);
-  if (Options& options = line.computation.options;
-      line.outputs.verbose && (options.measuresThickness() || options.measuresGap()))
-    options.thickness.findsNextWall = true;
-  completeLimits(line, given);
-  completeFields(line);
-  completeReading(line);
-  completeResult(line, given);
-  completePage(line);
-  completeBatch(line, given);
-  validateOptions(line);
-  validateOthers(line);
+  completeLine(line, given);
   return line;
 }
 

@@ -30,8 +30,14 @@ struct CommandLine {
 
 /// All options of the program by table, in the order of the help. The line must outlive the rows.
 [[nodiscard]] std::vector<OptionRows> optionTables(CommandLine& line);
+/// Adds an argument for each row that has a flag. The argument sets the option.
+void addArguments(const OptionRows& rows, std::vector<Argument>& arguments);
 /// Makes the parser of the program. The options of the parser set `line`.
 [[nodiscard]] ArgumentParser parserOf(CommandLine& line);
+
+/// Sets what the given options imply. Throws Error of kind Usage for options that contradict each other or have no
+/// effect. Precondition: the given options are set.
+void completeLine(CommandLine& line, const GivenOptions& given);
 
 /// Parses the arguments after the name of the program. Throws Error of kind Usage, whose message names the option.
 [[nodiscard]] CommandLine parseCommandLine(const std::vector<std::string>& arguments);

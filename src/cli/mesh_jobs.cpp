@@ -178,8 +178,8 @@ JobResult MeshComputer::compute(const Job& job, const Job* next) {
   record.inputHash = loaded.hash;
   std::optional<SharedPage> page;
   if (page_ != nullptr) page.emplace(SharedPage{*page_, nameInSharedPage(job)});
-  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settings_, deadline, showsBar_,
-                            page ? &*page : nullptr);
+  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settings_, deadline,
+                            {.showsBar = showsBar_}, page ? &*page : nullptr);
   isSpent_ = session_->backend() != backend_ || stop_.stop_requested() ||
              (run.failure && run.failure->code == ExitCode::Device);
   record.totalSeconds = watch.seconds();

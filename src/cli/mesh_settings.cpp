@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "batch/content_hash.h"
+#include "cli/command_line.h"
 #include "cli/input_options.h"
 #include "cli/program_options.h"
 #include "core/json.h"
+#include "describe/option_json.h"
 #include "describe/report_json.h"
 
 namespace asdfvk {
@@ -21,15 +23,22 @@ Json valuesOf(const OptionRows& rows) {
 void setValues(const OptionRows& rows, const Json& json) {
   for (const OptionRow& row : rows) {
     const Json& value = json.at(row.name);
-    const auto set = [&](const OptionValue& v) { setOption(row, v, row.name, OptionSpelling::Flag); };
-    if (value.is_boolean()) set(value.get<bool>());
-    if (value.is_number_unsigned()) set(value.get<uint64_t>());
-    if (value.is_number_float()) set(value.get<double>());
-    if (value.is_string()) set(value.get<std::string>());
+    if (!value.is_null()) setOption(row, optionValueOf(value), row.name, OptionSpelling::Flag);
   }
 }
 
 }  // namespace
+
+MeshSettings meshSettingsOf(const CommandLine& line) {
+  return {.session = line.session,
+          .computation = line.computation,
+          .reading = line.reading,
+          .others = line.others,
+          .outputs = line.outputs,
+          .timeoutSeconds = line.batch.timeoutSeconds,
+          .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),
+          .isOfBatch = line.batch.isBatch()};
+}
 
 std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
                         const ReadOptions& reading, const Outputs& outputs) {

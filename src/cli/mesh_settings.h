@@ -27,6 +27,8 @@ struct MeshSettings {
   bool isOfBatch = false;
 };
 
+[[nodiscard]] MeshSettings meshSettingsOf(const struct CommandLine& line);
+
 /// The settings as JSON, for a worker process of the same version. The strings may contain any bytes.
 [[nodiscard]] nlohmann::ordered_json toJson(MeshSettings settings);
 [[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);

@@ -146,9 +146,9 @@ std::string valueOptionsOf(const Options& options) {
 
 class MeshFiles {
  public:
-  MeshFiles(const std::string& input, const std::string& output, const MeshSettings& settings, bool showsBar,
-            const std::stop_token& stop)
-      : input_(input), output_(output), settings_(settings), showsBar_(showsBar), stop_(stop) {}
+  MeshFiles(const std::string& input, const std::string& output, const MeshSettings& settings,
+            const MeshProgress& progress, const std::stop_token& stop)
+      : input_(input), output_(output), settings_(settings), progress_(progress), stop_(stop) {}
 
   void requireWritable() const {
     if (settings_.makesFolders) makeFolderOf(output_);
@@ -162,9 +162,11 @@ class MeshFiles {
   auto withProgress(const Work& work) const {
     const Stopwatch watch;
     std::optional<ProgressBar> bar;
-    if (showsBar_ && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
+    if (progress_.showsBar && !progress_.receive && isStandardErrorTerminal())
+      bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
     RunControl control;
     control.stop = stop_;
+    control.progress = progress_.receive;
     if (bar) control.progress = [&bar](double fraction) { bar->update(fraction); };
     return work(control);
   }
@@ -207,7 +209,7 @@ class MeshFiles {
   const std::string& input_;
   const std::string& output_;
   const MeshSettings& settings_;
-  bool showsBar_;
+  const MeshProgress& progress_;
   const std::stop_token stop_;
 };
 
@@ -250,10 +252,10 @@ void MeshRun::add(Failure failed, const std::string& input, bool hasJson) {
 }
 
 MeshRun computeMesh(Session& session, const std::string& input, const std::string& output, LoadedMesh loaded,
-                    const MeshSettings& settings, const Deadline& deadline, bool showsBar,
+                    const MeshSettings& settings, const Deadline& deadline, const MeshProgress& progress,
                     const SharedPage* sharedPage) {
   MeshRun run;
-  const MeshFiles files(input, output, settings, showsBar, deadline.token());
+  const MeshFiles files(input, output, settings, progress, deadline.token());
   std::optional<Page> ownPage;
   if (sharedPage == nullptr && writesPages(settings.outputs)) ownPage = emptyPage();
   Page* const page = sharedPage != nullptr ? &sharedPage->page : ownPage ? &*ownPage : nullptr;
@@ -360,8 +362,8 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
     reading->wait();
   else
     loaded = loadMesh(input, settings.reading, false, deadline.token());
-  const MeshRun run =
-      computeMesh(*session, input, output, std::move(loaded), settings, deadline, !settings.outputs.quiet);
+  const MeshRun run = computeMesh(*session, input, output, std::move(loaded), settings, deadline,
+                                  {.showsBar = !settings.outputs.quiet});
   if (!deadline.token().stop_requested()) {
     try {
       session->finishOpening();

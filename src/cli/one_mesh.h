@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stop_token>
@@ -38,12 +39,18 @@ struct SharedPage {
   std::string name;  ///< Name of the mesh in the page.
 };
 
+/// Where the progress of a mesh is shown.
+struct MeshProgress {
+  bool showsBar = false;                              ///< Shows a progress bar if standard error is a terminal.
+  std::function<void(double fraction)> receive = {};  ///< Replaces the bar; may be empty.
+};
+
 /// Computes a mesh and writes its result. output: empty for no result. Failures are returned in the MeshRun. A stop
-/// request or the expiry of `deadline` ends the computation. showsBar: shows a progress bar if standard error is a
-/// terminal. sharedPage: if not null, receives the result instead of the file `output`.
+/// request or the expiry of `deadline` ends the computation. sharedPage: if not null, receives the result instead of
+/// the file `output`.
 [[nodiscard]] MeshRun computeMesh(Session& session, const std::string& input, const std::string& output,
                                   LoadedMesh loaded, const MeshSettings& settings, const Deadline& deadline,
-                                  bool showsBar, const SharedPage* sharedPage = nullptr);
+                                  const MeshProgress& progress, const SharedPage* sharedPage = nullptr);
 
 /// Writes a page atomically. opensBrowser: opens the page in the browser. If the output is a FIFO, waits for its
 /// reader; a stop request ends this wait with Error{Cancelled}. Throws Error{OutputNotWritable}.

@@ -16,6 +16,7 @@
 #include "cli/device_output.h"
 #include "cli/one_mesh.h"
 #include "cli/report_json.h"
+#include "cli/serve_commands.h"
 #include "process/heap.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
@@ -45,16 +46,10 @@ CheckPolicy policyOf(const Outputs& outputs) {
 /// Whether the records of the meshes are needed.
 bool needsRecords(const Outputs& outputs) { return !outputs.reportFormat.empty() || outputs.updatesBaseline; }
 
-MeshSettings settingsOf(const CommandLine& line) {
-  return {.session = line.session,
-          .computation = line.computation,
-          .reading = line.reading,
-          .others = line.others,
-          .outputs = line.outputs,
-          .policy = policyOf(line.outputs),
-          .timeoutSeconds = line.batch.timeoutSeconds,
-          .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),
-          .isOfBatch = line.batch.isBatch()};
+MeshSettings settingsWithPolicy(const CommandLine& line) {
+  MeshSettings settings = meshSettingsOf(line);
+  settings.policy = policyOf(line.outputs);
+  return settings;
 }
 
 constexpr const char* kSummarize = "summarize";
@@ -63,9 +58,10 @@ constexpr const char* kSummarize = "summarize";
 void requireNoMisspeltCommand(const std::string& first) {
   if (first.find_first_of("./") != std::string::npos) return;  // The name of a file.
   std::error_code ignored;
-  if (similarNames(first, {kSummarize}).empty() || std::filesystem::exists(first, ignored)) return;
+  const std::string similar = similarNames(first, {kSummarize, kServe, kMcp});
+  if (similar.empty() || std::filesystem::exists(first, ignored)) return;
   throw Error(ErrorCode::UnknownName,
-              fmt::format("'{}' is neither a file nor a command; did you mean {}?", first, kSummarize));
+              fmt::format("'{}' is neither a file nor a command; did you mean {}?", first, similar));
 }
 
 /// The command `asdf-vk summarize LOG.jsonl...`. arguments: those after `summarize`.
@@ -139,6 +135,8 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
     return ExitCode::Done;
   }
   if (arguments.front() == kSummarize) return summarize({arguments.begin() + 1, arguments.end()});
+  if (arguments.front() == kServe || arguments.front() == kMcp)
+    return runServer(arguments.front(), {arguments.begin() + 1, arguments.end()});
   requireNoMisspeltCommand(arguments.front());
   const CommandLine line = parseCommandLine(arguments);
   if (line.answer) {
@@ -150,8 +148,8 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
   if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());
   if (line.meshes.size() == 1 && !line.batch.isBatch() && !needsRecords(line.outputs))
-    return computeOneMesh(line.meshes.front(), settingsOf(line), interrupt.token());
-  return computeBatch(line.meshes, settingsOf(line), line.batch, interrupt.token());
+    return computeOneMesh(line.meshes.front(), settingsWithPolicy(line), interrupt.token());
+  return computeBatch(line.meshes, settingsWithPolicy(line), line.batch, interrupt.token());
 }
 
 }  // namespace

@@ -17,6 +17,13 @@ using Json = nlohmann::ordered_json;
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+/// The value for a message: one line, cut after 60 bytes.
+[[nodiscard]] inline std::string shownJson(const Json& json) {
+  constexpr size_t kMaxShown = 60;
+  const std::string text = jsonText(json);
+  return text.size() <= kMaxShown ? text : text.substr(0, kMaxShown) + "...";
+}
+
 [[nodiscard]] inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 [[nodiscard]] inline Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 

@@ -1,6 +1,10 @@
 #include "io/base64_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+
+#include "core/base64_stream.h"
 
 namespace asdfvk {
 namespace {
@@ -31,6 +35,20 @@ std::optional<std::vector<char>> base64Bytes(std::string_view text) {
     bytes.push_back(static_cast<char>(bits >> bitCount & 0xffu));
   }
   return bytes;
+}
+
+std::string base64Text(std::span<const char> bytes) {
+  constexpr size_t kGroup = 3;
+  std::string text(4 * ((bytes.size() + kGroup - 1) / kGroup), '=');
+  char* to = text.data();
+  for (size_t i = 0; i < bytes.size(); i += kGroup, to += 4) {
+    const size_t count = std::min(kGroup, bytes.size() - i);
+    std::array<uint8_t, kGroup> group{};
+    for (size_t k = 0; k < count; ++k) group[k] = static_cast<uint8_t>(bytes[i + k]);
+    encodeBase64Group(to, group.data());
+    for (size_t k = count + 1; k < 4; ++k) to[k] = '=';
+  }
+  return text;
 }
 
 }  // namespace asdfvk

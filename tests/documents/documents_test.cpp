@@ -153,7 +153,8 @@ TEST_CASE("groff accepts the man pages, and bash its completion") {
 TEST_CASE("bash completes options, and values that have names") {
   if (!isInstalled("bash")) return;
   const TextFile help(helpOf(false));
-  const TextFile script("asdf-vk() { cat '" + help.path() + "'; }\nsource " + kSources +
+  const TextFile script("asdf-vk() { [[ $1 == mcp ]] && echo '  --root DIR' || cat '" + help.path() + "'; }\nsource " +
+                        kSources +
                         R"bash(/src/documents/completion.bash
 try() {
   COMP_WORDS=(asdf-vk "$@")
@@ -171,9 +172,13 @@ try ''
 try --rays ''
 try --picture-up -
 try -- --reci
+cd /
+try summ
+try mcp --ro
+try mcp --reci
 )bash");
   CHECK_EQ(outputOf("bash " + script.path()).first,
-           "--recipe\nbalanced|paper|quality\nquality\nall\n\n\n\n-x|-y|-z\n\n");
+           "--recipe\nbalanced|paper|quality\nquality\nall\n\n\n\n-x|-y|-z\n\nsummarize\n--root\n\n");
 }
 
 }  // namespace

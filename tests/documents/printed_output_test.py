@@ -107,7 +107,8 @@ class PagesTest(unittest.TestCase):
 
     def test_commands_have_options_that_exist(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            calls = ("asdf-vk --help=all", "asdf-vk-generate --help", "asdf-vk summarize --help")
+            calls = ("asdf-vk --help=all", "asdf-vk-generate --help", "asdf-vk summarize --help",
+                     "asdf-vk serve --help", "asdf-vk mcp --help")
             known = set(re.findall(r"--[a-z][a-z-]*", "\n".join("\n".join(run(call, Path(folder))) for call in calls)))
         self.assertIn("--thinner-than", known)
         for page in PAGES:
