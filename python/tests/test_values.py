@@ -217,7 +217,7 @@ def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Pa
     info = asdf_vk.compute(asdf_vk.read_mesh(path), measure="thickness", thinner_than=limit)
     document, ours = printed["thickness"], info.thickness
     assert ours is not None and document["regions"]
-    of_program = {"mesh", "output", "picture", "points", "with", "withFaceCounts", "former", "fields", "version", "commit", "options"}
+    of_program = {"formatVersion", "mesh", "output", "picture", "points", "with", "withFaceCounts", "former", "fields", "version", "commit", "options"}
     snake = {re.sub(r"(?=[A-Z])", "_", key).lower() for key in printed.keys() - of_program}
     assert snake == {field.name for field in dataclasses.fields(_report.Report)}
 
