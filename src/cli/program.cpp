@@ -17,6 +17,7 @@
 #include "cli/one_mesh.h"
 #include "cli/report_json.h"
 #include "cli/serve_commands.h"
+#include "core/text.h"
 #include "process/heap.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"

@@ -14,10 +14,13 @@ std::string oneLineOf(const Json& json) { return jsonText(json) + "\n"; }
 
 std::string jsonReport(const MeshOutcome& outcome) {
   const auto orNull = [](const std::string& path) { return path.empty() ? Json(nullptr) : Json(path); };
-  Json json{{"formatVersion", kReportFormatVersion},    {"mesh", outcome.mesh},
-            {"output", orNull(outcome.output)},         {"picture", orNull(outcome.outputs.picture)},
-            {"points", orNull(outcome.outputs.points)}, {"with", outcome.others.with},
-            {"withFaceCounts", outcome.withFaceCounts}, {"former", orNull(outcome.others.former)}};
+  Json json{{"mesh", outcome.mesh},
+            {"output", orNull(outcome.output)},
+            {"picture", orNull(outcome.outputs.picture)},
+            {"points", orNull(outcome.outputs.points)},
+            {"with", outcome.others.with},
+            {"withFaceCounts", outcome.withFaceCounts},
+            {"former", orNull(outcome.others.former)}};
   Report report = outcome.result.report;
   for (Warning& warning : report.warnings) warning.message = textWarning(warning, OptionSpelling::Flag);
   json.update(resultJson(report, outcome.result.fields, outcome.computation, outcome.session));

@@ -8,9 +8,6 @@
 
 namespace asdfvk {
 
-/// The key formatVersion of each JSON document. A change of the meaning of a key increases it.
-inline constexpr int kReportFormatVersion = 1;
-
 /// docs/report.schema.json: the JSON Schema of the following documents.
 [[nodiscard]] std::string_view reportSchemaText();
 

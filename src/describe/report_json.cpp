@@ -70,6 +70,7 @@ Json optionValues(const ComputationSettings& computation, const SessionSettings&
 Json resultJson(const Report& report, std::span<const Field> fields, const ComputationSettings& computation,
                 const SessionSettings& session) {
   Json json = toJson(report);
+  json["formatVersion"] = kReportFormatVersion;
   json["fields"] = Json::array();
   for (const Field& field : fields) json["fields"].push_back(fieldOf(field));
   json["version"] = ASDFVK_VERSION;

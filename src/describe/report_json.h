@@ -9,6 +9,9 @@
 
 namespace asdfvk {
 
+/// The key formatVersion of each JSON document. A change of the meaning of a key increases it.
+inline constexpr int kReportFormatVersion = 1;
+
 void to_json(nlohmann::ordered_json& json, const TraceVariant& variant);
 
 [[nodiscard]] nlohmann::ordered_json toJson(const OptionValue& value);

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "asdf_vk/version.h"
-#include "cli/report_json.h"
 #include "core/json.h"
+#include "describe/report_json.h"
 #include "documents/documents.h"
 
 namespace asdfvk {

@@ -365,11 +365,12 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
   CHECK(json.at("warnings").at(1).at("details").empty());
 }
 
-TEST_CASE("a failure as JSON has mesh, error and code") {
+TEST_CASE("a failure as JSON has mesh, error and code; an invalid command line has no mesh") {
   const std::string text = jsonFailure("a.ply", "deviceLost", "two\nlines");
   CHECK_EQ(text.find('\n'), text.size() - 1);
   CHECK_EQ(nlohmann::json::parse(text),
-           nlohmann::json({{"mesh", "a.ply"}, {"error", "two\nlines"}, {"code", "deviceLost"}}));
+           nlohmann::json({{"formatVersion", 1}, {"mesh", "a.ply"}, {"error", "two\nlines"}, {"code", "deviceLost"}}));
+  CHECK(nlohmann::json::parse(jsonFailure("", "optionConflict", "x")).at("mesh").is_null());
 }
 
 TEST_CASE("devices are listed with number and reason, or the reason why there are none") {
