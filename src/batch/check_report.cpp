@@ -15,6 +15,11 @@ std::string textAt(const Json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+std::string kindOf(const Json& finding) {
+  const std::string kind = textAt(finding, "kind");
+  return kind.empty() ? "unknown" : kind;
+}
+
 }  // namespace
 
 std::vector<std::string> checkFormatNames() {
@@ -34,14 +39,14 @@ std::vector<CheckItem> checkItemsOf(const MeshRecord& record) {
   std::vector<CheckItem> items;
   for (const Json& finding : record.findings)
     if (finding.is_object())
-      items.push_back({textAt(finding, "kind"), textAt(finding, "level"),
+      items.push_back({kindOf(finding), textAt(finding, "level"),
                        fmt::format("{}; {}", textAt(finding, "message"), textAt(finding, "remedy")), finding});
   const bool isExplained = std::any_of(items.begin(), items.end(), [](const CheckItem& item) {
     return item.level == "failure" || item.level == "notJudged";
   });
   // Without a result, for example from an unreadable file; or from a check that has no places.
   if (record.code != 0 && record.status != MeshStatus::Skipped && !isExplained)
-    items.push_back({record.error, "error", record.message, nullptr});
+    items.push_back({record.error.empty() ? "failed" : record.error, "error", record.message, nullptr});
   return items;
 }
 

@@ -81,7 +81,8 @@ class Rules {
   Json rules_ = Json::array();
 };
 
-Json resultOf(const CheckItem& item, const std::string& uri, size_t artifact, Rules& rules) {
+/// print: fingerprintOf(), with a number if several results of the mesh have the same.
+Json resultOf(const CheckItem& item, const std::string& uri, size_t artifact, const std::string& print, Rules& rules) {
   // Services show results at lines; a mesh has none.
   const Json location{{"physicalLocation",
                        {{"artifactLocation", {{"uri", uri}, {"index", artifact}}}, {"region", {{"startLine", 1}}}}}};
@@ -90,7 +91,7 @@ Json resultOf(const CheckItem& item, const std::string& uri, size_t artifact, Ru
               {"level", levelOf(item)},
               {"message", {{"text", item.message}}},
               {"locations", Json::array({location})},
-              {"partialFingerprints", {{"place/v1", fingerprintOf(item)}}}};
+              {"partialFingerprints", {{"place/v1", print}}}};
   if (item.finding.is_null()) return result;
   result["properties"] = item.finding;
   if (item.finding.value("isKnown", Json()) == true) result["baselineState"] = "unchanged";
@@ -104,14 +105,17 @@ std::string sarifOf(std::span<const MeshRecord> records) {
   Rules rules;
   for (const MeshRecord& record : records) {
     const std::string uri = uriOf(record.input);
+    std::map<std::string, int> counts;
     for (const CheckItem& item : checkItemsOf(record)) {
-      results.push_back(resultOf(item, uri, artifacts.size(), rules));
+      std::string print = fingerprintOf(item);
+      if (const int count = ++counts[print]; count > 1) print += fmt::format("#{}", count);
+      results.push_back(resultOf(item, uri, artifacts.size(), print, rules));
       if (item.finding.is_null())
         notifications.push_back({{"level", "error"}, {"message", {{"text", record.input + ": " + item.message}}}});
     }
     artifacts.push_back({{"location", {{"uri", uri}}}});
   }
-  const bool isComplete = notifications.empty();
+  const bool isComplete = notifications.empty() && !records.empty();
   const Json run{
       {"tool", {{"driver", {{"name", "asdf-vk"}, {"version", ASDFVK_VERSION}, {"rules", rules.all()}}}}},
       {"invocations",

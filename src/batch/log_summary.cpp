@@ -67,8 +67,8 @@ void addCells(const Json& object, const std::string& prefix, Cells& cells) {
       addCells(value, prefix + key + ".", cells);
     } else if (value.is_array()) {
       std::string coordinates;  // A point.
-      for (const Json& each : value) coordinates += (coordinates.empty() ? "" : " ") + cellText(each);
-      cells.emplace_back(prefix + key, coordinates);
+      for (const Json& each : value) coordinates += (coordinates.empty() ? "" : " ") + jsonText(each);
+      cells.emplace_back(prefix + key, cellText(coordinates));
     } else {
       cells.emplace_back(prefix + key, cellText(value));
     }

@@ -111,6 +111,20 @@ ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options
   return ExitCode::Done;
 }
 
+/// The records of all jobs, also of those that did not begin.
+std::vector<MeshRecord> allRecords(const Monitor& monitor, const std::vector<Job>& jobs, ExitCode ofUnfinished) {
+  std::vector<MeshRecord> records = monitor.records();
+  for (const size_t i : monitor.unfinishedJobs()) {
+    MeshRecord& record = records.emplace_back();
+    record.input = jobs[i].input;
+    record.status = MeshStatus::Failed;
+    record.code = static_cast<int>(ofUnfinished);
+    record.error = "notComputed";
+    record.message = "the mesh was not computed, because the run ended before it";
+  }
+  return records;
+}
+
 void writeCheckReport(const Outputs& outputs, const std::vector<MeshRecord>& records) {
   AtomicFile file(outputs.report);
   file.write(checkReport(checkFormatOf(outputs.reportFormat), records));
@@ -206,17 +220,19 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const ExitCode ofDevice = runAndReport(jobs, options, client, monitor, outputs.json, stop);
   if (batch.isBatch()) removeUnfinishedOutputs(jobs);
   monitor.finish();
-  if (!outputs.reportFormat.empty()) writeCheckReport(outputs, monitor.records());
+  if (!outputs.reportFormat.empty())
+    writeCheckReport(outputs, allRecords(monitor, jobs, ofDevice == ExitCode::Done ? ExitCode::Cancelled : ofDevice));
   if (outputs.updatesBaseline) updateBaseline(outputs.baseline, monitor.records());
   if (stop.stop_requested() && monitor.hasUnfinished()) return ExitCode::Cancelled;
-  if (ofDevice != ExitCode::Done) return ofDevice;
-  if (page && !page->isEmpty()) finishPage(*page, jobs.front().output, outputs.opensPage, stop);
+  if (ofDevice == ExitCode::Done && page && !page->isEmpty())
+    finishPage(*page, jobs.front().output, outputs.opensPage, stop);
   SharedExitCode code;
   for (const int ofMesh : monitor.codes()) {
     const auto each = static_cast<ExitCode>(ofMesh);
     code.add(outputs.updatesBaseline && each == ExitCode::OverLimit ? ExitCode::Done : each);
   }
-  return code.code();
+  // A failed device does not hide a thin mesh.
+  return ofDevice == ExitCode::Done || code.code() == ExitCode::OverLimit ? code.code() : ofDevice;
 }
 
 }  // namespace asdfvk

@@ -81,9 +81,10 @@ ExitCode SharedExitCode::code() const {
     if (codes_.contains(first)) return first;
   const auto withResult = std::count_if(codes_.begin(), codes_.end(), hasResult);
   if (withResult == 0)
-    for (const ExitCode next : {ExitCode::Internal, ExitCode::Device, ExitCode::Output, ExitCode::Limit})
+    for (const ExitCode next :
+         {ExitCode::Internal, ExitCode::Device, ExitCode::Output, ExitCode::Limit, ExitCode::Input, ExitCode::Usage})
       if (codes_.contains(next)) return next;
-  if (static_cast<size_t>(withResult) < codes_.size()) return withResult > 0 ? ExitCode::SomeFailed : *codes_.begin();
+  if (static_cast<size_t>(withResult) < codes_.size()) return ExitCode::SomeFailed;
   return codes_.contains(ExitCode::CheckFailed) ? ExitCode::CheckFailed : ExitCode::Done;
 }
 

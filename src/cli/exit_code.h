@@ -46,7 +46,8 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
 inline constexpr const char* kExitCodeOfSeveralMeshes =
     "With several meshes, a failure does not end the run. The code does not depend on their order: 6 if a mesh has "
     "this "
-    "code, else 7 if some meshes have a result and others have none, else 70, 3, 4, 8 or 2 if none has a result, else "
+    "code, else 7 if some meshes have a result and others have none, else 70, 3, 4, 8, 2 or 1 if none has a result, "
+    "else "
     "5. The summary counts all.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);

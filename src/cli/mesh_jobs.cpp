@@ -80,8 +80,9 @@ JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),
       optionsHash_(optionsHash(settings.computation, settings.session, settings.reading, settings.outputs)),
       options_(optionValues(settings.computation, settings.session)) {
-  if (const Json limits = settings.policy.limits; !settings.policy.limits.rules.empty())
-    optionsHash_ = contentHash(optionsHash_ + jsonText(limits));
+  const CheckPolicy& policy = settings.policy;
+  if (!policy.limits.rules.empty() || !policy.baseline.places.empty())
+    optionsHash_ = contentHash(optionsHash_ + jsonText({policy.limits, policy.baseline.places}));
 }
 
 MeshRecord JobRecords::begin(const Job& job) const {

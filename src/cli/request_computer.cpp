@@ -30,7 +30,12 @@ namespace fs = std::filesystem;
 class AnswerFolder {
  public:
   AnswerFolder() {
-    std::string path = (fs::temp_directory_path() / "asdf-vk-XXXXXX").string();
+    std::error_code error;
+    const fs::path folder = fs::temp_directory_path(error);
+    if (error)
+      throw Error(ErrorCode::OutputNotWritable,
+                  fmt::format("there is no folder for temporary files: {}; set TMPDIR", error.message()));
+    std::string path = (folder / "asdf-vk-XXXXXX").string();
     if (mkdtemp(path.data()) == nullptr)
       throw Error(ErrorCode::OutputNotWritable,
                   fmt::format("{} cannot be made: {}", path, std::generic_category().message(errno)));
@@ -66,9 +71,9 @@ Failure memoryFailure(uint64_t bytes) {
 }
 
 /// Size of the mesh of a request, in bytes.
-uint64_t sizeOf(const MeshRequest& request, const RequestContext& context) {
+uint64_t sizeOf(const MeshRequest& request, const RequestFiles& files, const RequestContext& context) {
   std::error_code error;
-  const uint64_t size = request.mesh.empty() ? 0 : fs::file_size(request.mesh, error);
+  const uint64_t size = request.mesh.empty() ? 0 : fs::file_size(inputPath(request.mesh, files), error);
   return std::max<uint64_t>(context.byteCount, error ? 0 : size);
 }
 
@@ -94,25 +99,28 @@ MeshRequestComputer::MeshRequestComputer(ServerSettings settings)
 
 MeshAnswer MeshRequestComputer::compute(const MeshRequest& request, const RequestContext& context,
                                         const std::function<void(double)>& progress) {
-  const MemoryLimit::Request limited(memory_, sizeOf(request, context), context.stop);
   const double timeoutSeconds = std::min(request.timeoutSeconds, settings_.timeoutSeconds);
-  const Deadline deadline(timeoutSeconds, limited.token());
+  std::optional<MemoryLimit::Request> limited;
+  std::optional<Deadline> deadline;
   MeshAnswer answer;
   try {
+    limited.emplace(memory_, sizeOf(request, settings_.files, context), context.stop);
+    deadline.emplace(timeoutSeconds, limited->token());
     if (context.stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     const auto threads = static_cast<uint32_t>(std::max<size_t>(threadLimit() / context.sharerCount, 1));
-    const auto compute = [&] { answer = computeWithin(request, context, progress, timeoutSeconds, deadline); };
+    const auto compute = [&] { answer = computeWithin(request, context, progress, timeoutSeconds, *deadline); };
     if (context.sharerCount == 1)
       compute();
     else
       callWithThreads(threads, compute);
   } catch (...) {
     Failure failure = currentFailure(settings_.session.requireGpu);
-    if (failure.code == ExitCode::Cancelled && deadline.hasExpired()) failure = timeLimitFailure(timeoutSeconds);
+    if (failure.code == ExitCode::Cancelled && deadline && deadline->hasExpired())
+      failure = timeLimitFailure(timeoutSeconds);
     answer = {.report = {}, .failure = requestFailure(failure), .output = {}, .picture = {}};
   }
-  if (answer.report.empty() && answer.failure && answer.failure->code == cancelledFailure().name &&
-      limited.hasExceeded())
+  if (answer.report.empty() && answer.failure && answer.failure->code == cancelledFailure().name && limited &&
+      limited->hasExceeded())
     answer.failure = requestFailure(memoryFailure(memory_.bytes()));
   return answer;
 }

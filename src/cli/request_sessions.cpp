@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "pipeline/backend_choice.h"
 
 namespace asdfvk {
@@ -19,7 +20,7 @@ void callWith(std::unique_ptr<Session>& session, const SessionOptions& options, 
 }  // namespace
 
 RequestSessions::RequestSessions(SessionOptions options, size_t workerCount)
-    : options_(std::move(options)), own_(workerCount) {}
+    : options_(std::move(options)), threadCount_(static_cast<uint32_t>(threadLimit())), own_(workerCount) {}
 
 void RequestSessions::call(size_t worker, const Options& options, const std::stop_token& stop,
                            FunctionRef<bool(Session&)> use) {
@@ -28,6 +29,9 @@ void RequestSessions::call(size_t worker, const Options& options, const std::sto
   std::unique_lock<std::timed_mutex> lock(sharing_, std::defer_lock);
   while (!lock.try_lock_for(kSessionPollTime))
     if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+  // A CPU device keeps the number of threads with which it is opened, so it must not be the share of this request.
+  if (!shared_)
+    callWithThreads(threadCount_, [&] { shared_ = std::make_unique<Session>(chosen, SessionOpening::InThread); });
   callWith(shared_, chosen, use);
 }
 

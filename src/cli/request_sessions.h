@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,6 +24,7 @@ class RequestSessions {
 
  private:
   const SessionOptions options_;
+  const uint32_t threadCount_;
   std::timed_mutex sharing_;
   std::unique_ptr<Session> shared_;
   std::vector<std::map<BackendChoice, std::unique_ptr<Session>>> own_;  ///< For each worker.

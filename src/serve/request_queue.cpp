@@ -1,6 +1,7 @@
 #include "serve/request_queue.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace asdfvk {
@@ -34,6 +35,7 @@ void RequestQueue::add(Json id, size_t byteCount, Work work) {
 }
 
 bool RequestQueue::cancel(const Json& id) {
+  if (id.is_null()) return false;  // Requests without an id.
   const std::lock_guard<std::mutex> lock(mutex_);
   bool isFound = false;
   for (Entries* const entries : {&waiting_, &running_})
@@ -81,9 +83,15 @@ void RequestQueue::runRequests(size_t worker) {
                                  entry->stop.get_token(), entry->byteCount};
     changed_.notify_all();
     lock.unlock();
-    const std::string line = entry->work(context);
-    if (!line.empty()) answer(line);
+    std::exception_ptr failure;
+    try {
+      const std::string line = entry->work(context);
+      if (!line.empty()) answer(line);
+    } catch (...) {  // For example, there is no memory for the answer. The other requests go on.
+      failure = std::current_exception();
+    }
     lock.lock();
+    if (failure && !failure_) failure_ = failure;
     running_.erase(entry);
   }
 }

@@ -28,7 +28,8 @@ MeshRecord recordOf(const std::string& input, int code, const std::string& error
 std::vector<MeshRecord> sampleRecords() {
   return {recordOf("good.stl", 0, "", Json::array({finding("sealedVoid", "note", 1)})),
           recordOf("/a b/thin,1:2.stl", 6, "tooThin",
-                   Json::array({finding("thinWall", "failure", 1), finding("thinWall", "failure", 9)})),
+                   Json::array({finding("thinWall", "failure", 1), finding("thinWall", "failure", 9),
+                                finding("thinWall", "failure", 9.1)})),
           recordOf("open.stl", 5, "notJudged", Json::array({finding("unjudged", "notJudged", 1)})),
           recordOf("bad.stl", 2, "unreadableInput", nullptr),
           recordOf("foreign.stl", 0, "", Json::array({3, Json::object(), {{"kind", 7}, {"place", "nowhere"}}})),
@@ -69,6 +70,7 @@ TEST_CASE("SARIF has the members that its specification requires, and a rule for
   CHECK_EQ(levels.count("error"), run.at("results").size() - 2);
   CHECK_EQ(prints.count("thinWall/1/3/4"), 1);  // The place in steps of the limit.
   CHECK_EQ(prints.count("thinWall/11/3/4"), 1);
+  CHECK_EQ(prints.count("thinWall/11/3/4#2"), 1);  // Another place in the same step.
   CHECK_EQ(run.at("artifacts").at(1).at("location").at("uri"), "file:///a%20b/thin%2C1%3A2.stl");
   const Json& invocation = run.at("invocations").at(0);
   CHECK_FALSE(invocation.at("executionSuccessful").get<bool>());
@@ -81,6 +83,11 @@ TEST_CASE("SARIF of meshes without a finding is a successful run without results
   CHECK(run.at("results").is_array());
   CHECK(run.at("results").empty());
   CHECK(run.at("invocations").at(0).at("executionSuccessful").get<bool>());
+}
+
+TEST_CASE("SARIF of no mesh is not a successful run") {
+  const Json run = Json::parse(sarifOf({})).at("runs").at(0);
+  CHECK_FALSE(run.at("invocations").at(0).at("executionSuccessful").get<bool>());
 }
 
 TEST_CASE("JUnit has a test case per mesh: failures of the check, errors without a verdict") {

@@ -162,12 +162,14 @@ TEST_CASE("SIGTERM drops the meshes of all lanes, and no further mesh begins") {
   const ChildOutcome outcome = child.finish(120);
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 130);
-  const size_t dropped = outcome.error.find("dropped: ");
-  REQUIRE(dropped != std::string::npos);
-  for (const char* name : {"in/a.off", "in/b.off"})
-    CHECK(outcome.error.find(folder / name, dropped) != std::string::npos);
-  CHECK(outcome.error.find("1 not begun") != std::string::npos);
-  CHECK_EQ(statusesIn(folder / "log"), StatusCounts{{"dropped", 2}});
+  // On a machine with much other work, the second lane may not have begun.
+  const int dropped = statusesIn(folder / "log")["dropped"];
+  CHECK(dropped >= 1);
+  CHECK(dropped <= 2);
+  const size_t line = outcome.error.find("dropped: ");
+  REQUIRE(line != std::string::npos);
+  CHECK(outcome.error.find(folder / "in/a.off", line) != std::string::npos);
+  CHECK(outcome.error.find(std::to_string(3 - dropped) + " not begun") != std::string::npos);
   CHECK(resultsIn(folder / "out").empty());
 }
 

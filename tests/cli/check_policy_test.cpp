@@ -99,6 +99,9 @@ TEST_CASE("a place is known by its kind, bodies and position, unless it became w
   CHECK_FALSE(isKnown(findingAt(10.9), mesh));
   CHECK_FALSE(isKnown(findingAt(10, 0.47), mesh));
   CHECK_FALSE(isKnown(findingAt(10), folder / "parts/b.stl"));
+  Finding numbered = findingAt(10);  // The number of a component depends on the order of the faces.
+  numbered.bodies = {"component 7"};
+  CHECK(isKnown(numbered, mesh));
   Finding gap = findingAt(10), between = findingAt(10), far = findingAt(20);
   gap.kind = FindingKind::NarrowGap;
   between.bodies = {"lid", "base"};
@@ -114,10 +117,18 @@ TEST_CASE("an update replaces the places of its meshes, and keeps those of other
   updateBaseline(file, recordsWith(a, asdfvk::Json::array({failureAt(1)})));
   updateBaseline(file, recordsWith(b, asdfvk::Json::array({failureAt(2), failureAt(3)})));
   updateBaseline(file, recordsWith(b, nullptr));  // Unreadable in this run.
+  std::vector<MeshRecord> skipped = recordsWith(b, asdfvk::Json::array());
+  skipped[0].status = MeshStatus::Skipped;  // An earlier run computed it; known places are notes there.
+  updateBaseline(file, skipped);
   CHECK_EQ(readBaseline(file).places.at("a.stl").size(), 1);
   CHECK_EQ(readBaseline(file).places.at("b.stl").size(), 2);
   updateBaseline(file, recordsWith(a, asdfvk::Json::array()));
   CHECK_EQ(readBaseline(file).places.count("a.stl"), 0);
+  const std::string deep = R"({"x": )" + std::string(300'000, '[') + std::string(300'000, ']') +
+                           R"(, "formatVersion": 1, "known": {}, "limits": []})";
+  CHECK_THROWS_AS((void)readBaseline(folder.write("deep.json", deep)), Error);
+  CHECK_THROWS_AS((void)readLimits(folder / "deep.json"), Error);
+  CHECK_THROWS_AS((void)readBaseline(folder / std::string(300, 'a')), Error);
   for (const char* const text : {"{}", "[]", R"({"formatVersion": 2, "known": {}})",
                                  R"({"formatVersion": 1, "known": {"a": [{"kind": 3}]}})", R"({"formatVersion": 1})"}) {
     folder.write("walls.json", text);

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <set>
 
+#include "cli/lavapipe.h"
 #include "cli/mesh_tree.h"
 #include "cli/refusal.h"
 
@@ -87,6 +88,30 @@ TEST_CASE("limits of single meshes and known places determine the code, also in 
     std::filesystem::remove(baseline);
   }
   CHECK_FALSE(std::filesystem::exists(parts.root + "/thin.asdf.ply"));
+}
+
+TEST_CASE("a mesh with known places is not skipped in a run without the baseline, nor lost by an update") {
+  const Parts parts;
+  const std::string baseline = parts.folder / "walls.json";
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {parts.root + "/thin.off", parts.root + "/thick.off", "-o", parts.folder / "out/",
+                             "--fail-if-thinner", "0.8"});
+    return runAsdf(more).exitCode;
+  };
+  CHECK_EQ(run({"--baseline", baseline, "--update-baseline"}), 0);
+  CHECK_EQ(run({"--baseline", baseline, "--skip-existing"}), 0);
+  CHECK_EQ(run({"--skip-existing"}), 6);
+  CHECK_EQ(run({"--baseline", baseline, "--skip-existing", "--update-baseline"}), 0);
+  CHECK_EQ(run({"--baseline", baseline}), 0);
+}
+
+TEST_CASE("a run without a device reports each mesh as not computed") {
+  const Parts parts;
+  const ChildOutcome outcome = runAsdf({parts.root + "/thin.off", parts.root + "/thick.off", "--fail-if-thinner", "0.8",
+                                        "--require-gpu", "--report-format", "junit"},
+                                       withDrivers("/nonexistent.json"));
+  CHECK_EQ(outcome.exitCode, 3);
+  CHECK(outcome.output.find("tests=\"2\" failures=\"0\" errors=\"2\"") != std::string::npos);
 }
 
 TEST_CASE("the report of one mesh goes to a file, beside its usual report") {

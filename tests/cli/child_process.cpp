@@ -102,9 +102,17 @@ bool ChildProcess::pump(int milliseconds) {
 }
 
 bool ChildProcess::waitForError(const std::string& text, double seconds) {
+  return waitFor(text, outcome_.error, seconds);
+}
+
+bool ChildProcess::waitForOutput(const std::string& text, double seconds) {
+  return waitFor(text, outcome_.output, seconds);
+}
+
+bool ChildProcess::waitFor(const std::string& text, const std::string& stream, double seconds) {
   const Stopwatch watch;
-  while (outcome_.error.find(text) == std::string::npos)
-    if (!pump(50) || watch.seconds() > seconds) return outcome_.error.find(text) != std::string::npos;
+  while (stream.find(text) == std::string::npos)
+    if (!pump(50) || watch.seconds() > seconds) return stream.find(text) != std::string::npos;
   return true;
 }
 

@@ -32,11 +32,14 @@ class ChildProcess {
 
   /// Waits until its standard error holds `text`; false when it ended or the time ran out before.
   bool waitForError(const std::string& text, double seconds);
+  /// The same for its standard output.
+  bool waitForOutput(const std::string& text, double seconds);
   void send(int signal) const;
   /// Waits for its end and kills it when it takes longer.
   ChildOutcome finish(double seconds);
 
  private:
+  bool waitFor(const std::string& text, const std::string& stream, double seconds);
   /// One step of reading and feeding; false once both of its streams are closed.
   bool pump(int milliseconds);
 

@@ -204,17 +204,19 @@ TEST_CASE("a cancel ends a computation in progress and one that waits") {
 
 TEST_CASE("a signal answers the open requests and ends with 130") {
   const ScratchFolder folder;
-  const std::string slow = folder.write("slow.off", sphereOff(150)), quick = folder.write("quick.off", sphereOff(6));
+  const std::string slow = folder.write("slow.off", sphereOff(150));
   ChildOptions options;
   options.keepInputOpen = true;
-  options.input = requestLine(1, slow, kLongWork) + "\n" + requestLine(2, slow, kLongWork) + "\n";
+  // The answer to the cancel comes when all lines were read.
+  options.input = requestLine(1, slow, kLongWork) + "\n" + requestLine(2, slow, kLongWork) + "\n{\"cancel\": 3}\n";
   ChildProcess child(ASDFVK_PROGRAM, {"serve", "--backend", "reference", "--jobs", "1"}, options);
-  CHECK_FALSE(child.waitForError("nothing", 0.5));  // serve prints nothing on standard error.
+  REQUIRE(child.waitForOutput("\n", kServePatienceSeconds));
   child.send(SIGTERM);
   const ChildOutcome outcome = child.finish(kServePatienceSeconds);
   CHECK_EQ(outcome.exitCode, 130);
-  for (const std::string& line : linesOf(outcome.output))
-    CHECK_EQ(errorOf(ServedJson::parse(line), "code"), "cancelled");
+  const std::vector<std::string> lines = linesOf(outcome.output);
+  REQUIRE_EQ(lines.size(), 3);
+  for (const size_t i : {1, 2}) CHECK_EQ(errorOf(ServedJson::parse(lines[i]), "code"), "cancelled");
 }
 
 TEST_CASE("a lost device fails one request, and the next one opens it again") {

@@ -36,9 +36,9 @@ TEST_CASE("a GPU is taken where it was measured to be faster than 16 threads") {
   };
   constexpr std::array kMeasured{Cell{45'000'000, true}, Cell{4'500'000, false}, Cell{450'000, false},
                                  Cell{2'900'000, false}, Cell{290'000, false},   Cell{29'000, false}};
-  for (const auto& [rayCount, isGpuFaster] : kMeasured) {
-    CAPTURE(rayCount);
-    CHECK((rayCount >= leastRaysForGpu(16, false)) == isGpuFaster);
+  for (const Cell& cell : kMeasured) {
+    CAPTURE(cell.rayCount);
+    CHECK((cell.rayCount >= leastRaysForGpu(16, false)) == cell.isGpuFaster);
   }
   CHECK(leastRaysForGpu(16, true) == leastRaysForGpu(16, false) / 10);
   CHECK(leastRaysForGpu(2, true) * 8 == leastRaysForGpu(16, true));
