@@ -8,6 +8,7 @@
 #include "cli/device_output.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"
+#include "describe/report_text.h"
 #include "diagnose/device_report.h"
 
 namespace asdfvk {
