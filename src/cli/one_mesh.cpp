@@ -14,6 +14,7 @@
 #include "asdf_vk/asdf_vk.h"
 #include "batch/output_record.h"
 #include "cli/device_output.h"
+#include "cli/failed_checks.h"
 #include "cli/mesh_outcome.h"
 #include "cli/outputs.h"
 #include "cli/page_output.h"
@@ -24,7 +25,6 @@
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "describe/findings.h"
-#include "describe/unjudged_text.h"
 #include "io/files.h"
 #include "io/points_file.h"
 #include "mesh/orientation.h"
@@ -80,61 +80,6 @@ class AwaitedReader {
  private:
   int descriptor_ = -1;
 };
-
-/// The failures of requested checks, including checks that were not possible.
-std::vector<Failure> failedChecks(const ComputationSettings& computation, const Report& report) {
-  std::vector<Failure> failures;
-  if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
-    failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
-  std::vector<Failure> notJudged;  // A failure is more certain, and determines the exit code.
-  const auto add = [&](ThicknessVerdict verdict, std::string message, const UnjudgedFaces& unjudged, const char* name) {
-    if (verdict == ThicknessVerdict::Passed) return;
-    const bool isFailed = verdict == ThicknessVerdict::Failed;
-    const ReportRows reasons = shortUnjudgedRows(unjudged, OptionSpelling::Flag);
-    if (!isFailed && !reasons.empty()) message += fmt::format("; {} {}", reasons[0].first, reasons[0].second);
-    if (isFailed)
-      failures.push_back({ExitCode::OverLimit, message, name});
-    else
-      notJudged.push_back({ExitCode::CheckFailed, message, "notJudged"});
-  };
-  if (computation.failIfThinner && report.comparison)
-    add(*report.comparison->verdict, report.comparison->sentence, report.thickness->unjudged, "tooThin");
-  else if (computation.failIfThinner)
-    add(*report.thickness->verdict, report.thickness->sentence, report.thickness->unjudged, "tooThin");
-  if (computation.failIfThicker)
-    add(report.thickness->thick->verdict, report.thickness->thick->sentence, report.thickness->unjudged, "tooThick");
-  if (computation.failIfCloser) add(*report.gap->verdict, report.gap->sentence, report.gap->unjudged, "tooClose");
-  if (computation.failsIfVoids) {
-    const auto [verdict, sentence] = voidsVerdict(report);
-    add(verdict, sentence, report.gap->unjudged, "sealedVoids");
-  }
-  if (computation.failsIfContact) {
-    const auto [verdict, sentence] = contactVerdict(report);
-    add(verdict, sentence, report.gap->unjudged, "bodiesInContact");
-  }
-  failures.insert(failures.end(), notJudged.begin(), notJudged.end());
-  return failures;
-}
-
-size_t knownCountOf(const Report& report) {
-  return static_cast<size_t>(std::count_if(report.findings.begin(), report.findings.end(),
-                                           [](const Finding& finding) { return finding.isKnown; }));
-}
-
-/// Whether a baseline has all that fails this check.
-bool isKnown(const Failure& failure, const Report& report) {
-  using Kind = FindingKind;
-  if (failure.code != ExitCode::OverLimit || knownCountOf(report) == 0) return false;
-  return std::none_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
-    if (finding.level != FindingLevel::Failure) return false;
-    const bool isThin = finding.kind == Kind::ThinDetail || finding.kind == Kind::ThinEdge;
-    if (failure.name == "tooThin") return isThin || finding.kind == Kind::ThinWall;
-    if (failure.name == "tooClose") return isThin || finding.kind == Kind::NarrowGap;
-    return finding.kind == (failure.name == "tooThick"      ? Kind::ThickBody
-                            : failure.name == "sealedVoids" ? Kind::SealedVoid
-                                                            : Kind::BodiesInContact);
-  });
-}
 
 /// The given options that need shape diameters, for the remedy if no face has a value.
 std::string valueOptionsOf(const Options& options) {
@@ -230,7 +175,6 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
     run.text +=
         oneLine(fmt::format("asdf-vk: {}: known by the baseline: {}", outcome.mesh, counted(count, "place"))) + "\n";
   for (Failure& failure : failedChecks(outcome.computation, report)) {
-    if (isKnown(failure, report)) continue;
     // The first line of a shown report already has the verdict on the thickness.
     const bool isVerdict = failure.name != "checkFailed";
     if (!isVerdict)
