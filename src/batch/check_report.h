@@ -15,7 +15,7 @@ namespace asdfvk {
 enum class CheckFormat {
   Sarif,   ///< Static Analysis Results Interchange Format 2.1.0 (OASIS), for example for code scanning.
   Junit,   ///< The common form of JUnit's XML: a test case for each mesh.
-  Github,  ///< Workflow commands of GitHub Actions: an annotation in a line for each finding.
+  Github,  ///< Workflow commands of GitHub Actions: a line for each finding, which becomes an annotation.
 };
 inline constexpr std::array<std::pair<const char*, CheckFormat>, 3> kCheckFormats{
     {{"sarif", CheckFormat::Sarif}, {"junit", CheckFormat::Junit}, {"github", CheckFormat::Github}}};

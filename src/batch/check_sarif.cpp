@@ -54,7 +54,7 @@ const char* levelOf(const CheckItem& item) {
   return item.level == "note" ? "note" : item.level == "notJudged" ? "warning" : "error";
 }
 
-/// Stable while the place moves by less than a part of the limit.
+/// Equal for findings of one kind whose places are in the same cell of a grid with cells as wide as the limit.
 std::string fingerprintOf(const CheckItem& item) {
   std::string print = item.kind;
   if (!item.finding.is_object() || !item.finding.contains("place")) return print;

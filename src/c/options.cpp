@@ -5,6 +5,7 @@
 #include "c/call_guard.h"
 #include "c/handles.h"
 #include "core/text.h"
+#include "describe/option_json.h"
 #include "describe/option_rules.h"
 
 namespace asdfvk::c {
@@ -53,9 +54,7 @@ GivenOptions setAll(const OptionRows& rows, const asdf_vk_options* handle, const
   for (const OptionRows* const rows : {&all.ofComputation, &all.ofSession})
     for (const OptionRow& row : *rows)
       if (rowOf(*rows, row.name) != nullptr) names.emplace_back(row.name);
-  const std::string similar = similarNames(name, names);
-  throw Error(ErrorCode::UnknownName,
-              fmt::format("there is no option '{}'{}", name, similar.empty() ? "" : "; did you mean " + similar + "?"));
+  throw Error(ErrorCode::UnknownName, fmt::format("there is no option '{}'{}", name, similarNameQuestion(name, names)));
 }
 
 }  // namespace

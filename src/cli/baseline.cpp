@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
+#include "core/shallow_json.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFormatVersion = 1;
-constexpr int kMaxDepth = 16;
 constexpr const char* kVersionKey = "formatVersion";
 constexpr const char* kPlacesKey = "known";
 /// A place that is thinner by more than this share is new.
@@ -77,12 +77,8 @@ Json readObject(const std::string& path, const std::string& use) {
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   Json json;
   try {
-    json = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
-      // Copies of deep values are recursive and would overflow the stack.
-      if (depth > kMaxDepth) throw std::length_error("nested too deep");
-      return true;
-    });
-  } catch (const std::exception&) {  // Invalid JSON.
+    json = parsedShallowJson(text);
+  } catch (const std::exception&) {  // The next condition is about this case, too.
   }
   if (!json.is_object())
     throw Error(ErrorCode::UnreadableInput,

@@ -28,9 +28,9 @@ struct Baseline {
   std::string folder;
   std::map<std::string, std::vector<KnownPlace>> places;
 
-  /// Makes the failures that are known to notes. A finding is known if a known place of the same kind and the same
-  /// bodies is at most the limit away from it or from its opposite point, and if it is not thinner, closer or greater
-  /// by more than 5 %.
+  /// Turns known failures into notes. A finding is known if a known place has the same kind and the same bodies, if it
+  /// is at most the limit away from the finding or from its opposite point, and if the finding is not worse by more
+  /// than 5 %.
   void mark(const std::string& mesh, std::vector<Finding>& findings) const;
 };
 
@@ -40,8 +40,8 @@ ASDFVK_JSON(Baseline, folder, places)
 /// Throws Error{UnreadableInput}.
 [[nodiscard]] Baseline readBaseline(const std::string& path);
 
-/// Writes the failures of the records as known places. Known places of other meshes stay. Meshes without a result keep
-/// theirs, too. Throws Error{OutputNotWritable} and the errors of readBaseline().
+/// Writes the failures of the records as known places. The places of other meshes stay, and so do those of meshes that
+/// were skipped or have no result. Throws Error{OutputNotWritable} and the errors of readBaseline().
 void updateBaseline(const std::string& path, std::span<const MeshRecord> records);
 
 /// The path of a mesh relative to a folder; "-" stays.

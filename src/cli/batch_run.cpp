@@ -188,7 +188,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   Monitor monitor({.log = batch.log,
                    .printsReports = outputs.json,
                    .showsProgress = batch.isBatch(),
-                   .keepsRecords = !outputs.reportFormat.empty() || outputs.updatesBaseline,
+                   .keepsRecords = outputs.needsRecords(),
                    .isCheck = settings.computation.isCheck() || !outputs.limits.empty(),
                    .isQuiet = outputs.quiet},
                   jobs);

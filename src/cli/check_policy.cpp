@@ -11,6 +11,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "describe/option_json.h"
 #include "describe/option_rules.h"
 #include "describe/report_json.h"
 
@@ -30,13 +31,10 @@ bool matches(const LimitRule& rule, const std::string& path) {
 
 /// Unset for null. Throws Error{UnreadableInput}.
 OptionValue valueOf(const Json& json, const std::string& name) {
-  if (json.is_null()) return {};
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number_unsigned()) return json.get<uint64_t>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_string()) return json.get<std::string>();
-  throw Error(ErrorCode::UnreadableInput,
-              fmt::format("the limit {} is neither a number, a text such as \"0.8mm\", true, false nor null", name));
+  if (json.is_structured())
+    throw Error(ErrorCode::UnreadableInput,
+                fmt::format("the limit {} is neither a number, a text such as \"0.8mm\", true, false nor null", name));
+  return optionValueOf(json);
 }
 
 void removeLimit(ComputationSettings& settings, const std::string& name) {

@@ -22,7 +22,7 @@
 namespace asdfvk {
 namespace {
 
-/// Points stay.
+/// Removes lists, but not points.
 Json withoutLists(Json object) {
   Json kept;
   for (auto& [key, value] : object.items())

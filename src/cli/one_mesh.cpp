@@ -246,8 +246,10 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     if (ownPage && settings.outputs.opensPage) openInBrowser(output);
     if (isAmongOthers) result.fields = std::move(ofMesh);
     if (settings.outputs.json) run.json += jsonReport(outcome);
-    numberFacesByFile(result.report, loaded.mesh.inputFaceCount(), computed.faceCounts);
-    find();
+    if (isAmongOthers) {
+      numberFacesByFile(result.report, loaded.mesh.inputFaceCount(), computed.faceCounts);
+      find();
+    }
     addReport(outcome, settings.isOfBatch, run);
   };
 

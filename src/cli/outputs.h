@@ -36,6 +36,9 @@ struct Outputs {
   bool json = false;
   bool quiet = false;
   bool verbose = false;  ///< Prints the full report and the lines about devices.
+
+  /// Whether the records of all meshes are kept until the end of the run.
+  [[nodiscard]] bool needsRecords() const { return !reportFormat.empty() || updatesBaseline; }
 };
 
 struct BatchOptions {

@@ -44,9 +44,6 @@ CheckPolicy policyOf(const Outputs& outputs) {
   return policy;
 }
 
-/// Whether the records of the meshes are needed.
-bool needsRecords(const Outputs& outputs) { return !outputs.reportFormat.empty() || outputs.updatesBaseline; }
-
 MeshSettings settingsWithPolicy(const CommandLine& line) {
   MeshSettings settings = meshSettingsOf(line);
   settings.policy = policyOf(line.outputs);
@@ -148,7 +145,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   const Interrupt interrupt;
   if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
   if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());
-  if (line.meshes.size() == 1 && !line.batch.isBatch() && !needsRecords(line.outputs))
+  if (line.meshes.size() == 1 && !line.batch.isBatch() && !line.outputs.needsRecords())
     return computeOneMesh(line.meshes.front(), settingsWithPolicy(line), interrupt.token());
   return computeBatch(line.meshes, settingsWithPolicy(line), line.batch, interrupt.token());
 }

@@ -110,9 +110,10 @@ FindingLevel levelOf(bool isChecked, ThicknessVerdict verdict, bool isCertain) {
 }
 
 void addSpaces(const Report& report, const CheckedSpaces& checked, std::vector<Finding>& findings) {
+  const ThicknessVerdict onVoids = voidsVerdict(report).first, onContacts = contactVerdict(report).first;
   for (const SealedVoid& each : report.voids)
     findings.push_back({.kind = FindingKind::SealedVoid,
-                        .level = levelOf(checked.voids, voidsVerdict(report).first, each.isCertain),
+                        .level = levelOf(checked.voids, onVoids, each.isCertain),
                         .value = each.volume,
                         .place = each.place,
                         .face = each.face,
@@ -123,7 +124,7 @@ void addSpaces(const Report& report, const CheckedSpaces& checked, std::vector<F
                                                  : "unite the bodies that overlap in a common plane there"});
   for (const BodyContact& contact : report.contacts)
     findings.push_back({.kind = FindingKind::BodiesInContact,
-                        .level = levelOf(checked.contacts, contactVerdict(report).first, true),
+                        .level = levelOf(checked.contacts, onContacts, true),
                         .bodies = contact.bodies,
                         .message = fmt::format("bodies in contact: {} and {}", contact.bodies[0], contact.bodies[1]),
                         .remedy = "move the bodies apart, or unite them to one body"});
