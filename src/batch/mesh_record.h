@@ -21,33 +21,39 @@ enum class MeshStatus {
   Failed,
   Dropped,  ///< The run was cancelled while this mesh was computed.
 };
-inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses{{{MeshStatus::Done, "done"},
-                                                                                  {MeshStatus::Skipped, "skipped"},
-                                                                                  {MeshStatus::Failed, "failed"},
-                                                                                  {MeshStatus::Dropped, "dropped"}}};
+inline constexpr std::array<std::pair<const char*, MeshStatus>, 4> kMeshStatuses{{{"done", MeshStatus::Done},
+                                                                                  {"skipped", MeshStatus::Skipped},
+                                                                                  {"failed", MeshStatus::Failed},
+                                                                                  {"dropped", MeshStatus::Dropped}}};
+constexpr const char* enumerationName(MeshStatus) { return "MeshStatus"; }
+constexpr const auto& choicesOf(MeshStatus) { return kMeshStatuses; }
 [[nodiscard]] const char* nameOf(MeshStatus status);
 
 /// Record of a mesh of a batch: a line of the log, and the content of the file beside the output.
 struct MeshRecord {
-  std::string input;
+  int formatVersion = kJsonFormatVersion;  ///< Version of the format of JSON documents.
+  std::string input;                       ///< Path of the mesh.
+  /// Bytes of the path as hexadecimal digits; exists only if the path is not valid UTF-8.
+  OptionalKey<std::string> inputBytes;
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
-  std::optional<std::string> output;               ///< Unset if no output was written.
-  std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
-  /// Values of the JSON report other than lists, except for points and findings; null or unset if unknown.
+  std::optional<std::string> output;               ///< Path of the result; unset if no output was written.
+  std::string inputHash, optionsHash, outputHash;  ///< XXH3 hashes of input, options and output; empty if unknown.
+  /// Value of the JSON report; unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
-  std::optional<uint32_t> segmentCount;
-  std::string unit;
+  std::optional<uint32_t> segmentCount;  ///< Value of the JSON report; unset if unknown.
+  std::string unit;                      ///< Value of the JSON report.
+  /// Value of the JSON report without lists, except for points and findings; null if unknown.
   Json sdf, thickness, parts, estimatedError, findings, options;
-  std::string version, commit, device, backend;
-  std::map<std::string, double> seconds;  ///< Seconds of each stage that ran.
-  double totalSeconds = 0;                ///< Time from the start of reading to the end of writing.
-  uint64_t peakMemoryBytes = 0;
-  std::vector<std::string> warnings;  ///< Codes of the warnings.
-  MeshStatus status = MeshStatus::Done;
-  int code = 0;         ///< Exit code of this mesh.
-  std::string error;    ///< Name of the error; empty without a failure.
-  std::string message;  ///< Message of the error in one line; empty without a failure.
+  std::string version, commit, device, backend;  ///< Value of the JSON report; empty if unknown.
+  std::map<std::string, double> seconds;         ///< Seconds of each stage that ran.
+  double totalSeconds = 0;                       ///< Time from the start of reading to the end of writing, in seconds.
+  uint64_t peakMemoryBytes = 0;                  ///< Greatest resident memory of the process, in bytes.
+  std::vector<std::string> warnings;             ///< Codes of the warnings.
+  MeshStatus status = MeshStatus::Done;          ///< What became of the mesh.
+  int code = 0;                                  ///< Exit code of this mesh.
+  std::string error;                             ///< Name of the error; null without a failure.
+  std::string message;                           ///< The reason of the failure in one line; empty without a failure.
 };
 
 /// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". The alphabetical order of these texts
@@ -66,10 +72,10 @@ struct MeshRecord {
 
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
-ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
-            noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
-            peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
-            options)
+ASDFVK_JSON(MeshRecord, formatVersion, input, inputBytes, status, code, error, message, warnings, faceCount,
+            vertexCount, componentCount, noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError,
+            findings, totalSeconds, seconds, peakMemoryBytes, backend, device, output, time, version, commit, inputHash,
+            optionsHash, outputHash, options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
 /// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.
