@@ -15,6 +15,7 @@ struct Job {
   uint64_t byteCount = 0;     ///< Size of the input file; 0 if unknown.
   bool isStream = false;  ///< Whether the input is not a regular file, for example a FIFO. A worker may be unable to
                           ///< read such a file.
+  std::string key;        ///< InputFile::key
 };
 
 /// The result of a job. The texts are empty or consist of complete lines.
@@ -30,7 +31,7 @@ struct ComputerDescription {
   bool isCpu = true;
 };
 
-ASDFVK_JSON(Job, input, output)  // The members that a worker needs.
+ASDFVK_JSON(Job, input, output, key)  // The members that a worker needs.
 ASDFVK_JSON(JobResult, record, report, messages)
 ASDFVK_JSON(ComputerDescription, backend, deviceLines, isCpu)
 

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 #include "core/median.h"
 #include "core/text.h"
@@ -44,6 +45,7 @@ Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");
   for (const char* key : {"inputHash", "optionsHash", "outputHash", "options", "findings"}) row.erase(key);
+  if (mesh.key.empty()) row.erase("key");
   for (const char* key : {"sdf", "thickness", "parts", "estimatedError"})
     if (const Json& values = row.at(key);
         std::all_of(values.begin(), values.end(), [](const Json& value) { return value.is_null(); }))
@@ -98,15 +100,16 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   LogSummary summary;
   summary.recordCount = records.size();
   summary.invalidLineCount = invalidLineCount;
-  std::unordered_map<std::string, size_t> lastOf;
+  std::map<std::pair<std::string, std::string>, size_t> lastOf;  // By input and key.
+  const auto identityOf = [](const MeshRecord& record) { return std::pair(record.input, record.key); };
   for (size_t i = 0; i < records.size(); ++i) {
-    const auto [last, isFirst] = lastOf.emplace(records[i].input, i);
+    const auto [last, isFirst] = lastOf.emplace(identityOf(records[i]), i);
     if (!isFirst && records[i].time >= records[last->second].time) last->second = i;
   }
   for (size_t i = 0; i < records.size(); ++i)
-    if (lastOf[records[i].input] == i) summary.meshes.push_back(std::move(records[i]));
+    if (lastOf[identityOf(records[i])] == i) summary.meshes.push_back(std::move(records[i]));
   std::sort(summary.meshes.begin(), summary.meshes.end(),
-            [](const MeshRecord& a, const MeshRecord& b) { return a.input < b.input; });
+            [](const MeshRecord& a, const MeshRecord& b) { return std::tie(a.input, a.key) < std::tie(b.input, b.key); });
 
   std::vector<double> seconds, errors;
   std::map<std::string, double> stages;

@@ -71,6 +71,7 @@ std::string utcTime() {
 Json toJson(const MeshRecord& record) {
   Json json = record;
   if (record.error.empty()) json["error"] = nullptr;
+  if (record.key.empty()) json["key"] = nullptr;
   if (survivesJson(record.input)) return json;
   std::string hex;
   for (const char c : record.input) hex += fmt::format("{:02x}", static_cast<unsigned char>(c));

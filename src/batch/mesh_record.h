@@ -30,6 +30,7 @@ inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses
 /// Record of a mesh of a batch: a line of the log, and the content of the file beside the output.
 struct MeshRecord {
   std::string input;
+  std::string key;  ///< InputFile::key
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
   std::optional<std::string> output;               ///< Unset if no output was written.
@@ -66,7 +67,7 @@ struct MeshRecord {
 
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
-ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
+ASDFVK_JSON(MeshRecord, input, key, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
             noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
             peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
             options)

@@ -57,6 +57,7 @@ std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const f
       outputHashOf(output) != record->outputHash)
     return std::nullopt;
   record->input = expected.input;
+  record->key = expected.key;
   record->output = output.string();
   record->time = expected.time;
   record->status = MeshStatus::Skipped;

@@ -79,7 +79,7 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
     std::error_code ignored;
     const fs::file_status status = fs::status(inputs[i].path, ignored);
     const bool isStream = inputs[i].path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
-    jobs.push_back({inputs[i].path, paths[i], inputs[i].byteCount, isStream});
+    jobs.push_back({inputs[i].path, paths[i], inputs[i].byteCount, isStream, inputs[i].key});
   }
   return jobs;
 }
@@ -117,6 +117,7 @@ std::vector<MeshRecord> allRecords(const Monitor& monitor, const std::vector<Job
   for (const size_t i : monitor.unfinishedJobs()) {
     MeshRecord& record = records.emplace_back();
     record.input = jobs[i].input;
+    record.key = jobs[i].key;
     record.status = MeshStatus::Failed;
     record.code = static_cast<int>(ofUnfinished);
     record.error = "notComputed";

@@ -88,6 +88,7 @@ JobRecords::JobRecords(const MeshSettings& settings)
 MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;
   record.input = job.input;
+  record.key = job.key;
   record.time = utcTime();
   record.optionsHash = optionsHash_;
   record.options = options_;

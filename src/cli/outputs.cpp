@@ -25,9 +25,11 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
-/// The name of a result, for example "horse.asdf.vtu" for "dir/horse.ply".
-std::string resultName(const std::string& mesh, const std::string& format) {
-  const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
+/// The name of a result, for example "horse.asdf.vtu" for "dir/horse.ply" or for the key "dir/horse".
+std::string resultName(const InputFile& input, const std::string& format) {
+  const std::string stem = !input.key.empty()  ? fs::path(input.key).filename().string()
+                           : input.path == "-" ? "stdin"
+                                               : fs::path(input.path).stem().string();
   return stem + ".asdf." + (format.empty() ? "ply" : format);
 }
 
@@ -68,10 +70,12 @@ std::string planOutput(const InputFile& input, const Outputs& outputs, const Bat
   if (!outputs.writesResult) return {};
   if (outputs.path == "-") return "-";
   if (takesFolder(outputs, batch))
-    return (fs::path(outputs.path) / input.folder / resultName(mesh, outputs.format)).string();
+    return (fs::path(outputs.path) / input.folder / resultName(input, outputs.format)).string();
   if (!outputs.path.empty()) return outputs.path;
   if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
-  return (fs::path(mesh).parent_path() / resultName(mesh, outputs.format)).string();
+  if (!input.key.empty() && !input.folder.empty())
+    usageError(fmt::format("the key {} of {} has a folder, which is made below -o; give -o FOLDER", input.key, mesh));
+  return (fs::path(mesh).parent_path() / resultName(input, outputs.format)).string();
 }
 
 std::string normalised(const fs::path& path) {

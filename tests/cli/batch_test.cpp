@@ -72,6 +72,31 @@ TEST_CASE("a list of meshes gives the same tree, also from standard input with z
   CHECK(resultsIn(tree / "a") == resultsIn(tree / "c"));
 }
 
+TEST_CASE("keys of a list name results and are in the records, also of worker processes, failures and skipped meshes") {
+  const MeshTree tree;
+  const std::string list = tree.folder.write(
+      "list", tree / "in/s0.off" + "\tfirst\n" + (tree / "in/s0.off") + "\tb/second\n" + (tree / "in/deep/bad.off") +
+                  "\tb/third\n" + (tree / "in/s1.off") + "\n");
+  for (const Names& more : {Names{}, Names{"--isolate"}, Names{"--skip-existing"}}) {
+    fs::remove(tree / "log");
+    Names arguments{"--files-from", list, "-o", tree / "out", "--log", tree / "log", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    CHECK_EQ(runBatch(arguments).exitCode, 7);
+    const auto results = resultsIn(tree / "out");
+    CHECK_EQ(results.size(), 3);
+    CHECK(results.at("first.asdf.npy") == results.at("b/second.asdf.npy"));
+    CHECK(results.contains("s1.asdf.npy"));
+    std::multiset<std::string> keys;
+    for (const Json& record : recordsIn(tree / "log"))
+      keys.insert(record.at("key").is_null() ? "" : record.at("key").get<std::string>());
+    CHECK(keys == std::multiset<std::string>{"", "first", "b/second", "b/third"});
+  }
+  CHECK_EQ(Json::parse(runAsdf({"summarize", tree / "log", "--json"}).output).at("meshCount").get<int>(), 4);
+  CHECK_NE(runAsdf({"summarize", tree / "log", "--format", "csv"}).output.find("input,key,status"), std::string::npos);
+  const std::string unsafe = tree.folder.write("unsafe", tree / "in/s0.off" + "\t../x\n");
+  checkFailure(runBatch({"--files-from", unsafe, "-o", tree / "out", "--quiet"}), 2, "line 1: the key '../x'");
+}
+
 TEST_CASE("results do not depend on --jobs and --isolate") {
   const MeshTree tree;
   CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "one", "--jobs", "1", "--quiet"}).exitCode, 7);

@@ -69,6 +69,9 @@ def main() -> int:
     if not any(option == "--threads" or option.startswith("--threads=") for option in options):
         options += ["--threads", "1"]
     names = pathlib.Path(list_file).read_text(errors="surrogateescape").split("\n")
+    if any("\t" in name for name in names):
+        print(f"{list_file}: this recipe takes no keys; remove the tabs, or use a recipe with shards", file=sys.stderr)
+        return 2
     meshes = [os.path.abspath(name) for name in (name.removesuffix("\r") for name in names) if name]
     if not meshes:
         print(f"{list_file}: no mesh was found", file=sys.stderr)
