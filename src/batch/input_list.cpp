@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -203,14 +204,22 @@ std::vector<InputFile> listInputs(const InputRequest& request) {
 }
 
 Shard parseShard(const std::string& text) {
+  return parseShard(text, [](const char* name) { return std::getenv(name); });
+}
+
+Shard parseShard(const std::string& text, const EnvironmentLookup& lookup) {
   const size_t slash = std::min(text.find('/'), text.size());
   const auto index = numberIn<uint32_t>(std::string_view(text).substr(0, slash)),
              count = numberIn<uint32_t>(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  const bool isAuto = text.starts_with("auto") && (text.size() == 4 || slash == 4);
+  if (isAuto && (slash == text.size() || (count && *count >= 1 && *count <= kMaxShardCount)))
+    return shardOfScheduler(count, lookup);
   if (!index || !count || *index < 1 || *index > *count || *count > kMaxShardCount)
     throw Error(
         ErrorCode::OptionOutOfRange,
-        fmt::format("'{}' is not I/N, such as 2/7; I is from 1 to N, and N is at most {}", text, kMaxShardCount));
-  return {*index, *count};
+        fmt::format("'{}' is not I/N, such as 2/7, or auto or auto/N; I is from 1 to N, and N is at most {}", text,
+                    kMaxShardCount));
+  return {*index, *count, ""};
 }
 
 std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "batch/scheduler_shard.h"
+
 namespace asdfvk {
 
 struct InputFile {
@@ -41,12 +43,14 @@ struct InputRequest {
 struct Shard {
   uint32_t index = 1;  ///< 1 to count.
   uint32_t count = 1;
+  std::string variable;  ///< The variable of a scheduler that determined the index; empty: none.
 };
 
 inline constexpr uint32_t kMaxShardCount = 1'000'000;
 
-/// Reads a shard such as "2/7". Throws Error{OptionOutOfRange}.
+/// Reads a shard such as "2/7", or "auto" or "auto/7" (shardOfScheduler()). Throws Error{OptionOutOfRange}.
 [[nodiscard]] Shard parseShard(const std::string& text);
+[[nodiscard]] Shard parseShard(const std::string& text, const EnvironmentLookup& lookup);
 
 /// Returns the indices of the inputs of the shard, ascending. Every input is in exactly one shard. To balance the
 /// shards, inputs are assigned in the order of decreasing file size. Each input goes to the shard with the fewest bytes

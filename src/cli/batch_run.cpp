@@ -186,6 +186,9 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
     listening.emplace();
     removeUnfinishedOutputs(jobs);
   }
+  if (batch.shard && !batch.shard->variable.empty() && !outputs.quiet)
+    writeStandardError(fmt::format("asdf-vk: part {} of {}, by {}\n", batch.shard->index, batch.shard->count,
+                                   batch.shard->variable));
   Monitor monitor({.log = batch.log,
                    .printsReports = outputs.json,
                    .showsProgress = batch.isBatch(),

@@ -150,8 +150,10 @@ OptionRows batchRows(BatchOptions& batch) {
                 .flags = "-0,--null"},
       OptionRow{.name = "shard",
                 .member = memberAs<ShardCodec>(&batch.shard),
-                .text = "Compute part I of N only; the parts have about the same size",
-                .placeholder = "I/N"},
+                .text = "Compute part I of N only; the parts have about the same size. auto: the variables of a "
+                        "scheduler determine I and N",
+                .more = "With `auto/N`, the scheduler determines I only ([cluster.md](cluster.md#schedulers)).",
+                .placeholder = "I/N|auto|auto/N"},
       OptionRow{.name = "log",
                 .member = &batch.log,
                 .text = "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads the records",

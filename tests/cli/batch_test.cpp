@@ -196,6 +196,22 @@ TEST_CASE("the shards of a batch are the whole") {
   CHECK(resultsIn(tree / "parts") == resultsIn(tree / "whole"));
 }
 
+TEST_CASE("--shard auto computes the part of the scheduler and names it, and is refused without one") {
+  const MeshTree tree(false);
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
+  const Names arguments{"-r",      tree.root, "-o",        tree / "parts", "--format", "npy",
+                        "--shard", "auto/2",  "--backend", "reference"};
+  for (const char* index : {"0", "1"}) {
+    const ChildOutcome outcome = runAsdf(arguments, {.environment = {{"JOB_COMPLETION_INDEX", index}}});
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    CHECK(outcome.error.starts_with(index[0] == '0' ? "asdf-vk: part 1 of 2, by JOB_COMPLETION_INDEX\n"
+                                                    : "asdf-vk: part 2 of 2, by JOB_COMPLETION_INDEX\n"));
+  }
+  CHECK(resultsIn(tree / "parts") == resultsIn(tree / "whole"));
+  checkFailure(runAsdf(arguments), 1, "--shard: auto: none of these variables of schedulers is set: AWS_BATCH_JOB_");
+}
+
 TEST_CASE("summarize counts the last record of each mesh, as text and JSON") {
   const MeshTree tree;
   CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--quiet"}).exitCode, 7);
