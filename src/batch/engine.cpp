@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <thread>
 #include <utility>
@@ -35,6 +36,29 @@ class Engine {
   Engine(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
          const std::stop_token& stop)
       : jobs_(jobs), options_(options), client_(client), monitor_(monitor), stop_(stop) {}
+
+  void run(JobStream& stream) {
+    const uint32_t atOnce = options_.requestedAtOnce > 0 ? options_.requestedAtOnce : options_.threadCount;
+    const JobPhase phase{.jobs = {}, .atOnce = atOnce, .threadCount = std::max(1U, options_.threadCount / atOnce)};
+    std::map<size_t, Job> current;  // Without their contents.
+    monitor_.beginComputation();
+    const JobSupply supply([&](size_t) { return stream.next(); }, stream.descriptor());
+    const auto request = [&](size_t i) {
+      Job& job = current[i] = stream.take(i);
+      std::string message = encode(job);
+      job.content.emplace();
+      return message;
+    };
+    const auto finished = [&](JobOutcome outcome) {
+      const auto job = current.find(outcome.job);
+      auto [result, isSpent] = resultOf(job->second, std::move(outcome));
+      stream.add(job->first, std::move(result));
+      current.erase(job);
+      return !isSpent;
+    };
+    const std::optional<OpenFailure> failure = runInWorkerPool(phase, supply, request, finished);
+    if (failure) report(*failure, stream.next() != JobSupply::State::Ended);
+  }
 
   void run() {
     std::vector<size_t> pending = addFinished();
@@ -101,6 +125,28 @@ class Engine {
   }
 
   void runInWorkerPool(const JobPhase& phase) {
+    size_t endedCount = 0;
+    const auto request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); };
+    const auto finished = [&](JobOutcome outcome) {
+      ++endedCount;
+      const size_t index = phase.jobs[outcome.job];
+      auto [result, isSpent] = resultOf(jobs_[index], std::move(outcome));
+      monitor_.add(index, std::move(result));
+      return !isSpent;
+    };
+    const std::optional<OpenFailure> failure = runInWorkerPool(phase, phase.jobs.size(), request, finished);
+    if (failure) report(*failure, endedCount < phase.jobs.size());
+  }
+
+  void report(const OpenFailure& failure, bool hasJobs) {
+    if (hasJobs) throw OpenFailure(failure);
+    monitor_.note(fmt::format("not all workers have started: {}", failure.what()));
+  }
+
+  /// Returns the failure of the latest worker that could not start, unless a stop was requested.
+  template <typename Request, typename Finished>
+  std::optional<OpenFailure> runInWorkerPool(const JobPhase& phase, const JobSupply& jobs, const Request& request,
+                                             const Finished& finished) {
     const uint32_t onGpu = atOnceOnGpu(phase);
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
     const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, even if its file was replaced.
@@ -109,9 +155,8 @@ class Engine {
                                  .workerCount = phase.atOnce,
                                  .timeoutSeconds = options_.timeoutSeconds,
                                  .memoryBytes = options_.memoryBytes};
-    std::optional<OpenFailure> failure;  // Failure of the latest worker that could not start.
-    size_t endedCount = 0;
-    const WorkerPoolClient client{.request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); },
+    std::optional<OpenFailure> failure;
+    const WorkerPoolClient client{.request = request,
                                   .ready = [&](const std::string& answer) -> uint32_t {
                                     const Json json = decode(answer);
                                     if (json.contains("failure")) {
@@ -122,21 +167,15 @@ class Engine {
                                     monitor_.announce(description);
                                     return description.isCpu ? phase.atOnce : onGpu;
                                   },
-                                  .finished =
-                                      [&](const JobOutcome& outcome) {
-                                        ++endedCount;
-                                        return takeOutcome(phase.jobs[outcome.job], outcome);
-                                      }};
-    const std::string reason = runOnWorkers(phase.jobs.size(), pool, client, stop_);
+                                  .finished = finished};
+    const std::string reason = runOnWorkers(jobs, pool, client, stop_);
     if (!reason.empty()) failure = OpenFailure(kInternalCode, "internal", "a worker process cannot start: " + reason);
-    if (!failure || stop_.stop_requested()) return;
-    if (endedCount < phase.jobs.size()) throw OpenFailure(*failure);
-    monitor_.note(fmt::format("not all workers have started: {}", failure->what()));
+    if (stop_.stop_requested()) return {};
+    return failure;
   }
 
-  /// Adds the result of a job. Returns whether the worker gets further jobs.
-  bool takeOutcome(size_t index, JobOutcome outcome) {
-    const Job& job = jobs_[index];
+  /// Returns the result of a job, and whether its worker gets no further job.
+  std::pair<JobResult, bool> resultOf(const Job& job, JobOutcome outcome) {
     bool isDropped =
         outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == 0 && outcome.workerEnd.exitCode == kCancelledCode;
     if (outcome.end == JobEnd::Answered) {
@@ -144,11 +183,8 @@ class Engine {
       auto result = answer.at("result").get<JobResult>();
       result.record.options = client_.recordOptions;
       isDropped = result.record.status == MeshStatus::Dropped;
-      if (!isDropped || isStopping(stop_)) {
-        monitor_.add(index, std::move(result));
-        return !answer.at("isSpent").get<bool>();
-      }
-    } else if (!job.output.empty()) {
+      if (!isDropped || isStopping(stop_)) return {std::move(result), answer.at("isSpent").get<bool>()};
+    } else if (!job.output.empty() && !job.content) {
       const auto folder = std::filesystem::path(job.output).parent_path();
       removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
     }
@@ -156,8 +192,7 @@ class Engine {
     JobResult result = client_.fail(job, outcome);
     result.record.totalSeconds = outcome.seconds;
     result.record.peakMemoryBytes = outcome.peakBytes;
-    monitor_.add(index, std::move(result));
-    return false;
+    return {std::move(result), true};
   }
 
   const std::vector<Job>& jobs_;
@@ -198,6 +233,12 @@ std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t>
 void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
              const std::stop_token& stop) {
   Engine(jobs, options, client, monitor, stop).run();
+}
+
+void runStream(JobStream& stream, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
+               const std::stop_token& stop) {
+  const std::vector<Job> none;
+  Engine(none, options, client, monitor, stop).run(stream);
 }
 
 }  // namespace asdfvk

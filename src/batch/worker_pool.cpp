@@ -37,9 +37,9 @@ struct Worker {
 
 class WorkerPool {
  public:
-  WorkerPool(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+  WorkerPool(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
              const std::stop_token& stop)
-      : jobCount_(jobCount), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
+      : jobs_(jobs), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
 
   std::string run() {
     for (;;) {
@@ -53,10 +53,10 @@ class WorkerPool {
   }
 
  private:
-  [[nodiscard]] bool hasJobs() const { return next_ < jobCount_ && !stopWatch_; }
+  [[nodiscard]] bool isAt(JobSupply::State state) const { return !stopWatch_ && jobs_.next(next_) == state; }
   [[nodiscard]] bool isIdle() const {
     const bool hasWorkers = std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
-    return !(hasJobs() && hasWorkers) &&
+    return (!hasWorkers || stopWatch_ || isAt(JobSupply::State::Ended)) &&
            std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
   }
 
@@ -82,7 +82,7 @@ class WorkerPool {
   }
 
   void feed(Worker& worker) {
-    if (!hasJobs() || worker.job) return;
+    if (worker.job || !isAt(JobSupply::State::Ready)) return;
     if (worker.process && worker.hasServed && hasGrown(worker)) worker.process.reset();
     if (!worker.process && mayStart(worker)) start(worker);
     if (!worker.process || !worker.isReady) return;
@@ -105,6 +105,7 @@ class WorkerPool {
     std::vector<pollfd> polled;
     for (const Worker& worker : workers_)
       if (worker.process) polled.push_back({worker.process->descriptor(), POLLIN, 0});
+    if (jobs_.descriptor >= 0 && !stopWatch_) polled.push_back({jobs_.descriptor, POLLIN, 0});
     double milliseconds = options_.memoryBytes > 0 ? kMemoryPollMilliseconds : kPollMilliseconds;
     if (std::isfinite(options_.timeoutSeconds))
       for (const Worker& worker : workers_)
@@ -198,7 +199,8 @@ class WorkerPool {
       if (worker.process && worker.job) worker.process->signal(SIGTERM);
   }
 
-  size_t jobCount_, next_ = 0;
+  const JobSupply& jobs_;
+  size_t next_ = 0;
   const WorkerPoolOptions& options_;
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
@@ -211,9 +213,9 @@ class WorkerPool {
 
 }  // namespace
 
-std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+std::string runOnWorkers(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop) {
-  return WorkerPool(jobCount, options, client, stop).run();
+  return WorkerPool(jobs, options, client, stop).run();
 }
 
 }  // namespace asdfvk

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "batch/worker_process.h"
@@ -43,6 +44,19 @@ struct JobOutcome {
   pid_t worker = 0;
 };
 
+/// Which jobs a pool can begin.
+struct JobSupply {
+  enum class State { Ready, Later, Ended };
+
+  /// The jobs 0 .. count - 1.
+  JobSupply(size_t count) : next([count](size_t job) { return job < count ? State::Ready : State::Ended; }) {}
+  /// Jobs that arrive later. arrival: a descriptor for poll() that is readable when next() may have changed.
+  JobSupply(std::function<State(size_t job)> nextJob, int arrival) : next(std::move(nextJob)), descriptor(arrival) {}
+
+  std::function<State(size_t job)> next;  ///< Whether the job can begin. Called with the jobs in their order.
+  int descriptor = -1;                    ///< -1: none.
+};
+
 struct WorkerPoolClient {
   std::function<std::string(size_t job)> request;
   /// Called with a worker's answer to the greeting. Returns the greatest number of workers; 0 if the worker cannot
@@ -52,7 +66,7 @@ struct WorkerPoolClient {
   std::function<bool(const JobOutcome& outcome)> finished;
 };
 
-/// Runs the jobs 0 .. jobCount - 1 in worker processes. Each worker runs one job at a time. Jobs begin in the order of
+/// Runs the jobs 0, 1, ... in worker processes. Each worker runs one job at a time. Jobs begin in the order of
 /// their numbers. A worker that crashes or exceeds a limit is replaced, so that only its current job fails.
 ///
 /// One worker starts first. The other workers start when the first one is ready. A worker is given up (no longer
@@ -63,7 +77,7 @@ struct WorkerPoolClient {
 /// all workers are given up, or, after a stop request, when the current jobs have ended. Returns the reason of the
 /// latest failed start after which a worker was given up, or an empty text. Throws std::system_error if the system
 /// cannot start any worker.
-std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+std::string runOnWorkers(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop);
 
 }  // namespace asdfvk

@@ -150,10 +150,11 @@ void completeLimits(CommandLine& line, const GivenOptions& given) {
 }
 
 void completeResult(CommandLine& line, const GivenOptions& given) {
-  constexpr std::array kAboutResult{"output", "format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
-  line.outputs.writesResult =
-      !(line.computation.isCheck() || !line.outputs.limits.empty()) ||
-      std::any_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  constexpr std::array kAboutResult{"format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
+  line.outputs.writesRecordsOnly =
+      (line.computation.isCheck() || !line.outputs.limits.empty()) &&
+      std::none_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  line.outputs.writesResult = !line.outputs.writesRecordsOnly || given.has("output") || given.has("keep-members");
   if (!line.outputs.writesResult && line.batch.skipsExisting)
     refuseOptions("--skip-existing looks for results, but --fail-if-... writes none without -o; give -o");
 }
@@ -188,7 +189,7 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
   if (given.has("log") && batch.log.empty()) refuseOptions("--log: the name is empty");
   if (batch.list == "-" && readsInput)
     refuseOptions("--files-from - and the mesh '-' both read standard input; name a file instead of one of the two");
-  if (batch.isolates && readsInput)
+  if (batch.isolates && readsInput && !batch.readsTars)
     refuseOptions(
         "--isolate and --memory-limit compute in other processes, which cannot read the mesh '-'; name a file instead "
         "of '-'");
@@ -199,7 +200,10 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
       refuseOptions("for one page of all meshes, one mesh is computed after another; drop --jobs");
     return;
   }
-  if (line.outputs.path == "-") refuseOptions("standard output (-o -) holds one result; give -o a folder");
+  if (line.outputs.path == "-" && !batch.readsTars)
+    refuseOptions("standard output (-o -) holds one result; give -o a folder");
+  if (batch.readsTars && writesPages(line.outputs))
+    refuseOptions("a page is a file of its own, and no member of a tar; drop --tar, or --format html");
   if (!line.outputs.picture.empty() || !line.outputs.points.empty())
     refuseOptions(
         "--picture and --points take one mesh; drop them, or -r, --files-from, --log, --skip-existing, --shard and "

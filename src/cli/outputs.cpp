@@ -25,9 +25,12 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
+constexpr const char* kTarFormat = "tar";
+
 /// The name of a result, for example "horse.asdf.vtu" for "dir/horse.ply".
 std::string resultName(const std::string& mesh, const std::string& format) {
-  const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
+  std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
+  if (format == kTarFormat && stem.ends_with(".tar")) stem.resize(stem.size() - 4);  // A compressed tar.
   return stem + ".asdf." + (format.empty() ? "ply" : format);
 }
 
@@ -65,13 +68,13 @@ bool takesFolder(const Outputs& outputs, const BatchOptions& batch) {
 
 std::string planOutput(const InputFile& input, const Outputs& outputs, const BatchOptions& batch) {
   const std::string& mesh = input.path;
+  const std::string format = batch.readsTars ? kTarFormat : outputs.format;
   if (!outputs.writesResult) return {};
   if (outputs.path == "-") return "-";
-  if (takesFolder(outputs, batch))
-    return (fs::path(outputs.path) / input.folder / resultName(mesh, outputs.format)).string();
+  if (takesFolder(outputs, batch)) return (fs::path(outputs.path) / input.folder / resultName(mesh, format)).string();
   if (!outputs.path.empty()) return outputs.path;
   if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
-  return (fs::path(mesh).parent_path() / resultName(mesh, outputs.format)).string();
+  return (fs::path(mesh).parent_path() / resultName(mesh, format)).string();
 }
 
 std::string normalised(const fs::path& path) {
@@ -142,7 +145,8 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
           outputs.path));
   }
 
-  const WriteOptions options = writeOptionsOf(outputs, {});
+  WriteOptions options = writeOptionsOf(outputs, {});
+  if (batch.readsTars && options.format.empty()) options.format = "ply";
   std::vector<std::string> paths;
   std::unordered_map<std::string, std::string> meshOfOutput;
   for (const InputFile& file : files) {
@@ -158,7 +162,11 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     if (outputs.coloursVertices && (row == nullptr || !row->coloursByChoice))
       usageError("--vertex-colours is for PLY only; drop it");
     if (output != "-") {
-      if (const std::string named = formatNamedBy(output); !named.empty() && named != format)
+      const std::string named = formatNamedBy(output);
+      if (batch.readsTars && !named.empty())
+        usageError(
+            fmt::format("-o {} names a file of the format {}; --tar writes a tar: give -o FILE.tar", output, named));
+      if (!named.empty() && named != format)
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, outputs.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew && !sharePage && normalised(other->second) == normalised(mesh))
