@@ -53,7 +53,7 @@ std::optional<MeshRecord> readOutputRecord(const fs::path& output) {
 
 std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const fs::path& output) {
   std::optional<MeshRecord> record = readOutputRecord(output);
-  if (!record || record->status == MeshStatus::Failed || record->status == MeshStatus::Dropped ||
+  if (!record || (record->code != 0 && record->status != MeshStatus::Done) ||
       !haveSameOrigin(*record, expected) || record->outputHash.empty() || outputHashOf(output) != record->outputHash)
     return std::nullopt;
   record->input = expected.input;
