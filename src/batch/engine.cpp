@@ -111,22 +111,24 @@ class Engine {
                                  .memoryBytes = options_.memoryBytes};
     std::optional<OpenFailure> failure;  // Failure of the latest worker that could not start.
     size_t endedCount = 0;
-    const WorkerPoolClient client{.request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); },
-                                  .ready = [&](const std::string& answer) -> uint32_t {
-                                    const Json json = decode(answer);
-                                    if (json.contains("failure")) {
-                                      failure.emplace(json["code"], json["name"], json["failure"]);
-                                      return 0;
-                                    }
-                                    const auto description = json.get<ComputerDescription>();
-                                    monitor_.announce(description);
-                                    return description.isCpu ? phase.atOnce : onGpu;
-                                  },
-                                  .finished =
-                                      [&](const JobOutcome& outcome) {
-                                        ++endedCount;
-                                        return takeOutcome(phase.jobs[outcome.job], outcome);
-                                      }};
+    const WorkerPoolClient client{
+        .request = [&](size_t i, uint32_t attempt) { return encode(jobOfAttempt(phase.jobs[i], attempt)); },
+        .ready = [&](const std::string& answer) -> uint32_t {
+          const Json json = decode(answer);
+          if (json.contains("failure")) {
+            failure.emplace(json["code"], json["name"], json["failure"]);
+            return 0;
+          }
+          const auto description = json.get<ComputerDescription>();
+          monitor_.announce(description);
+          return description.isCpu ? phase.atOnce : onGpu;
+        },
+        .finished =
+            [&](const JobOutcome& outcome) {
+              ++endedCount;
+              return takeOutcome(phase.jobs[outcome.job], outcome);
+            },
+        .retried = [&](const JobOutcome& outcome) { removeUnfinishedOutput(jobs_[phase.jobs[outcome.job]], outcome); }};
     const std::string reason = runOnWorkers(phase.jobs.size(), pool, client, stop_);
     if (!reason.empty()) failure = OpenFailure(kInternalCode, "internal", "a worker process cannot start: " + reason);
     if (!failure || stop_.stop_requested()) return;
@@ -134,9 +136,21 @@ class Engine {
     monitor_.note(fmt::format("not all workers have started: {}", failure->what()));
   }
 
+  [[nodiscard]] Job jobOfAttempt(size_t index, uint32_t attempt) const {
+    Job job = jobs_[index];
+    job.attemptCount = attempt;
+    return job;
+  }
+
+  static void removeUnfinishedOutput(const Job& job, const JobOutcome& outcome) {
+    if (job.output.empty()) return;
+    const auto folder = std::filesystem::path(job.output).parent_path();
+    removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+  }
+
   /// Adds the result of a job. Returns whether the worker gets further jobs.
   bool takeOutcome(size_t index, JobOutcome outcome) {
-    const Job& job = jobs_[index];
+    const Job job = jobOfAttempt(index, outcome.attempt);
     bool isDropped =
         outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == 0 && outcome.workerEnd.exitCode == kCancelledCode;
     if (outcome.end == JobEnd::Answered) {
@@ -148,9 +162,8 @@ class Engine {
         monitor_.add(index, std::move(result));
         return !answer.at("isSpent").get<bool>();
       }
-    } else if (!job.output.empty()) {
-      const auto folder = std::filesystem::path(job.output).parent_path();
-      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    } else {
+      removeUnfinishedOutput(job, outcome);
     }
     if (isDropped) outcome.end = isStopping(stop_) ? JobEnd::Dropped : JobEnd::Terminated;
     JobResult result = client_.fail(job, outcome);

@@ -215,10 +215,9 @@ Shard parseShard(const std::string& text, const EnvironmentLookup& lookup) {
   if (isAuto && (slash == text.size() || (count && *count >= 1 && *count <= kMaxShardCount)))
     return shardOfScheduler(count, lookup);
   if (!index || !count || *index < 1 || *index > *count || *count > kMaxShardCount)
-    throw Error(
-        ErrorCode::OptionOutOfRange,
-        fmt::format("'{}' is not I/N, such as 2/7, or auto or auto/N; I is from 1 to N, and N is at most {}", text,
-                    kMaxShardCount));
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("'{}' is not I/N, such as 2/7, or auto or auto/N; I is from 1 to N, and N is at most {}",
+                            text, kMaxShardCount));
   return {*index, *count, ""};
 }
 

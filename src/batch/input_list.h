@@ -27,9 +27,9 @@ struct InputRequest {
   bool recurses = false;               ///< Whether meshes below folders are inputs.
   /// Path of a file with one path per line, or a path, a tab and a key; "-" for standard input; empty: none.
   std::string list;
-  bool isNullSeparated = false;        ///< The paths of the list end with a zero byte, and have no keys.
-  std::vector<std::string> formats;    ///< Extensions of meshes below folders, in lower case and without the dot.
-  std::string outputFolder;            ///< Folder that is not searched; empty: none.
+  bool isNullSeparated = false;      ///< The paths of the list end with a zero byte, and have no keys.
+  std::vector<std::string> formats;  ///< Extensions of meshes below folders, in lower case and without the dot.
+  std::string outputFolder;          ///< Folder that is not searched; empty: none.
 };
 
 /// Returns the inputs: first the arguments in their order, then the list. Meshes below a folder are in ascending order

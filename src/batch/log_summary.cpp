@@ -108,8 +108,9 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   }
   for (size_t i = 0; i < records.size(); ++i)
     if (lastOf[identityOf(records[i])] == i) summary.meshes.push_back(std::move(records[i]));
-  std::sort(summary.meshes.begin(), summary.meshes.end(),
-            [](const MeshRecord& a, const MeshRecord& b) { return std::tie(a.input, a.key) < std::tie(b.input, b.key); });
+  std::sort(summary.meshes.begin(), summary.meshes.end(), [](const MeshRecord& a, const MeshRecord& b) {
+    return std::tie(a.input, a.key) < std::tie(b.input, b.key);
+  });
 
   std::vector<double> seconds, errors;
   std::map<std::string, double> stages;

@@ -44,6 +44,7 @@ struct MeshRecord {
   std::map<std::string, double> seconds;  ///< Seconds of each stage that ran.
   double totalSeconds = 0;                ///< Time from the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
+  uint32_t attemptCount = 1;          ///< 2 if the first worker process was killed for its memory.
   std::vector<std::string> warnings;  ///< Codes of the warnings.
   MeshStatus status = MeshStatus::Done;
   int code = 0;         ///< Exit code of this mesh.
@@ -69,8 +70,8 @@ void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
 ASDFVK_JSON(MeshRecord, input, key, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
             noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
-            peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
-            options)
+            peakMemoryBytes, attemptCount, backend, device, output, time, version, commit, inputHash, optionsHash,
+            outputHash, options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
 /// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.

@@ -47,7 +47,8 @@ class Environment {
 
 /// Index of this task in an array of Slurm, from 0.
 uint32_t slurmArrayIndex(const Environment& environment) {
-  const uint32_t least = environment.number("SLURM_ARRAY_TASK_MIN"), greatest = environment.number("SLURM_ARRAY_TASK_MAX"),
+  const uint32_t least = environment.number("SLURM_ARRAY_TASK_MIN"),
+                 greatest = environment.number("SLURM_ARRAY_TASK_MAX"),
                  step = environment.has("SLURM_ARRAY_TASK_STEP") ? environment.number("SLURM_ARRAY_TASK_STEP") : 1,
                  id = environment.number(kArrayIndex), count = environment.number("SLURM_ARRAY_TASK_COUNT");
   // With --array=3,5,9 the variables do not determine the position of a task.
@@ -64,12 +65,12 @@ Shard shardOf(const Scheduler& scheduler, std::optional<uint32_t> given, const E
   if (!hasCount && !given)
     refuse(fmt::format("auto: {} is {}, but the number of parts is unknown; give auto/N", scheduler.index, index));
   const uint32_t count = hasCount ? environment.number(scheduler.count) : *given;
-  if (given && *given != count)
-    refuse(fmt::format("auto/{}: {} is {}; give auto", *given, scheduler.count, count));
+  if (given && *given != count) refuse(fmt::format("auto/{}: {} is {}; give auto", *given, scheduler.count, count));
   if (index >= count || count > kMaxShardCount)
-    refuse(fmt::format("auto: index {} of {} parts ({}) is out of range; indices begin at 0, and there are at most {} "
-                       "parts; give I/N",
-                       index, count, scheduler.index, kMaxShardCount));
+    refuse(
+        fmt::format("auto: index {} of {} parts ({}) is out of range; indices begin at 0, and there are at most {} "
+                    "parts; give I/N",
+                    index, count, scheduler.index, kMaxShardCount));
   return {index + 1, count, scheduler.index};
 }
 

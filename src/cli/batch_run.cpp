@@ -35,11 +35,14 @@ namespace fs = std::filesystem;
 
 /// The failure of a job whose worker process did not return a result.
 Failure failureOf(const JobOutcome& outcome, const BatchOptions& batch) {
+  const bool isSecond = outcome.attempt > 1;
   switch (outcome.end) {
     case JobEnd::TimedOut:
       return timeLimitFailure(batch.timeoutSeconds);
     case JobEnd::MemoryExceeded:
-      return {ExitCode::Limit, fmt::format("took {} MiB of memory, more than --memory-limit", outcome.peakBytes >> 20),
+      return {ExitCode::Limit,
+              fmt::format("took {} MiB of memory, more than --memory-limit{}", outcome.peakBytes >> 20,
+                          isSecond ? ", also in a second attempt alone" : ""),
               "memoryLimit"};
     case JobEnd::Dropped:
       return cancelledFailure();
@@ -50,8 +53,11 @@ Failure failureOf(const JobOutcome& outcome, const BatchOptions& batch) {
   }
   if (outcome.workerEnd.signal == SIGKILL)
     return {ExitCode::Internal,
-            "the worker process was killed (signal 9), probably because memory ran out; give --memory-limit, or fewer "
-            "--jobs",
+            isSecond
+                ? "the worker process was killed (signal 9) in two attempts, the second one alone, probably because "
+                  "memory ran out; use a machine with more memory, or a coarser mesh"
+                : "the worker process was killed (signal 9), probably because memory ran out; give "
+                  "--memory-limit, or fewer --jobs",
             "crashed"};
   return {ExitCode::Internal,
           fmt::format("internal error: the worker process {}; please report it", textOf(outcome.workerEnd)), "crashed"};
@@ -187,8 +193,8 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
     removeUnfinishedOutputs(jobs);
   }
   if (batch.shard && !batch.shard->variable.empty() && !outputs.quiet)
-    writeStandardError(fmt::format("asdf-vk: part {} of {}, by {}\n", batch.shard->index, batch.shard->count,
-                                   batch.shard->variable));
+    writeStandardError(
+        fmt::format("asdf-vk: part {} of {}, by {}\n", batch.shard->index, batch.shard->count, batch.shard->variable));
   Monitor monitor({.log = batch.log,
                    .printsReports = outputs.json,
                    .showsProgress = batch.isBatch(),

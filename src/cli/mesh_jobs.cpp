@@ -89,6 +89,7 @@ MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;
   record.input = job.input;
   record.key = job.key;
+  record.attemptCount = job.attemptCount;
   record.time = utcTime();
   record.optionsHash = optionsHash_;
   record.options = options_;

@@ -140,7 +140,8 @@ OptionRows batchRows(BatchOptions& batch) {
                 .flags = "-r,--recursive"},
       OptionRow{.name = "files-from",
                 .member = &batch.list,
-                .text = "Also compute the meshes of a list; - is standard input. A line has a path, or a path, a tab and a key, which "
+                .text = "Also compute the meshes of a list; - is standard input. A line has a path, or a path, a tab "
+                        "and a key, which "
                         "names the results of this mesh",
                 .placeholder = "FILE|-"},
       OptionRow{.name = "null",

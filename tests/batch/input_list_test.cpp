@@ -107,14 +107,13 @@ TEST_CASE("the lines of a list may end as on Windows, names with -0 end as they 
 TEST_CASE("a line may have a key, whose folders are those of the outputs; with -0 a tab is part of the path") {
   const ScratchFolder folder;
   InputRequest request;
-  request.list = folder.write("list", "/x/a.off\tpart-7\r\n/y/deep/a.off\tb/c/v1.2\n/z/e.off\n/z/deep/f.off\n/x/a.off\tagain");
+  request.list =
+      folder.write("list", "/x/a.off\tpart-7\r\n/y/deep/a.off\tb/c/v1.2\n/z/e.off\n/z/deep/f.off\n/x/a.off\tagain");
   const std::vector<InputFile> inputs = listInputs(request);
   // The common folder is that of the paths without a key.
-  CHECK_EQ(pathsOf(inputs), Paths{{"/x/a.off", ""},
-                                  {"/y/deep/a.off", "b/c"},
-                                  {"/z/e.off", ""},
-                                  {"/z/deep/f.off", "deep"},
-                                  {"/x/a.off", ""}});
+  CHECK_EQ(
+      pathsOf(inputs),
+      Paths{{"/x/a.off", ""}, {"/y/deep/a.off", "b/c"}, {"/z/e.off", ""}, {"/z/deep/f.off", "deep"}, {"/x/a.off", ""}});
   CHECK_EQ(inputs[0].key, "part-7");
   CHECK_EQ(inputs[1].key, "b/c/v1.2");
   CHECK_EQ(inputs[2].key, "");

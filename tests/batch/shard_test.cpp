@@ -61,8 +61,8 @@ TEST_CASE("there may be more shards than meshes") {
 TEST_CASE("a shard is I/N") {
   CHECK_EQ(parseShard("2/7").index, 2);
   CHECK_EQ(parseShard("2/7").count, 7);
-  for (const char* text :
-       {"auto/0", "auto/x", "auto/", "auto/1000001", "automatic", "au", "", "1", "0/3", "4/3", "1/0", "-1/3", "a/3", "1/3x", "1 / 3", "/", "1/", "1/1000001", "1/4294967295"})
+  for (const char* text : {"auto/0", "auto/x", "auto/", "auto/1000001", "automatic", "au", "", "1", "0/3", "4/3", "1/0",
+                           "-1/3", "a/3", "1/3x", "1 / 3", "/", "1/", "1/1000001", "1/4294967295"})
     CHECK_THROWS_AS_MESSAGE((void)parseShard(text), Error, text);
 }
 
@@ -129,8 +129,9 @@ TEST_CASE("of several schedulers the first with more than one part counts, in th
 
 TEST_CASE("without variables, or with wrong ones, auto is refused with their names and values") {
   const std::string none = textOf({});
-  for (const char* name : {"AWS_BATCH_JOB_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_SIZE", "JOB_COMPLETION_INDEX (with auto/N)",
-                           "SLURM_ARRAY_TASK_ID", "RANK with WORLD_SIZE", "SLURM_PROCID", "; give I/N"})
+  for (const char* name :
+       {"AWS_BATCH_JOB_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_SIZE", "JOB_COMPLETION_INDEX (with auto/N)",
+        "SLURM_ARRAY_TASK_ID", "RANK with WORLD_SIZE", "SLURM_PROCID", "; give I/N"})
     CHECK_MESSAGE(none.find(name) != std::string::npos, none);
   CHECK_EQ(textOf(kKubernetes), "auto: JOB_COMPLETION_INDEX is 6, but the number of parts is unknown; give auto/N");
   CHECK_EQ(textOf({{"SLURM_PROCID", "0"}}), "auto: SLURM_PROCID is 0, but the number of parts is unknown; give auto/N");

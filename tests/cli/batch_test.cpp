@@ -74,9 +74,9 @@ TEST_CASE("a list of meshes gives the same tree, also from standard input with z
 
 TEST_CASE("keys of a list name results and are in the records, also of worker processes, failures and skipped meshes") {
   const MeshTree tree;
-  const std::string list = tree.folder.write(
-      "list", tree / "in/s0.off" + "\tfirst\n" + (tree / "in/s0.off") + "\tb/second\n" + (tree / "in/deep/bad.off") +
-                  "\tb/third\n" + (tree / "in/s1.off") + "\n");
+  const std::string list =
+      tree.folder.write("list", tree / "in/s0.off" + "\tfirst\n" + (tree / "in/s0.off") + "\tb/second\n" +
+                                    (tree / "in/deep/bad.off") + "\tb/third\n" + (tree / "in/s1.off") + "\n");
   for (const Names& more : {Names{}, Names{"--isolate"}, Names{"--skip-existing"}}) {
     fs::remove(tree / "log");
     Names arguments{"--files-from", list, "-o", tree / "out", "--log", tree / "log", "--quiet"};
@@ -199,8 +199,8 @@ TEST_CASE("the shards of a batch are the whole") {
 TEST_CASE("--shard auto computes the part of the scheduler and names it, and is refused without one") {
   const MeshTree tree(false);
   CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
-  const Names arguments{"-r",      tree.root, "-o",        tree / "parts", "--format", "npy",
-                        "--shard", "auto/2",  "--backend", "reference"};
+  const Names arguments{"-r",  tree.root, "-o",     tree / "parts", "--format",
+                        "npy", "--shard", "auto/2", "--backend",    "reference"};
   for (const char* index : {"0", "1"}) {
     const ChildOutcome outcome = runAsdf(arguments, {.environment = {{"JOB_COMPLETION_INDEX", index}}});
     INFO(outcome.error);
