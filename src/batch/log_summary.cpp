@@ -117,7 +117,8 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   std::map<std::string, uint64_t> devices;
   std::map<std::string, std::vector<std::string>> warnings;
   std::map<std::tuple<MeshStatus, int, std::string>, FailureGroup> failures;
-  for (const MeshRecord& mesh : summary.meshes) {
+  for (MeshRecord& mesh : summary.meshes) {
+    if (mesh.status == MeshStatus::Skipped && mesh.code != 0) mesh.status = MeshStatus::Failed;  // In an earlier run.
     ++summary.statusCounts[mesh.status];
     summary.peakMemoryBytes = std::max(summary.peakMemoryBytes, mesh.peakMemoryBytes);
     for (const std::string& warning : mesh.warnings) warnings[warning].push_back(mesh.input);

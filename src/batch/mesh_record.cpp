@@ -52,6 +52,11 @@ bool endsWithinLine(int descriptor) {
 
 const char* nameOf(MeshStatus status) { return kMeshStatuses[static_cast<size_t>(status)].second; }
 
+bool hasVerdictError(const MeshRecord& record) {
+  return std::any_of(kVerdictErrors.begin(), kVerdictErrors.end(),
+                     [&](const auto& verdict) { return record.error == verdict.first; });
+}
+
 void to_json(Json& json, MeshStatus status) { json = nameOf(status); }
 
 void from_json(const Json& json, MeshStatus& status) {

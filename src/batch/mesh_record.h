@@ -52,6 +52,16 @@ struct MeshRecord {
   std::string message;  ///< Message of the error in one line; empty without a failure.
 };
 
+/// The values of MeshRecord::error that are verdicts of checks on a computed mesh, and what a summary calls such meshes.
+inline constexpr std::array<std::pair<const char*, const char*>, 6> kVerdictErrors{
+    {{"tooThin", "thin"},
+     {"tooThick", "thick"},
+     {"tooClose", "with narrow gaps"},
+     {"sealedVoids", "with sealed voids"},
+     {"bodiesInContact", "with bodies in contact"},
+     {"notJudged", "not judged"}}};
+[[nodiscard]] bool hasVerdictError(const MeshRecord& record);
+
 /// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". The alphabetical order of these texts
 /// is the order of the times.
 [[nodiscard]] std::string utcTime();

@@ -1,5 +1,7 @@
 #include "cli/mesh_jobs.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -103,11 +105,11 @@ JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
   if (run.report) fillRecord(record, *run.report);
   if (run.hasResult && !job.output.empty()) record.output = job.output;
   if (run.failure) fillRecord(record, *run.failure);
-  if (!run.failure && settings_.isOfBatch) {
+  if (settings_.isOfBatch && (!run.failure || hasResult(run.failure->code))) {
     try {
       writeOutputRecord(record, job.output);
     } catch (...) {
-      run.add(currentFailure(), job.input, settings_.outputs.json);
+      run.add(currentFailure(), job.input, settings_.outputs.json && !run.failure);
       fillRecord(record, *run.failure);
       removeOutput(record, job.output);
       record.output.reset();
@@ -132,7 +134,9 @@ std::optional<JobResult> JobRecords::findFinished(const Job& job) const {
   std::optional<MeshRecord> found = findFinishedOutput(expected, job.output);
   if (!found) return std::nullopt;
   std::string report = jsonSkipped(job.input, *found);
-  return JobResult{std::move(*found), std::move(report), ""};
+  std::string verdict;
+  if (found->code != 0) verdict = oneLine(fmt::format("asdf-vk: {}: {}", job.input, found->message)) + "\n";
+  return JobResult{std::move(*found), std::move(report), std::move(verdict)};
 }
 
 JobResult JobRecords::fail(const Job& job, const Failure& failure) const {

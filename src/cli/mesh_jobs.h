@@ -24,7 +24,7 @@ class JobRecords {
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
   /// Completes the record and, in a batch, writes it beside the output. If the record cannot be written, the mesh fails
-  /// and its output is removed. old: record of an earlier run. If the mesh failed, an outdated output is removed.
+  /// and its output is removed. A verdict remains the failure of the mesh. old: record of an earlier run. If the mesh failed, an outdated output is removed.
   [[nodiscard]] JobResult finish(const Job& job, MeshRecord record, MeshRun run,
                                  const std::optional<MeshRecord>& old) const;
 

@@ -90,6 +90,46 @@ TEST_CASE("limits of single meshes and known places determine the code, also in 
   CHECK_FALSE(std::filesystem::exists(parts.root + "/thin.asdf.ply"));
 }
 
+TEST_CASE("--skip-existing keeps verdicts: exit code, report of checks, messages and counts of the first run") {
+  const Parts parts;
+  std::filesystem::remove(parts.root + "/bad.off");
+  const std::string log = parts.folder / "log.jsonl";
+  for (const std::string format : {"sarif", "junit", "github"}) {
+    std::filesystem::remove_all(parts.folder / "out");
+    const std::vector<std::string> arguments{"-r",    parts.root, "-o", parts.folder / "out", "--fail-if-thinner", "0.8",
+                                             "--log", log,        "--skip-existing", "--report-format",   format};
+    const ChildOutcome first = runAsdf(arguments);
+    INFO(first.error);
+    CHECK_EQ(first.exitCode, 6);
+    CHECK(first.error.find("1 ok, 1 not judged, 1 thin; ") != std::string::npos);
+    std::filesystem::remove(log);
+    const ChildOutcome second = runAsdf(arguments);
+    INFO(second.error);
+    CHECK_EQ(second.exitCode, 6);
+    CHECK_EQ(second.output, first.output);
+    CHECK(second.error.find("0 ok, 1 skipped, 1 not judged, 1 thin; ") != std::string::npos);
+    CHECK(second.error.find("thin.off: 1 wall thinner than 0.8") != std::string::npos);
+    CHECK_EQ(statusesIn(log), StatusCounts{{"skipped", 3}});
+  }
+  CHECK_EQ(nlohmann::json::parse(runAsdf({"summarize", log, "--json"}).output).at("failedCount").get<int>(), 2);
+  const auto run = [&](const std::vector<std::string>& more, const char* limit = "0.8") {
+    std::vector<std::string> all{"-r", parts.root, "-o", parts.folder / "out", "--skip-existing", "--fail-if-thinner"};
+    all.emplace_back(limit);
+    all.insert(all.end(), more.begin(), more.end());
+    return runAsdf(all);
+  };
+  // The baseline has the places of a skipped mesh; other options and a changed mesh are computed.
+  const std::string baseline = parts.folder / "walls.json";
+  CHECK(run({"--baseline", baseline, "--update-baseline"}).error.find("1 skipped, 1 not judged, 1 thin; ") !=
+        std::string::npos);
+  CHECK(run({"--baseline", baseline}).error.find("2 ok, 1 not judged; ") != std::string::npos);
+  CHECK_EQ(run({"--baseline", baseline}).exitCode, 5);
+  CHECK(run({}, "0.4").error.find("2 ok, 1 not judged; ") != std::string::npos);
+  CHECK_EQ(run({}).exitCode, 6);
+  parts.folder.write("in/thin.off", Parts::boxOff(1, true));
+  CHECK_EQ(run({}).exitCode, 5);
+}
+
 TEST_CASE("a mesh with known places is not skipped in a run without the baseline, nor lost by an update") {
   const Parts parts;
   const std::string baseline = parts.folder / "walls.json";
