@@ -143,9 +143,11 @@ class Engine {
   }
 
   static void removeUnfinishedOutput(const Job& job, const JobOutcome& outcome) {
-    if (job.output.empty()) return;
-    const auto folder = std::filesystem::path(job.output).parent_path();
-    removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    for (const std::string& output : {job.output, job.picture}) {
+      if (output.empty()) continue;
+      const auto folder = std::filesystem::path(output).parent_path();
+      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    }
   }
 
   /// Adds the result of a job. Returns whether the worker gets further jobs.

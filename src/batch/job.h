@@ -16,6 +16,7 @@ struct Job {
   bool isStream = false;  ///< Whether the input is not a regular file, for example a FIFO. A worker may be unable to
                           ///< read such a file.
   std::string key;        ///< InputFile::key
+  std::string picture;    ///< Path of the picture; empty: none.
   uint32_t attemptCount = 1;  ///< With this attempt.
 };
 
@@ -32,7 +33,7 @@ struct ComputerDescription {
   bool isCpu = true;
 };
 
-ASDFVK_JSON(Job, input, output, key, attemptCount)  // The members that a worker needs.
+ASDFVK_JSON(Job, input, output, key, picture, attemptCount)  // The members that a worker needs.
 ASDFVK_JSON(JobResult, record, report, messages)
 ASDFVK_JSON(ComputerDescription, backend, deviceLines, isCpu)
 

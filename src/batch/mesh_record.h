@@ -34,6 +34,7 @@ struct MeshRecord {
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
   std::optional<std::string> output;               ///< Unset if no output was written.
+  std::optional<std::string> picture;              ///< Unset if no picture was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
   /// Values of the JSON report other than lists, except for points and findings; null or unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
@@ -52,7 +53,8 @@ struct MeshRecord {
   std::string message;  ///< Message of the error in one line; empty without a failure.
 };
 
-/// The values of MeshRecord::error that are verdicts of checks on a computed mesh, and what a summary calls such meshes.
+/// The values of MeshRecord::error that are verdicts of checks on a computed mesh, and what a summary calls such
+/// meshes.
 inline constexpr std::array<std::pair<const char*, const char*>, 6> kVerdictErrors{
     {{"tooThin", "thin"},
      {"tooThick", "thick"},
@@ -80,8 +82,8 @@ void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
 ASDFVK_JSON(MeshRecord, input, key, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
             noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
-            peakMemoryBytes, attemptCount, backend, device, output, time, version, commit, inputHash, optionsHash,
-            outputHash, options)
+            peakMemoryBytes, attemptCount, backend, device, output, picture, time, version, commit, inputHash,
+            optionsHash, outputHash, options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
 /// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.

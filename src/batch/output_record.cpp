@@ -53,8 +53,8 @@ std::optional<MeshRecord> readOutputRecord(const fs::path& output) {
 
 std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const fs::path& output) {
   std::optional<MeshRecord> record = readOutputRecord(output);
-  if (!record || (record->code != 0 && !hasVerdictError(*record)) || !haveSameOrigin(*record, expected) || record->outputHash.empty() ||
-      outputHashOf(output) != record->outputHash)
+  if (!record || (record->code != 0 && !hasVerdictError(*record)) || !haveSameOrigin(*record, expected) ||
+      record->outputHash.empty() || outputHashOf(output) != record->outputHash)
     return std::nullopt;
   record->input = expected.input;
   record->key = expected.key;

@@ -31,7 +31,7 @@ struct Worker {
   bool isGivenUp = false;  ///< No further process is started for this worker.
   int failedStarts = 0;    ///< Consecutive failed starts.
   std::optional<size_t> job;
-  uint32_t attempt = 1;     ///< Of the job.
+  uint32_t attempt = 1;     ///< Attempt of the job.
   Stopwatch watch;          ///< Measures the time since the greeting or the job was sent.
   uint64_t readyBytes = 0;  ///< Memory when the worker became ready.
   uint64_t peakBytes = 0;

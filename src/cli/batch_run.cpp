@@ -85,7 +85,8 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
     std::error_code ignored;
     const fs::file_status status = fs::status(inputs[i].path, ignored);
     const bool isStream = inputs[i].path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
-    jobs.push_back({inputs[i].path, paths[i], inputs[i].byteCount, isStream, inputs[i].key});
+    jobs.push_back(
+        {inputs[i].path, paths[i], inputs[i].byteCount, isStream, inputs[i].key, pictureFileOf(inputs[i], outputs)});
   }
   return jobs;
 }
@@ -94,7 +95,8 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
 void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
   std::set<fs::path> folders;
   for (const Job& job : jobs)
-    if (!job.output.empty()) folders.insert(fs::path(job.output).parent_path());
+    for (const std::string& output : {job.output, job.picture})
+      if (!output.empty()) folders.insert(fs::path(output).parent_path());
   for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 
@@ -183,6 +185,10 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const Outputs& outputs = settings.outputs;
   const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
   if (!outputs.reportFormat.empty()) requireWritablePlace(outputs.report);
+  if (hasPictureFolder(outputs)) {
+    makeFolderOf(outputs.picture);
+    requireWritablePlace(outputs.picture + "any.png");
+  }
   if (outputs.updatesBaseline) requireWritablePlace(outputs.baseline);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();

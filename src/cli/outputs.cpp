@@ -131,6 +131,13 @@ bool writesOnePage(const Outputs& outputs) {
   return writesPages(outputs) && (isPageName(outputs.path) || outputs.path == "-") && !isFolder(outputs.path);
 }
 
+bool hasPictureFolder(const Outputs& outputs) { return outputs.picture.ends_with('/'); }
+
+std::string pictureFileOf(const InputFile& input, const Outputs& outputs) {
+  if (!hasPictureFolder(outputs)) return outputs.picture;
+  return (fs::path(outputs.picture) / input.folder / resultName(input, "png")).string();
+}
+
 std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                      std::span<const InputFile> files) {
   const bool sharePage = writesOnePage(outputs);
@@ -190,7 +197,9 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     if (batch.isBatch() && !paths[i].empty())
       plan(outputRecordPath(paths[i]).string(), "the record of " + paths[i], "-o");
   }
-  plan(outputs.picture, "the picture", "--picture");
+  if (!hasPictureFolder(outputs)) plan(outputs.picture, "the picture", "--picture");
+  for (size_t i = 0; hasPictureFolder(outputs) && i < files.size(); ++i)
+    plan(pictureFileOf(files[i], outputs), "the picture of " + files[i].path, "--picture");
   plan(outputs.points, "the points", "--points");
   if (!outputs.reportFormat.empty()) plan(outputs.report, "the report of checks", "--report");
   if (outputs.updatesBaseline) plan(outputs.baseline, "the baseline", "--baseline");

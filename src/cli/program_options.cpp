@@ -104,10 +104,12 @@ OptionRows outputRows(Outputs& outputs) {
       OptionRow{.name = "picture",
                 .group = kPictureGroup,
                 .member = memberAs<FileCodec>(&outputs.picture),
-                .text = "Also render the coloured mesh; - is standard output. For one mesh only",
-                .more = "The picture has 1200 x 900 pixels and a colour bar from the 1st to the 99th percentile.",
-                .placeholder = "FILE.png",
-                .wanted = "a file that ends in .png"},
+                .text = "Also render the coloured mesh; - is standard output. FOLDER/ is for many meshes: a picture "
+                        "NAME.asdf.png of each mesh that fails the check, or of each mesh if there is no check",
+                .more = "The picture has 1200 x 900 pixels and a colour bar from the 1st to the 99th percentile "
+                        "([batches.md](batches.md#pictures)).",
+                .placeholder = "FILE.png|FOLDER/",
+                .wanted = "a file that ends in .png, or a folder that ends in /"},
       OptionRow{.name = "picture-of",
                 .member = memberAs<ShownFieldCodec>(&outputs.pictureOf),
                 .text = "Field that the picture shows",

@@ -246,7 +246,15 @@ TEST_CASE("options of a batch that contradict each other are refused") {
   CHECK_NE(refusal({"-", "--memory-limit", "1G"}), "accepted");
   CHECK_NE(refusal({"-", "--skip-existing"}), "accepted");
   CHECK_NE(refusal({"-r", "in", "-o", "-"}), "accepted");
-  CHECK_NE(refusal({"-r", "in", "--picture", "a.png"}), "accepted");
+  CHECK_EQ(refusal({"-r", "in", "--picture", "a.png"}),
+           "--picture a.png is for one mesh; give a folder that ends in /, such as --picture pictures/");
+  CHECK_NE(refusal({"-r", "in", "--picture", "-"}), "accepted");
+  CHECK_NE(refusal({"a.ply", "b.ply", "--picture", "a.png"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "--picture", "pictures"}), "accepted");
+  CHECK_EQ(refusal({"-r", "in", "--picture", "pictures/"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "b.ply", "--picture", "pictures/"}), "accepted");
+  CHECK_NE(refusal({"a.ply", "--points", "points/"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "--points", "a.ply"}), "accepted");
   CHECK_NE(refusal({"-r", "in", "-o", "page.html"}), "accepted");
   CHECK_EQ(refusal({"--files-from", "list", "-o", "out"}), "accepted");
   for (const char* text : {"", "0", "-1", "x", "2X", "1e99"})

@@ -182,6 +182,22 @@ TEST_CASE("a key replaces the file name in the name of a result, and its folders
   CHECK_NOTHROW((void)planOutputs(line.outputs, line.batch, std::vector{nested}));
 }
 
+TEST_CASE("a folder of pictures has the tree and the names of the results") {
+  Outputs outputs;
+  CHECK_EQ(pictureFileOf({.path = "in/a.off"}, outputs), "");
+  outputs.picture = "a.png";
+  CHECK_EQ(pictureFileOf({.path = "in/a.off"}, outputs), "a.png");
+  outputs.picture = "shown/";
+  CHECK_EQ(pictureFileOf({.path = "in/b/a.off", .folder = "b"}, outputs), "shown/b/a.asdf.png");
+  CHECK_EQ(pictureFileOf({.path = "in/a.off", .folder = "x", .key = "x/v1.2"}, outputs), "shown/x/v1.2.asdf.png");
+  const std::vector<InputFile> colliding{{.path = "x/a.off"}, {.path = "x/a.ply"}};
+  outputs.writesResult = false;
+  CHECK_THROWS_WITH_AS((void)planOutputs(outputs, {.recurses = true}, colliding),
+                       "shown/a.asdf.png is the picture of x/a.off and would be overwritten by the picture of x/a.ply; "
+                       "choose another --picture",
+                       Error);
+}
+
 TEST_CASE("an impossible place for a file is an error before the work") {
   const test::ScratchFolder folder;
   CHECK_NOTHROW(requireWritablePlace(folder / "new.ply"));

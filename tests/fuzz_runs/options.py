@@ -47,7 +47,7 @@ _VALUES: dict[str, tuple[Values, Values]] = {
     "--max-faces": (("0", "10", "100000"), _ILLEGAL_NUMBERS),
     "--memory-limit": (("10M", "4G"), ("0", "4X", *_ILLEGAL_NUMBERS)),
     "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", "auto", "auto/0", *_ILLEGAL_NUMBERS)),
-    "--picture": (("picture.png", "-"), ("", "picture.jpg", "absent/picture.png")),
+    "--picture": (("picture.png", "-", "pictures/"), ("", "picture.jpg", "absent/picture.png")),
     "--picture-view": (("0,0", "30,18", "-360,90"), ("361,0", "0,91", "1", *_ILLEGAL_NUMBERS)),
     "--limits": (("limits.json", "absent.json"), ("", "mesh.off")),
     "--baseline": (("baseline.json", "absent/baseline.json"), ("",)),
