@@ -40,23 +40,19 @@ class Engine {
   void run(JobStream& stream) {
     const uint32_t atOnce = options_.requestedAtOnce > 0 ? options_.requestedAtOnce : options_.threadCount;
     const JobPhase phase{.jobs = {}, .atOnce = atOnce, .threadCount = std::max(1U, options_.threadCount / atOnce)};
-    std::map<size_t, Job> current;  // Without their contents.
+    std::map<size_t, Job> current;
     monitor_.beginComputation();
     const JobSupply supply([&](size_t) { return stream.next(); }, stream.descriptor());
-    const auto request = [&](size_t i) {
-      Job& job = current[i] = stream.take(i);
-      std::string message = encode(job);
-      job.content.emplace();
-      return message;
+    const auto jobAt = [&](size_t i) -> const Job& {
+      const auto [job, isNew] = current.try_emplace(i);
+      if (isNew) job->second = stream.take(i);
+      return job->second;
     };
-    const auto finished = [&](JobOutcome outcome) {
-      const auto job = current.find(outcome.job);
-      auto [result, isSpent] = resultOf(job->second, std::move(outcome));
-      stream.add(job->first, std::move(result));
-      current.erase(job);
-      return !isSpent;
+    const auto add = [&](size_t i, JobResult result) {
+      current.erase(i);
+      stream.add(i, std::move(result));
     };
-    const std::optional<OpenFailure> failure = runInWorkerPool(phase, supply, request, finished);
+    const std::optional<OpenFailure> failure = runInWorkerPool(phase, supply, jobAt, add);
     if (failure) report(*failure, stream.next() != JobSupply::State::Ended);
   }
 
@@ -126,15 +122,12 @@ class Engine {
 
   void runInWorkerPool(const JobPhase& phase) {
     size_t endedCount = 0;
-    const auto request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); };
-    const auto finished = [&](JobOutcome outcome) {
+    const auto jobAt = [&](size_t i) -> const Job& { return jobs_[phase.jobs[i]]; };
+    const auto add = [&](size_t i, JobResult result) {
       ++endedCount;
-      const size_t index = phase.jobs[outcome.job];
-      auto [result, isSpent] = resultOf(jobs_[index], std::move(outcome));
-      monitor_.add(index, std::move(result));
-      return !isSpent;
+      monitor_.add(phase.jobs[i], std::move(result));
     };
-    const std::optional<OpenFailure> failure = runInWorkerPool(phase, phase.jobs.size(), request, finished);
+    const std::optional<OpenFailure> failure = runInWorkerPool(phase, phase.jobs.size(), jobAt, add);
     if (failure) report(*failure, endedCount < phase.jobs.size());
   }
 
@@ -144,9 +137,9 @@ class Engine {
   }
 
   /// Returns the failure of the latest worker that could not start, unless a stop was requested.
-  template <typename Request, typename Finished>
-  std::optional<OpenFailure> runInWorkerPool(const JobPhase& phase, const JobSupply& jobs, const Request& request,
-                                             const Finished& finished) {
+  template <typename JobAt, typename Add>
+  std::optional<OpenFailure> runInWorkerPool(const JobPhase& phase, const JobSupply& supply, const JobAt& jobAt,
+                                             const Add& add) {
     const uint32_t onGpu = atOnceOnGpu(phase);
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
     const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, even if its file was replaced.
@@ -156,22 +149,46 @@ class Engine {
                                  .timeoutSeconds = options_.timeoutSeconds,
                                  .memoryBytes = options_.memoryBytes};
     std::optional<OpenFailure> failure;
-    const WorkerPoolClient client{.request = request,
-                                  .ready = [&](const std::string& answer) -> uint32_t {
-                                    const Json json = decode(answer);
-                                    if (json.contains("failure")) {
-                                      failure.emplace(json["code"], json["name"], json["failure"]);
-                                      return 0;
-                                    }
-                                    const auto description = json.get<ComputerDescription>();
-                                    monitor_.announce(description);
-                                    return description.isCpu ? phase.atOnce : onGpu;
-                                  },
-                                  .finished = finished};
-    const std::string reason = runOnWorkers(jobs, pool, client, stop_);
+    const WorkerPoolClient client{
+        .request =
+            [&](size_t i, uint32_t attempt) {
+              Job job = jobAt(i);
+              job.attemptCount = attempt;
+              return encode(job);
+            },
+        .ready = [&](const std::string& answer) -> uint32_t {
+          const Json json = decode(answer);
+          if (json.contains("failure")) {
+            failure.emplace(json["code"], json["name"], json["failure"]);
+            return 0;
+          }
+          const auto description = json.get<ComputerDescription>();
+          monitor_.announce(description);
+          return description.isCpu ? phase.atOnce : onGpu;
+        },
+        .finished =
+            [&](const JobOutcome& outcome) {
+              Job job = jobAt(outcome.job);
+              job.attemptCount = outcome.attempt;
+              auto [result, isSpent] = resultOf(job, outcome);
+              add(outcome.job, std::move(result));
+              return !isSpent;
+            },
+        .retried = [&](const JobOutcome& outcome) { removeUnfinishedOutput(jobAt(outcome.job), outcome); }};
+    const std::string reason = runOnWorkers(supply, pool, client, stop_);
     if (!reason.empty()) failure = OpenFailure(kInternalCode, "internal", "a worker process cannot start: " + reason);
     if (stop_.stop_requested()) return {};
     return failure;
+  }
+
+  /// Removes temporary files of a worker that has ended.
+  static void removeUnfinishedOutput(const Job& job, const JobOutcome& outcome) {
+    if (job.content) return;
+    for (const std::string& output : {job.output, job.picture}) {
+      if (output.empty()) continue;
+      const auto folder = std::filesystem::path(output).parent_path();
+      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    }
   }
 
   /// Returns the result of a job, and whether its worker gets no further job.
@@ -184,9 +201,8 @@ class Engine {
       result.record.options = client_.recordOptions;
       isDropped = result.record.status == MeshStatus::Dropped;
       if (!isDropped || isStopping(stop_)) return {std::move(result), answer.at("isSpent").get<bool>()};
-    } else if (!job.output.empty() && !job.content) {
-      const auto folder = std::filesystem::path(job.output).parent_path();
-      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    } else {
+      removeUnfinishedOutput(job, outcome);
     }
     if (isDropped) outcome.end = isStopping(stop_) ? JobEnd::Dropped : JobEnd::Terminated;
     JobResult result = client_.fail(job, outcome);

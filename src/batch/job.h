@@ -17,6 +17,9 @@ struct Job {
   uint64_t byteCount = 0;     ///< Size of the input file; 0 if unknown.
   bool isStream = false;  ///< Whether the input is not a regular file, for example a FIFO. A worker may be unable to
                           ///< read such a file.
+  std::string key;        ///< InputFile::key
+  std::string picture;    ///< Path of the picture; empty: none.
+  uint32_t attemptCount = 1;           ///< With this attempt.
   std::optional<std::string> content;  ///< The bytes of the mesh if it is a member of a tar; then `output` is a name.
 };
 
@@ -34,7 +37,7 @@ struct ComputerDescription {
   bool isCpu = true;
 };
 
-ASDFVK_JSON(Job, input, output, content)  // The members that a worker needs.
+ASDFVK_JSON(Job, input, output, key, picture, attemptCount, content)  // The members that a worker needs.
 ASDFVK_JSON(JobResult, record, report, messages, files)
 ASDFVK_JSON(ComputerDescription, backend, deviceLines, isCpu)
 

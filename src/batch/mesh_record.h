@@ -30,9 +30,11 @@ inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses
 /// Record of a mesh of a batch: a line of the log, and the content of the file beside the output.
 struct MeshRecord {
   std::string input;
+  std::string key;  ///< InputFile::key
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
   std::optional<std::string> output;               ///< Unset if no output was written.
+  std::optional<std::string> picture;              ///< Unset if no picture was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
   /// Values of the JSON report other than lists, except for points and findings; null or unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
@@ -43,12 +45,24 @@ struct MeshRecord {
   std::map<std::string, double> seconds;  ///< Seconds of each stage that ran.
   double totalSeconds = 0;                ///< Time from the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
+  uint32_t attemptCount = 1;          ///< 2 if the first worker process was killed for its memory.
   std::vector<std::string> warnings;  ///< Codes of the warnings.
   MeshStatus status = MeshStatus::Done;
   int code = 0;         ///< Exit code of this mesh.
   std::string error;    ///< Name of the error; empty without a failure.
   std::string message;  ///< Message of the error in one line; empty without a failure.
 };
+
+/// The values of MeshRecord::error that are verdicts of checks on a computed mesh, and what a summary calls such
+/// meshes.
+inline constexpr std::array<std::pair<const char*, const char*>, 6> kVerdictErrors{
+    {{"tooThin", "thin"},
+     {"tooThick", "thick"},
+     {"tooClose", "with narrow gaps"},
+     {"sealedVoids", "with sealed voids"},
+     {"bodiesInContact", "with bodies in contact"},
+     {"notJudged", "not judged"}}};
+[[nodiscard]] bool hasVerdictError(const MeshRecord& record);
 
 /// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". The alphabetical order of these texts
 /// is the order of the times.
@@ -66,10 +80,10 @@ struct MeshRecord {
 
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
-ASDFVK_JSON(MeshRecord, input, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
+ASDFVK_JSON(MeshRecord, input, key, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
             noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
-            peakMemoryBytes, backend, device, output, time, version, commit, inputHash, optionsHash, outputHash,
-            options)
+            peakMemoryBytes, attemptCount, backend, device, output, picture, time, version, commit, inputHash,
+            optionsHash, outputHash, options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
 /// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.

@@ -66,11 +66,21 @@ void Monitor::noteOtherBackend(JobResult& result) {
         warningLine(record.input, fmt::format("computed on the backend {}, {}", record.backend, record.device));
 }
 
+/// A second attempt is slower than a first one, and other options avoid it.
+void Monitor::noteSecondAttempt(JobResult& result) const {
+  const MeshRecord& record = result.record;
+  if (options_.isQuiet || record.attemptCount < 2 || !record.faceCount || record.status == MeshStatus::Skipped) return;
+  result.messages += warningLine(record.input,
+                                 "computed in a second attempt, alone, because the first worker process was killed for "
+                                 "its memory; fewer jobs at once need less memory");
+}
+
 void Monitor::add(size_t job, JobResult result) {
   const std::scoped_lock lock(mutex_);
   const MeshRecord& record = result.record;
   codes_.insert(record.code);
   noteOtherBackend(result);
+  noteSecondAttempt(result);
   progress_.count(record, job < jobs_.size() ? jobs_[job].byteCount : 0);
   if (record.status == MeshStatus::Dropped) dropped_.push_back(record.input);
   if (log_) log_->append(record);

@@ -63,6 +63,7 @@ class Monitor {
   };
 
   void noteOtherBackend(JobResult& result);
+  void noteSecondAttempt(JobResult& result) const;
   void print(const Texts& texts);
   void printInOrder();
   void showProgress();

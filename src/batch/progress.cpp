@@ -2,10 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "batch/input_list.h"
 #include "core/text.h"
@@ -24,15 +22,9 @@ std::string rateText(uint64_t count, double seconds) {
 /// What a failure of a mesh is called in a summary.
 std::string wordsOf(const MeshRecord& record) {
   constexpr int kUnreadable = 2;
-  constexpr std::array kWords{std::pair{"tooThin", "thin"},
-                              std::pair{"tooThick", "thick"},
-                              std::pair{"tooClose", "with narrow gaps"},
-                              std::pair{"sealedVoids", "with sealed voids"},
-                              std::pair{"bodiesInContact", "with bodies in contact"},
-                              std::pair{"notJudged", "not judged"},
-                              std::pair{"checkFailed", "failed the comparison"}};
-  for (const auto& [error, words] : kWords)
+  for (const auto& [error, words] : kVerdictErrors)
     if (record.error == error) return words;
+  if (record.error == "checkFailed") return "failed the comparison";
   return record.code == kUnreadable ? "unreadable" : "failed";
 }
 
@@ -43,6 +35,9 @@ void BatchProgress::count(const MeshRecord& record, uint64_t bytes) {
     case MeshStatus::Skipped:
       ++skippedCount;
       skippedBytes += bytes;
+      if (record.code == 0) return;
+      ++skippedVerdictCount;
+      ++failures[wordsOf(record)];
       return;
     case MeshStatus::Dropped:
       ++droppedCount;
@@ -97,7 +92,7 @@ std::string summaryText(const BatchProgress& progress, double elapsedSeconds) {
   const auto add = [&](uint64_t count, const std::string& status) {
     if (count > 0) text += fmt::format(", {} {}", groupDigits(count), status);
   };
-  add(progress.skippedCount, "skipped");
+  add(progress.skippedCount - progress.skippedVerdictCount, "skipped");
   for (const auto& [words, count] : progress.failures) add(count, words);
   add(progress.droppedCount, "dropped");
   if (progress.meshCount > 0) add(progress.meshCount - progress.finishedCount(), "not begun");

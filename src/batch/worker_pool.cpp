@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -30,10 +31,17 @@ struct Worker {
   bool isGivenUp = false;  ///< No further process is started for this worker.
   int failedStarts = 0;    ///< Consecutive failed starts.
   std::optional<size_t> job;
+  uint32_t attempt = 1;     ///< Attempt of the job.
   Stopwatch watch;          ///< Measures the time since the greeting or the job was sent.
   uint64_t readyBytes = 0;  ///< Memory when the worker became ready.
   uint64_t peakBytes = 0;
 };
+
+/// The system also ends processes by SIGKILL if memory runs out.
+bool isKilledForMemory(const JobOutcome& outcome) {
+  return outcome.end == JobEnd::MemoryExceeded ||
+         (outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == SIGKILL);
+}
 
 class WorkerPool {
  public:
@@ -44,8 +52,13 @@ class WorkerPool {
   std::string run() {
     for (;;) {
       if (stop_.stop_requested() && !stopWatch_) requestStop();
+      if (isAlone_ && retries_.empty() && !isAtWork()) endAlone();
+      if (!isAlone_ && hasRetriesOnly()) beginAlone();
       for (Worker& worker : workers_) feed(worker);
-      if (isIdle()) return failure_;
+      if (isIdle()) {
+        abandonRetries();
+        return failure_;
+      }
       wait();
       for (Worker& worker : workers_)
         if (worker.process) watchOver(worker);
@@ -53,11 +66,43 @@ class WorkerPool {
   }
 
  private:
-  [[nodiscard]] bool isAt(JobSupply::State state) const { return !stopWatch_ && jobs_.next(next_) == state; }
+  [[nodiscard]] bool isAt(JobSupply::State state) const { return jobs_.next(next_) == state; }
+  [[nodiscard]] bool hasJobs() const {
+    return !stopWatch_ && (isAlone_ ? !retries_.empty() : isAt(JobSupply::State::Ready));
+  }
+  [[nodiscard]] bool hasWorkers() const {
+    return std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
+  }
+  [[nodiscard]] bool isAtWork() const {
+    return std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
+  }
   [[nodiscard]] bool isIdle() const {
-    const bool hasWorkers = std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
-    return (!hasWorkers || stopWatch_ || isAt(JobSupply::State::Ended)) &&
-           std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
+    return !isAtWork() && (stopWatch_ || !hasWorkers() || (retries_.empty() && isAt(JobSupply::State::Ended)));
+  }
+  /// Also while jobs of a stream may follow: they may wait for the results of these retries.
+  [[nodiscard]] bool hasRetriesOnly() const {
+    return !stopWatch_ && !retries_.empty() && hasWorkers() && !isAtWork() && !isAt(JobSupply::State::Ready);
+  }
+
+  /// Ends all workers, which may keep memory of earlier jobs, and continues with one.
+  void beginAlone() {
+    isAlone_ = true;
+    workers_.clear();
+    workers_.resize(1);
+  }
+
+  void endAlone() {
+    isAlone_ = false;
+    workers_.resize(options_.workerCount);
+  }
+
+  /// Ends the jobs whose second attempt did not begin.
+  void abandonRetries() {
+    for (JobOutcome& outcome : retries_) {
+      if (stopWatch_) outcome.end = JobEnd::Dropped;
+      client_.finished(outcome);
+    }
+    retries_.clear();
   }
 
   /// Only one process may run until a worker is ready. Then client_.ready() determines the number.
@@ -82,15 +127,17 @@ class WorkerPool {
   }
 
   void feed(Worker& worker) {
-    if (worker.job || !isAt(JobSupply::State::Ready)) return;
-    if (worker.process && worker.hasServed && hasGrown(worker)) worker.process.reset();
+    if (!hasJobs() || worker.job) return;
+    if (worker.process && worker.hasServed && (isAlone_ || hasGrown(worker))) worker.process.reset();
     if (!worker.process && mayStart(worker)) start(worker);
     if (!worker.process || !worker.isReady) return;
-    worker.job = next_++;
+    worker.attempt = isAlone_ ? 2 : 1;
+    worker.job = isAlone_ ? retries_.front().job : next_++;
+    if (isAlone_) retries_.pop_front();
     worker.watch = Stopwatch();
     worker.peakBytes = 0;
     // If the worker has ended, watchOver() will detect it.
-    worker.process->messages().send(client_.request(*worker.job));
+    worker.process->messages().send(client_.request(*worker.job, worker.attempt));
   }
 
   [[nodiscard]] bool hasGrown(const Worker& worker) const {
@@ -189,7 +236,13 @@ class WorkerPool {
     outcome.job = *worker.job;
     outcome.seconds = worker.watch.seconds();
     outcome.peakBytes = worker.peakBytes;
+    outcome.attempt = worker.attempt;
     worker.job.reset();
+    if (outcome.attempt == 1 && isKilledForMemory(outcome)) {
+      if (client_.retried) client_.retried(outcome);
+      retries_.push_back(outcome);
+      return false;
+    }
     return client_.finished(outcome);
   }
 
@@ -205,8 +258,10 @@ class WorkerPool {
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
   std::vector<Worker> workers_;
-  uint32_t allowedCount_ = 1;  ///< Number of processes that may run at the same time.
-  bool hasStarted_ = false;    ///< Whether any worker was ready.
+  std::deque<JobOutcome> retries_;  ///< First outcomes of jobs that are tried again.
+  bool isAlone_ = false;            ///< Whether only second attempts begin.
+  uint32_t allowedCount_ = 1;       ///< Number of processes that may run at the same time.
+  bool hasStarted_ = false;         ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
   std::string failure_;  ///< Reason why the last worker could not start.
 };

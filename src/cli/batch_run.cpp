@@ -42,11 +42,14 @@ const std::vector<std::string> kTarExtensions{"tar", "tgz"};  // Also .tar.gz.
 
 /// The failure of a job whose worker process did not return a result.
 Failure failureOf(const JobOutcome& outcome, const BatchOptions& batch) {
+  const bool isSecond = outcome.attempt > 1;
   switch (outcome.end) {
     case JobEnd::TimedOut:
       return timeLimitFailure(batch.timeoutSeconds);
     case JobEnd::MemoryExceeded:
-      return {ExitCode::Limit, fmt::format("took {} MiB of memory, more than --memory-limit", outcome.peakBytes >> 20),
+      return {ExitCode::Limit,
+              fmt::format("took {} MiB of memory, more than --memory-limit{}", outcome.peakBytes >> 20,
+                          isSecond ? ", also in a second attempt alone" : ""),
               "memoryLimit"};
     case JobEnd::Dropped:
       return cancelledFailure();
@@ -57,8 +60,11 @@ Failure failureOf(const JobOutcome& outcome, const BatchOptions& batch) {
   }
   if (outcome.workerEnd.signal == SIGKILL)
     return {ExitCode::Internal,
-            "the worker process was killed (signal 9), probably because memory ran out; give --memory-limit, or fewer "
-            "--jobs",
+            isSecond
+                ? "the worker process was killed (signal 9) in two attempts, the second one alone, probably because "
+                  "memory ran out; use a machine with more memory, or a coarser mesh"
+                : "the worker process was killed (signal 9), probably because memory ran out; give "
+                  "--memory-limit, or fewer --jobs",
             "crashed"};
   return {ExitCode::Internal,
           fmt::format("internal error: the worker process {}; please report it", textOf(outcome.workerEnd)), "crashed"};
@@ -86,7 +92,8 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
     std::error_code ignored;
     const fs::file_status status = fs::status(inputs[i].path, ignored);
     const bool isStream = inputs[i].path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
-    jobs.push_back({inputs[i].path, paths[i], inputs[i].byteCount, isStream});
+    jobs.push_back(
+        {inputs[i].path, paths[i], inputs[i].byteCount, isStream, inputs[i].key, pictureFileOf(inputs[i], outputs)});
   }
   return jobs;
 }
@@ -95,7 +102,8 @@ std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& out
 void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
   std::set<fs::path> folders;
   for (const Job& job : jobs)
-    if (!job.output.empty()) folders.insert(fs::path(job.output).parent_path());
+    for (const std::string& output : {job.output, job.picture})
+      if (!output.empty()) folders.insert(fs::path(output).parent_path());
   for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 
@@ -132,6 +140,7 @@ std::vector<MeshRecord> allRecords(const Monitor& monitor, const std::vector<Job
   for (const Job& job : unfinished) {
     MeshRecord& record = records.emplace_back();
     record.input = job.input;
+    record.key = job.key;
     record.status = MeshStatus::Failed;
     record.code = static_cast<int>(ofUnfinished);
     record.error = "notComputed";
@@ -197,6 +206,10 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
       batch.readsTars ? memberSettings(given, memberFolder ? memberFolder->path() : "") : given;
   if (batch.readsTars) requireWritableTars(jobs, given.makesFolders);
   if (!outputs.reportFormat.empty()) requireWritablePlace(outputs.report);
+  if (hasPictureFolder(outputs)) {
+    makeFolderOf(outputs.picture);
+    requireWritablePlace(outputs.picture + "any.png");
+  }
   if (outputs.updatesBaseline) requireWritablePlace(outputs.baseline);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();
@@ -206,6 +219,9 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
     listening.emplace();
     removeUnfinishedOutputs(jobs);
   }
+  if (batch.shard && !batch.shard->variable.empty() && !outputs.quiet)
+    writeStandardError(
+        fmt::format("asdf-vk: part {} of {}, by {}\n", batch.shard->index, batch.shard->count, batch.shard->variable));
   const std::vector<Job> noJobs;
   Monitor monitor({.log = batch.log,
                    .printsReports = outputs.json,

@@ -204,10 +204,14 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
     refuseOptions("standard output (-o -) holds one result; give -o a folder");
   if (batch.readsTars && writesPages(line.outputs))
     refuseOptions("a page is a file of its own, and no member of a tar; drop --tar, or --format html");
-  if (!line.outputs.picture.empty() || !line.outputs.points.empty())
+  if (batch.readsTars && !line.outputs.picture.empty())
+    refuseOptions("--picture draws meshes in files of their own; drop it, or --tar");
+  if (!line.outputs.picture.empty() && !hasPictureFolder(line.outputs))
+    refuseOptions(fmt::format("--picture {} is for one mesh; give a folder that ends in /, such as --picture pictures/",
+                              line.outputs.picture));
+  if (!line.outputs.points.empty())
     refuseOptions(
-        "--picture and --points take one mesh; drop them, or -r, --files-from, --log, --skip-existing, --shard and "
-        "--isolate");
+        "--points takes one mesh; drop it, or -r, --files-from, --log, --skip-existing, --shard and --isolate");
   if (writesOnePage(line.outputs) || line.outputs.opensPage)
     refuseOptions("a batch writes a page per mesh: give -o a folder, with --format html, and drop --open");
 }
@@ -236,8 +240,10 @@ void validateOptions(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuseOptions("the name of a mesh is empty");
   if (line.outputs.path == "-" && line.outputs.json)
     refuseOptions("-o - and --json both write to standard output; give -o a file or drop --json");
-  if (!line.outputs.picture.empty() && line.meshes.size() > 1)
-    refuseOptions("--picture takes one mesh; name one mesh, or run asdf-vk once per mesh");
+  if (!line.outputs.picture.empty() && !hasPictureFolder(line.outputs) && line.meshes.size() > 1)
+    refuseOptions(
+        fmt::format("--picture {} is for one mesh; name one mesh, or give a folder, such as --picture pictures/",
+                    line.outputs.picture));
   if (line.outputs.picture == "-" && (line.outputs.path == "-" || line.outputs.json))
     refuseOptions(
         "--picture -, --json and -o - write to standard output, which only one of them can use; give --picture a file, "

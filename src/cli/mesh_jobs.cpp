@@ -1,5 +1,7 @@
 #include "cli/mesh_jobs.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -89,6 +91,8 @@ JobRecords::JobRecords(const MeshSettings& settings)
 MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;
   record.input = job.input;
+  record.key = job.key;
+  record.attemptCount = job.attemptCount;
   record.time = utcTime();
   record.optionsHash = optionsHash_;
   record.options = options_;
@@ -101,12 +105,13 @@ JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
                              const std::optional<MeshRecord>& old) const {
   if (run.report) fillRecord(record, *run.report);
   if (run.hasResult && !job.output.empty()) record.output = job.output;
+  if (!run.picture.empty()) record.picture = run.picture;
   if (run.failure) fillRecord(record, *run.failure);
-  if (!run.failure && settings_.isOfBatch && !job.content) {
+  if (settings_.isOfBatch && !job.content && (!run.failure || hasResult(run.failure->code))) {
     try {
       writeOutputRecord(record, job.output);
     } catch (...) {
-      run.add(currentFailure(), job.input, settings_.outputs.json);
+      run.add(currentFailure(), job.input, settings_.outputs.json && !run.failure);
       fillRecord(record, *run.failure);
       removeOutput(record, job.output);
       record.output.reset();
@@ -129,9 +134,18 @@ std::optional<JobResult> JobRecords::findFinished(const Job& job) const {
   MeshRecord expected = begin(job);
   expected.inputHash = inputHashOf(job.input);
   std::optional<MeshRecord> found = findFinishedOutput(expected, job.output);
-  if (!found) return std::nullopt;
+  if (!found || lacksPicture(job, *found)) return std::nullopt;
   std::string report = jsonSkipped(job.input, *found);
-  return JobResult{std::move(*found), std::move(report), ""};
+  std::string verdict;
+  if (found->code != 0) verdict = oneLine(fmt::format("asdf-vk: {}: {}", job.input, found->message)) + "\n";
+  return JobResult{std::move(*found), std::move(report), std::move(verdict)};
+}
+
+bool JobRecords::lacksPicture(const Job& job, const MeshRecord& finished) const {
+  std::error_code ignored;
+  if (!hasPictureFolder(settings_.outputs) || std::filesystem::exists(job.picture, ignored)) return false;
+  const bool isCheck = settings_.computation.isCheck() || !settings_.outputs.limits.empty();
+  return !isCheck || finished.code == static_cast<int>(ExitCode::OverLimit);
 }
 
 JobResult JobRecords::fail(const Job& job, const Failure& failure) const {
@@ -161,6 +175,13 @@ void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
   jobsOfPage_ = &jobs;
 }
 
+const MeshSettings& MeshComputer::settingsOf(const Job& job) {
+  if (!hasPictureFolder(settings_.outputs)) return settings_;
+  if (!drawingSettings_) drawingSettings_.emplace(settings_).drawsFailedOnly = true;
+  drawingSettings_->outputs.picture = job.picture;
+  return *drawingSettings_;
+}
+
 ComputerDescription MeshComputer::describe() const {
   return {session_->backend(), deviceLinesOf(*session_, sessionOptions_, settings_.outputs.verbose),
           session_->runsOnCpu()};
@@ -182,7 +203,7 @@ JobResult MeshComputer::compute(const Job& job, const Job* next) {
   record.inputHash = loaded.hash;
   std::optional<SharedPage> page;
   if (page_ != nullptr) page.emplace(SharedPage{*page_, nameInSharedPage(job)});
-  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settings_, deadline,
+  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settingsOf(job), deadline,
                             {.showsBar = showsBar_}, page ? &*page : nullptr);
   isSpent_ = session_->backend() != backend_ || stop_.stop_requested() ||
              (run.failure && run.failure->code == ExitCode::Device);

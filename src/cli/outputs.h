@@ -21,7 +21,9 @@ struct Outputs {
   bool ascii = false;
   std::string colourOf = {};  ///< See WriteOptions.
   bool coloursVertices = false;
-  std::string picture;    ///< Path of the .png file, "-" for standard output; empty: no picture.
+  /// Path of the .png file, "-" for standard output; or a folder that ends in /, see pictureFileOf(). Empty: no
+  /// picture.
+  std::string picture;
   std::string pictureOf;  ///< Name of the field that the picture shows; empty: see shownField().
   View pictureView;
   bool choosesView = false;  ///< Whether --picture-view is given.
@@ -76,6 +78,13 @@ inline constexpr const char* kPageFormat = "html";
 [[nodiscard]] bool writesPages(const Outputs& outputs);
 
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
+
+/// Whether Outputs::picture is a folder, for a picture of each mesh that fails the check, or of each mesh without
+/// check.
+[[nodiscard]] bool hasPictureFolder(const Outputs& outputs);
+
+/// The path of the picture of an input. In a folder of pictures: NAME.asdf.png in the same subfolder as the result.
+[[nodiscard]] std::string pictureFileOf(const InputFile& input, const Outputs& outputs);
 
 /// Returns the path of the result of each input, "-" for standard output, empty for no result. If
 /// BatchOptions::hasTree(), results are in a tree below -o, whose folders need not exist. Throws Error{OptionConflict}

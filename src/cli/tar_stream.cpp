@@ -9,6 +9,7 @@
 #include "asdf_vk/error.h"
 #include "batch/content_hash.h"
 #include "batch/output_record.h"
+#include "batch/tar_names.h"
 #include "cli/outputs.h"
 #include "cli/report_json.h"
 #include "core/text.h"
@@ -74,6 +75,7 @@ Job TarStream::jobOf(const TarItem& item) const {
   return {.input = tar.input == "-" ? item.member.name : tar.input + "/" + item.member.name,
           .output = hasResult ? item.stem + "." + settings_.outputs.format : std::string(),
           .byteCount = item.member.byteCount,
+          .key = sampleKeyOf(item.member.name),
           .content = std::string()};
 }
 
