@@ -35,7 +35,7 @@ void BatchProgress::count(const MeshRecord& record, uint64_t bytes) {
     case MeshStatus::Skipped:
       ++skippedCount;
       skippedBytes += bytes;
-      if (record.code == 0) return;
+      if (record.error.empty()) return;
       ++skippedVerdictCount;
       ++failures[wordsOf(record)];
       return;
