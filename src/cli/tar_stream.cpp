@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "batch/tar_names.h"
 #include "cli/outputs.h"
 #include "cli/report_json.h"
+#include "core/parallel.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -44,6 +46,8 @@ TarStream::TarStream(const std::vector<Job>& tars, const MeshSettings& settings,
                      Monitor& monitor, const BatchOptions& batch, const std::stop_token& stop)
     : tars_(tars), settings_(settings), batch_(batch), records_(records), monitor_(monitor) {
   TarFeedOptions options{.paths = {}, .copiesMembers = batch.keepsMembers};
+  constexpr size_t kItemsPerJob = 4;  // With members that are copied, a mesh has several items.
+  options.maxItems = std::max(options.maxItems, kItemsPerJob * std::max<size_t>(batch.jobCount, threadLimit()));
   for (size_t i = 0; i < tars.size(); ++i) {
     std::optional<MeshRecord> finished;
     if (std::error_code ignored; batch.skipsExisting && fs::exists(outputRecordPath(tars[i].output), ignored)) {
