@@ -103,7 +103,7 @@ void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
   std::set<fs::path> folders;
   for (const Job& job : jobs)
     for (const std::string& output : {job.output, job.picture})
-      if (!output.empty()) folders.insert(fs::path(output).parent_path());
+      if (!output.empty() && output != "-") folders.insert(fs::path(output).parent_path());
   for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 

@@ -56,6 +56,7 @@ Many meshes
   asdf-vk -r parts -o results --log log.jsonl  all meshes below a folder
   asdf-vk summarize log.jsonl                  counts, times and failures
     --skip-existing               resume: skip meshes whose result is up to date
+    --tar                         the inputs and results are tars of meshes
     --jobs N                      meshes at once
 
 Input and output
