@@ -165,7 +165,8 @@ class MeshFiles {
     const AwaitedReader reader(outputs.picture, stop_);
     const View view = viewOf(outputs.pictureView, input_, result, field == nullptr && !outputs.choosesView);
     withProgress([&](const RunControl& control) {
-      writePng(files, outputs.picture, pictureOf(result, field, view, {}, control));
+      writePng(files, outputs.picture,
+               pictureOf(result, field, view, settings_.drawsFailedOnly ? kSmallPicture : PictureStyle{}, control));
     });
   }
 

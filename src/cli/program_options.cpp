@@ -101,15 +101,17 @@ OptionRows outputRows(Outputs& outputs) {
       OptionRow{.name = "verbose",
                 .member = &outputs.verbose,
                 .text = "Print the full report: device, seeds, times, solver, places. Implies {next-wall}"},
-      OptionRow{.name = "picture",
-                .group = kPictureGroup,
-                .member = memberAs<FileCodec>(&outputs.picture),
-                .text = "Also render the coloured mesh; - is standard output. FOLDER/ is for many meshes: a picture "
-                        "NAME.asdf.png of each mesh that fails the check, or of each mesh if there is no check",
-                .more = "The picture has 1200 x 900 pixels and a colour bar from the 1st to the 99th percentile "
-                        "([batches.md](batches.md#pictures)).",
-                .placeholder = "FILE.png|FOLDER/",
-                .wanted = "a file that ends in .png, or a folder that ends in /"},
+      OptionRow{
+          .name = "picture",
+          .group = kPictureGroup,
+          .member = memberAs<FileCodec>(&outputs.picture),
+          .text = "Also render the coloured mesh; - is standard output. FOLDER/ is for many meshes: a picture "
+                  "NAME.asdf.png of each mesh that fails the check, or of each mesh if there is no check",
+          .more = "The picture has 1200 x 900 pixels, in a folder 480 x 360, and a colour bar from the 1st to the 99th "
+                  "percentile "
+                  "([batches.md](batches.md#pictures)).",
+          .placeholder = "FILE.png|FOLDER/",
+          .wanted = "a file that ends in .png, or a folder that ends in /"},
       OptionRow{.name = "picture-of",
                 .member = memberAs<ShownFieldCodec>(&outputs.pictureOf),
                 .text = "Field that the picture shows",

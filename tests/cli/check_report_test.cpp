@@ -109,7 +109,7 @@ TEST_CASE("--skip-existing keeps verdicts: exit code, report of checks, messages
     CHECK_EQ(second.exitCode, 6);
     CHECK_EQ(second.output, first.output);
     CHECK(second.error.find("0 ok, 1 skipped, 1 not judged, 1 thin; ") != std::string::npos);
-    CHECK(second.error.find("thin.off: 1 wall thinner than 0.8") != std::string::npos);
+    CHECK(second.error.find("thin.off: FAIL: 1 wall thinner than 0.8") != std::string::npos);
     CHECK_EQ(statusesIn(log), StatusCounts{{"skipped", 3}});
   }
   CHECK_EQ(nlohmann::json::parse(runAsdf({"summarize", log, "--json"}).output).at("failedCount").get<int>(), 2);

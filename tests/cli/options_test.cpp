@@ -228,10 +228,7 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
                                          "-o",
                                          "--output",
                                          "--points",
-                                         "--picture",
-                                         "--picture-of",
-                                         "--picture-view",
-                                         "--picture-up",  // Other outputs.
+                                         "--picture",  // Other outputs.
                                          "--log",
                                          "--shard",
                                          "--null",

@@ -140,7 +140,7 @@ TEST_CASE("few boxes are enough where the largest balls are in a row or in a lay
     CHECK(isFound(shapes::box({1, 1, 300}, side), 40));
   }
   CHECK(isFound(angleSection(1, 1.5, 2), 60));
-  CHECK(isFound(angleSection(1, 1.5, 50), 300));
+  CHECK(isFound(angleSection(1, 1.5, 20), 300));
   for (const char* part : {"bracket-4", "ribbed-plate"}) CHECK(isFound(makeThicknessPart(part).solid.surface(), 150));
 }
 
