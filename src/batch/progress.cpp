@@ -35,7 +35,7 @@ void BatchProgress::count(const MeshRecord& record, uint64_t bytes) {
     case MeshStatus::Skipped:
       ++skippedCount;
       skippedBytes += bytes;
-      if (record.code == 0) return;
+      if (record.error.empty()) return;
       ++skippedVerdictCount;
       ++failures[wordsOf(record)];
       return;
@@ -60,6 +60,7 @@ double BatchProgress::share() const {
 }
 
 double BatchProgress::secondsLeft(double elapsedSeconds) const {
+  if (meshCount == 0) return std::numeric_limits<double>::infinity();
   const double computed = weightOf(doneCount + failedCount, doneBytes);
   const double left = weightOf(meshCount - finishedCount(), byteCount - doneBytes - skippedBytes);
   if (left <= 0) return 0;
@@ -76,9 +77,9 @@ std::string durationText(double seconds) {
 }
 
 std::string progressText(const BatchProgress& progress, double elapsedSeconds) {
-  std::string text =
-      fmt::format("{} of {} meshes, {}", groupDigits(progress.finishedCount()), groupDigits(progress.meshCount),
-                  rateText(progress.doneCount + progress.failedCount, elapsedSeconds));
+  const std::string ofAll = progress.meshCount == 0 ? "" : " of " + groupDigits(progress.meshCount);
+  std::string text = fmt::format("{}{} meshes, {}", groupDigits(progress.finishedCount()), ofAll,
+                                 rateText(progress.doneCount + progress.failedCount, elapsedSeconds));
   const double left = progress.secondsLeft(elapsedSeconds);
   if (std::isfinite(left)) text += fmt::format(", {} left", durationText(left));
   if (progress.skippedCount > 0) text += fmt::format(", {} skipped", groupDigits(progress.skippedCount));
@@ -94,7 +95,7 @@ std::string summaryText(const BatchProgress& progress, double elapsedSeconds) {
   add(progress.skippedCount - progress.skippedVerdictCount, "skipped");
   for (const auto& [words, count] : progress.failures) add(count, words);
   add(progress.droppedCount, "dropped");
-  add(progress.meshCount - progress.finishedCount(), "not begun");
+  if (progress.meshCount > 0) add(progress.meshCount - progress.finishedCount(), "not begun");
   text += fmt::format("; {:.3g} s", elapsedSeconds);
   const uint64_t computedCount = progress.doneCount + progress.failedCount;
   if (computedCount > 0)

@@ -10,7 +10,7 @@ namespace asdfvk {
 
 /// Counts of a running batch, for estimates of its rate and its remaining time. Bytes refer to the input files.
 struct BatchProgress {
-  uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files.
+  uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files; 0: unknown.
   uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
   uint64_t skippedVerdictCount = 0;  ///< Skipped meshes whose verdict of an earlier run is not OK.
   uint64_t doneBytes = 0;            ///< Bytes of the meshes that were computed or failed.

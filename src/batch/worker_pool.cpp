@@ -45,13 +45,14 @@ bool isKilledForMemory(const JobOutcome& outcome) {
 
 class WorkerPool {
  public:
-  WorkerPool(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+  WorkerPool(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
              const std::stop_token& stop)
-      : jobCount_(jobCount), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
+      : jobs_(jobs), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
 
   std::string run() {
     for (;;) {
       if (stop_.stop_requested() && !stopWatch_) requestStop();
+      if (isAlone_ && retries_.empty() && !isAtWork()) endAlone();
       if (!isAlone_ && hasRetriesOnly()) beginAlone();
       for (Worker& worker : workers_) feed(worker);
       if (isIdle()) {
@@ -65,16 +66,22 @@ class WorkerPool {
   }
 
  private:
-  [[nodiscard]] bool hasJobs() const { return (next_ < jobCount_ || (isAlone_ && !retries_.empty())) && !stopWatch_; }
+  [[nodiscard]] bool isAt(JobSupply::State state) const { return jobs_.next(next_) == state; }
+  [[nodiscard]] bool hasJobs() const {
+    return !stopWatch_ && (isAlone_ ? !retries_.empty() : isAt(JobSupply::State::Ready));
+  }
   [[nodiscard]] bool hasWorkers() const {
     return std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
   }
   [[nodiscard]] bool isAtWork() const {
     return std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
   }
-  [[nodiscard]] bool isIdle() const { return !(hasJobs() && hasWorkers()) && !isAtWork(); }
+  [[nodiscard]] bool isIdle() const {
+    return !isAtWork() && (stopWatch_ || !hasWorkers() || (retries_.empty() && isAt(JobSupply::State::Ended)));
+  }
+  /// Also while jobs of a stream may follow: they may wait for the results of these retries.
   [[nodiscard]] bool hasRetriesOnly() const {
-    return next_ == jobCount_ && !stopWatch_ && !retries_.empty() && hasWorkers() && !isAtWork();
+    return !stopWatch_ && !retries_.empty() && hasWorkers() && !isAtWork() && !isAt(JobSupply::State::Ready);
   }
 
   /// Ends all workers, which may keep memory of earlier jobs, and continues with one.
@@ -82,6 +89,11 @@ class WorkerPool {
     isAlone_ = true;
     workers_.clear();
     workers_.resize(1);
+  }
+
+  void endAlone() {
+    isAlone_ = false;
+    workers_.resize(options_.workerCount);
   }
 
   /// Ends the jobs whose second attempt did not begin.
@@ -140,6 +152,7 @@ class WorkerPool {
     std::vector<pollfd> polled;
     for (const Worker& worker : workers_)
       if (worker.process) polled.push_back({worker.process->descriptor(), POLLIN, 0});
+    if (jobs_.descriptor >= 0 && !stopWatch_) polled.push_back({jobs_.descriptor, POLLIN, 0});
     double milliseconds = options_.memoryBytes > 0 ? kMemoryPollMilliseconds : kPollMilliseconds;
     if (std::isfinite(options_.timeoutSeconds))
       for (const Worker& worker : workers_)
@@ -239,13 +252,14 @@ class WorkerPool {
       if (worker.process && worker.job) worker.process->signal(SIGTERM);
   }
 
-  size_t jobCount_, next_ = 0;
+  const JobSupply& jobs_;
+  size_t next_ = 0;
   const WorkerPoolOptions& options_;
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
   std::vector<Worker> workers_;
   std::deque<JobOutcome> retries_;  ///< First outcomes of jobs that are tried again.
-  bool isAlone_ = false;            ///< Whether only second attempts are left.
+  bool isAlone_ = false;            ///< Whether only second attempts begin.
   uint32_t allowedCount_ = 1;       ///< Number of processes that may run at the same time.
   bool hasStarted_ = false;         ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
@@ -254,9 +268,9 @@ class WorkerPool {
 
 }  // namespace
 
-std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+std::string runOnWorkers(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop) {
-  return WorkerPool(jobCount, options, client, stop).run();
+  return WorkerPool(jobs, options, client, stop).run();
 }
 
 }  // namespace asdfvk

@@ -56,6 +56,7 @@ Many meshes
   asdf-vk -r parts -o results --log log.jsonl  all meshes below a folder
   asdf-vk summarize log.jsonl                  counts, times and failures
     --skip-existing               resume: skip meshes whose result is up to date
+    --tar                         the inputs and results are tars of meshes
     --jobs N                      meshes at once
 
 Input and output
@@ -150,10 +151,11 @@ void completeLimits(CommandLine& line, const GivenOptions& given) {
 }
 
 void completeResult(CommandLine& line, const GivenOptions& given) {
-  constexpr std::array kAboutResult{"output", "format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
-  line.outputs.writesResult =
-      !(line.computation.isCheck() || !line.outputs.limits.empty()) ||
-      std::any_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  constexpr std::array kAboutResult{"format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
+  line.outputs.writesRecordsOnly =
+      (line.computation.isCheck() || !line.outputs.limits.empty()) &&
+      std::none_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  line.outputs.writesResult = !line.outputs.writesRecordsOnly || given.has("output") || given.has("keep-members");
   if (!line.outputs.writesResult && line.batch.skipsExisting)
     refuseOptions("--skip-existing looks for results, but --fail-if-... writes none without -o; give -o");
 }
@@ -188,7 +190,7 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
   if (given.has("log") && batch.log.empty()) refuseOptions("--log: the name is empty");
   if (batch.list == "-" && readsInput)
     refuseOptions("--files-from - and the mesh '-' both read standard input; name a file instead of one of the two");
-  if (batch.isolates && readsInput)
+  if (batch.isolates && readsInput && !batch.readsTars)
     refuseOptions(
         "--isolate and --memory-limit compute in other processes, which cannot read the mesh '-'; name a file instead "
         "of '-'");
@@ -199,7 +201,12 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
       refuseOptions("for one page of all meshes, one mesh is computed after another; drop --jobs");
     return;
   }
-  if (line.outputs.path == "-") refuseOptions("standard output (-o -) holds one result; give -o a folder");
+  if (line.outputs.path == "-" && !batch.readsTars)
+    refuseOptions("standard output (-o -) holds one result; give -o a folder");
+  if (batch.readsTars && writesPages(line.outputs))
+    refuseOptions("a page is a file of its own, and no member of a tar; drop --tar, or --format html");
+  if (batch.readsTars && !line.outputs.picture.empty())
+    refuseOptions("--picture draws meshes in files of their own; drop it, or --tar");
   if (!line.outputs.picture.empty() && !hasPictureFolder(line.outputs))
     refuseOptions(fmt::format("--picture {} is for one mesh; give a folder that ends in /, such as --picture pictures/",
                               line.outputs.picture));

@@ -12,6 +12,7 @@
 #include "batch/output_record.h"
 #include "batch/process_memory.h"
 #include "cli/device_output.h"
+#include "cli/member_files.h"
 #include "cli/page_output.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"
@@ -106,7 +107,7 @@ JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
   if (run.hasResult && !job.output.empty()) record.output = job.output;
   if (!run.picture.empty()) record.picture = run.picture;
   if (run.failure) fillRecord(record, *run.failure);
-  if (settings_.isOfBatch && (!run.failure || hasResult(run.failure->code))) {
+  if (settings_.isOfBatch && !job.content && (!run.failure || hasResult(run.failure->code))) {
     try {
       writeOutputRecord(record, job.output);
     } catch (...) {
@@ -151,7 +152,7 @@ JobResult JobRecords::fail(const Job& job, const Failure& failure) const {
   MeshRecord record = begin(job);
   MeshRun run;
   run.add(failure, job.input, settings_.outputs.json);
-  const std::optional<MeshRecord> old = readOutputRecord(job.output);
+  const std::optional<MeshRecord> old = job.content ? std::nullopt : readOutputRecord(job.output);
   if (old) record.inputHash = contentHashOf(job.input).value_or("");
   return finish(job, std::move(record), std::move(run), old);
 }
@@ -188,12 +189,14 @@ ComputerDescription MeshComputer::describe() const {
 
 JobResult MeshComputer::compute(const Job& job, const Job* next) {
   MeshRecord record = records_.begin(job);
-  const std::optional<MeshRecord> old = settings_.isOfBatch ? readOutputRecord(job.output) : std::nullopt;
+  const std::optional<MeshRecord> old =
+      settings_.isOfBatch && !job.content ? readOutputRecord(job.output) : std::nullopt;
   const Stopwatch watch;
   resetPeakMemory();
   const Deadline deadline(settings_.timeoutSeconds, stop_);
-  LoadedMesh loaded =
-      ahead_.valid() ? ahead_.get() : loadMesh(job.input, settings_.reading, settings_.isOfBatch, deadline.token());
+  LoadedMesh loaded = job.content      ? loadMember(job.input, *job.content, settings_.reading, settings_.isOfBatch)
+                      : ahead_.valid() ? ahead_.get()
+                                       : loadMesh(job.input, settings_.reading, settings_.isOfBatch, deadline.token());
   if (next != nullptr && isReadAhead(*next))
     ahead_ = std::async(std::launch::async,
                         [this, next] { return loadMesh(next->input, settings_.reading, settings_.isOfBatch, stop_); });
@@ -206,7 +209,12 @@ JobResult MeshComputer::compute(const Job& job, const Job* next) {
              (run.failure && run.failure->code == ExitCode::Device);
   record.totalSeconds = watch.seconds();
   record.peakMemoryBytes = peakMemoryBytes();
-  return records_.finish(job, std::move(record), std::move(run), old);
+  std::vector<std::pair<std::string, std::string>> files;
+  if (job.content && !job.output.empty()) files = takenResult(job.output);
+  if (!files.empty()) record.outputHash = contentHash(files.back().second);
+  JobResult result = records_.finish(job, std::move(record), std::move(run), old);
+  result.files = std::move(files);
+  return result;
 }
 
 /// The file name, or the whole path if another mesh of the page has the same file name.

@@ -68,7 +68,8 @@ Json toJson(MeshSettings settings) {
           {"keepsScene", settings.computation.options.keepsScene},
           {"timeoutSeconds", settings.timeoutSeconds},
           {"makesFolders", settings.makesFolders},
-          {"isOfBatch", settings.isOfBatch}};
+          {"isOfBatch", settings.isOfBatch},
+          {"memberFolder", settings.memberFolder}};
 }
 
 MeshSettings settingsOf(const Json& json) {
@@ -83,6 +84,7 @@ MeshSettings settingsOf(const Json& json) {
   settings.timeoutSeconds = json.at("timeoutSeconds");
   settings.makesFolders = json.at("makesFolders");
   settings.isOfBatch = json.at("isOfBatch");
+  settings.memberFolder = json.at("memberFolder");
   return settings;
 }
 

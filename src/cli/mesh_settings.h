@@ -26,6 +26,7 @@ struct MeshSettings {
   /// times.
   bool isOfBatch = false;
   bool drawsFailedOnly = false;  ///< In a run with a check, only meshes that fail the check have a picture.
+  std::string memberFolder;      ///< For members of tars with results: see enterMemberFolder(). Else empty.
 };
 
 [[nodiscard]] MeshSettings meshSettingsOf(const struct CommandLine& line);

@@ -153,6 +153,17 @@ OptionRows batchRows(BatchOptions& batch) {
                 .text = "Paths of the list end with a zero byte, as find -print0 writes them, and have no keys",
                 .needs = "files-from",
                 .flags = "-0,--null"},
+      OptionRow{
+          .name = "tar",
+          .member = &batch.readsTars,
+          .text =
+              "The inputs are tars of meshes, also compressed. The answers are tars: a result and a record per mesh, "
+              "in the order of the meshes; only records with {fail-if-thinner}",
+          .more = "[batches.md](batches.md#tars) describes the tars."},
+      OptionRow{.name = "keep-members",
+                .member = &batch.keepsMembers,
+                .text = "Also copy all members of the inputs. The answers are then named KEY.asdf.*",
+                .needs = "tar"},
       OptionRow{.name = "shard",
                 .member = memberAs<ShardCodec>(&batch.shard),
                 .text = "Compute part I of N only; the parts have about the same size. auto: the variables of a "

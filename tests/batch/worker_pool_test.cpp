@@ -1,8 +1,14 @@
 #include "batch/worker_pool.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <map>
 #include <system_error>
@@ -206,6 +212,69 @@ TEST_CASE("workers that cannot start, end or hang before they are ready end the 
   CHECK_EQ(reasonOf({"/bin/false"}), "ended with exit code 1");
   CHECK_EQ(reasonOf({"/bin/sleep", "1000"}), "not ready after 0.2 s");
   CHECK_THROWS_AS(reasonOf({"/missing"}), std::system_error);
+}
+
+TEST_CASE("jobs that arrive later begin when they have arrived") {
+  std::array<int, 2> ends{};
+  REQUIRE_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
+  std::atomic<size_t> arrivedCount = 1;
+  const std::jthread source([&] {
+    for (int i = 0; i < 4; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      arrivedCount += i < 3 ? 1 : 100;  // The last step is the end.
+      CHECK_EQ(::write(ends[1], "x", 1), 1);
+    }
+  });
+  size_t finishedCount = 0;
+  const auto next = [&](size_t job) {
+    char ignored = 0;
+    while (::read(ends[0], &ignored, 1) == 1) {
+    }
+    if (job < std::min<size_t>(arrivedCount, 4)) return JobSupply::State::Ready;
+    return arrivedCount > 4 ? JobSupply::State::Ended : JobSupply::State::Later;
+  };
+  const WorkerPoolClient client{.request = [](size_t job, uint32_t) { return std::to_string(job); },
+                                .ready = [](const std::string&) { return 2U; },
+                                .finished =
+                                    [&](const JobOutcome& outcome) {
+                                      CHECK_EQ(outcome.answer, "done " + std::to_string(outcome.job));
+                                      ++finishedCount;
+                                      return true;
+                                    }};
+  const WorkerPoolOptions options{
+      .program = kWorker.front(), .arguments = kWorker, .greeting = "hello", .workerCount = 2};
+  CHECK_EQ(runOnWorkers({next, ends[0]}, options, client, {}), "");
+  CHECK_EQ(finishedCount, 4);
+  for (const int end : ends) ::close(end);
+}
+
+TEST_CASE("a job that is tried again does not wait for jobs that wait for its result") {
+  std::map<size_t, std::string> answers;
+  const auto next = [&](size_t job) {
+    if (job == 6) return JobSupply::State::Ended;
+    return job < 3 || answers.contains(0) ? JobSupply::State::Ready : JobSupply::State::Later;
+  };
+  const WorkerPoolClient client{.request =
+                                    [](size_t job, uint32_t attempt) {
+                                      return job == 0 && attempt == 1 ? std::string("grow")
+                                                                      : fmt::format("{} {}", job, attempt);
+                                    },
+                                .ready = [](const std::string&) { return 2U; },
+                                .finished =
+                                    [&](const JobOutcome& outcome) {
+                                      CHECK(answers.emplace(outcome.job, outcome.answer).second);
+                                      return true;
+                                    },
+                                .retried = [](const JobOutcome& outcome) { CHECK_EQ(outcome.job, 0); }};
+  const WorkerPoolOptions options{.program = kWorker.front(),
+                                  .arguments = kWorker,
+                                  .greeting = "hello",
+                                  .workerCount = 2,
+                                  .memoryBytes = uint64_t{50} << 20};
+  CHECK_EQ(runOnWorkers({next, -1}, options, client, {}), "");
+  const std::map<size_t, std::string> expected{{0, "done 0 2"}, {1, "done 1 1"}, {2, "done 2 1"},
+                                               {3, "done 3 1"}, {4, "done 4 1"}, {5, "done 5 1"}};
+  CHECK_EQ(answers, expected);
 }
 
 }  // namespace

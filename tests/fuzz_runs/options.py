@@ -22,8 +22,8 @@ class Option:
     joined: bool = False  # The value only after an equals sign.
 
 
-# --output is given by each case; --open starts a browser; --device-report takes long.
-LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--print-schema", "--help"})
+# --output is given by each case; --open starts a browser; --device-report takes long; --tar reads no meshes.
+LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--print-schema", "--help", "--tar", "--keep-members"})
 # Values of options whose kind the tables do not tell, and those that keep runs short.
 _VALUES: dict[str, tuple[Values, Values]] = {
     "--seeds": (
