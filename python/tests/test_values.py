@@ -6,6 +6,7 @@ import dataclasses
 import json
 import re
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,9 @@ from numpy.typing import NDArray
 import asdf_vk
 from asdf_vk import _core, _keywords, _report
 from shapes import cube, dumbbell, joined, sphere
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/support"))
+import kept_json  # noqa: E402
 
 
 def bits(values: NDArray[Any]) -> NDArray[Any]:
@@ -213,7 +217,9 @@ def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Pa
     path = tmp_path / "dumbbell.ply"
     asdf_vk.write(path, dumbbell())
     command: list[Any] = [program, path, "-o", tmp_path / "result.npy", "--quiet", "--json", "--thinner-than", str(limit)]
-    printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    output = subprocess.run(command, check=True, capture_output=True).stdout
+    kept_json.keep(output)
+    printed = json.loads(output)
     info = asdf_vk.compute(asdf_vk.read_mesh(path), measure="thickness", thinner_than=limit)
     document, ours = printed["thickness"], info.thickness
     assert ours is not None and document["regions"]

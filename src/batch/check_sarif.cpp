@@ -17,24 +17,32 @@ namespace {
 struct RuleText {
   const char* kind;
   const char* text;
+  const char* help;
 };
 
 /// Texts of the kinds of findings, and of failures that need more than their name.
 constexpr std::array kRuleTexts{
-    RuleText{"thinWall", "A wall is thinner than the limit."},
-    RuleText{"thinDetail", "A detail is thinner than the limit."},
-    RuleText{"thinEdge", "The shape tapers off to less than the limit."},
-    RuleText{"narrowGap", "A gap is narrower than the limit."},
-    RuleText{"thickBody", "A body is thicker than the limit."},
-    RuleText{"sealedVoid", "A space inside has no way out."},
-    RuleText{"bodiesInContact", "Two bodies touch or overlap."},
-    RuleText{"unjudged", "A part of the surface cannot be judged."},
+    RuleText{"thinWall", "A wall is thinner than the limit.", "Make the wall at least as thick as the limit."},
+    RuleText{"thinDetail", "A detail is thinner than the limit.", "Enlarge the detail, or remove it."},
+    RuleText{"thinEdge", "The shape tapers off to less than the limit.", "Round the edge, or make it blunt."},
+    RuleText{"narrowGap", "A gap is narrower than the limit.", "Make the gap wider, or close it."},
+    RuleText{"thickBody", "A body is thicker than the limit.", "Hollow the body out, or divide it."},
+    RuleText{"sealedVoid", "A space inside has no way out.", "Add a hole to the outside, or fill the space."},
+    RuleText{"bodiesInContact", "Two bodies touch or overlap.", "Move the bodies apart, or join them."},
+    RuleText{"unjudged", "A part of the surface cannot be judged.", "Repair the surface as the message says."},
 };
 
-std::string ruleTextOf(const std::string& kind) {
+/// A rule of a kind of findings, or of the name of an error.
+Json ruleOf(const std::string& kind) {
   const auto found =
       std::find_if(kRuleTexts.begin(), kRuleTexts.end(), [&](const RuleText& row) { return row.kind == kind; });
-  return found != kRuleTexts.end() ? found->text : fmt::format("The mesh has no result ({}).", kind);
+  const bool isFinding = found != kRuleTexts.end();
+  const Json text{{"text", isFinding ? found->text : fmt::format("The mesh has no result ({}).", kind)}};
+  // GitHub requires all three.
+  return {{"id", kind},
+          {"shortDescription", text},
+          {"fullDescription", text},
+          {"help", {{"text", isFinding ? found->help : "Correct the cause that the message names."}}}};
 }
 
 /// A path as a reference of a URI (RFC 3986): relative, or "file:///...".
@@ -71,7 +79,7 @@ class Rules {
  public:
   size_t indexOf(const std::string& kind) {
     const auto [found, isNew] = indices_.emplace(kind, rules_.size());
-    if (isNew) rules_.push_back({{"id", kind}, {"shortDescription", {{"text", ruleTextOf(kind)}}}});
+    if (isNew) rules_.push_back(ruleOf(kind));
     return found->second;
   }
   [[nodiscard]] const Json& all() const { return rules_; }

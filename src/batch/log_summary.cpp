@@ -44,7 +44,8 @@ using Cells = std::vector<std::pair<std::string, std::string>>;
 Json rowOf(const MeshRecord& mesh) {
   Json row = mesh;
   row["warnings"] = joined(mesh.warnings, " ");
-  for (const char* key : {"inputHash", "optionsHash", "outputHash", "options", "findings"}) row.erase(key);
+  for (const char* key : {"formatVersion", "inputHash", "optionsHash", "outputHash", "options", "findings"})
+    row.erase(key);
   if (mesh.key.empty()) row.erase("key");
   for (const char* key : {"sdf", "thickness", "parts", "estimatedError"})
     if (const Json& values = row.at(key);
@@ -187,24 +188,27 @@ std::string textOf(const LogSummary& summary) {
 }
 
 std::string jsonOf(const LogSummary& summary) {
-  Json json{{"meshCount", summary.meshes.size()},
-            {"recordCount", summary.recordCount},
-            {"invalidLineCount", summary.invalidLineCount}};
-  for (const auto& [status, name] : kMeshStatuses) {
+  const auto countOf = [&](MeshStatus status) {
     const auto found = summary.statusCounts.find(status);
-    json[std::string(name) + "Count"] = found == summary.statusCounts.end() ? 0 : found->second;
-  }
-  json["faceCount"] = summary.faceCount;
-  json["meshSeconds"] = summary.meshSeconds;
-  json["seconds"] = summary.seconds;
-  json["averageError"] = summary.averageErrors;
-  json["peakMemoryBytes"] = summary.peakMemoryBytes;
-  for (const char* key : {"stageSeconds", "devices"}) json[key] = Json::object();
-  for (const auto& [stage, seconds] : summary.stageSeconds) json["stageSeconds"][stage] = seconds;
-  for (const auto& [device, count] : summary.devices) json["devices"][device] = count;
-  json["warnings"] = summary.warnings;
-  json["failures"] = summary.failures;
-  return jsonText(json, 2) + "\n";
+    return found == summary.statusCounts.end() ? 0 : found->second;
+  };
+  const SummaryDocument document{.meshCount = summary.meshes.size(),
+                                 .recordCount = summary.recordCount,
+                                 .invalidLineCount = summary.invalidLineCount,
+                                 .doneCount = countOf(MeshStatus::Done),
+                                 .skippedCount = countOf(MeshStatus::Skipped),
+                                 .failedCount = countOf(MeshStatus::Failed),
+                                 .droppedCount = countOf(MeshStatus::Dropped),
+                                 .faceCount = summary.faceCount,
+                                 .meshSeconds = summary.meshSeconds,
+                                 .seconds = summary.seconds,
+                                 .averageError = summary.averageErrors,
+                                 .peakMemoryBytes = summary.peakMemoryBytes,
+                                 .stageSeconds = summary.stageSeconds,
+                                 .devices = summary.devices,
+                                 .warnings = summary.warnings,
+                                 .failures = summary.failures};
+  return jsonText(document, 2) + "\n";
 }
 
 std::string csvOf(const LogSummary& summary) {

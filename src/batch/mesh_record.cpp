@@ -50,7 +50,7 @@ bool endsWithinLine(int descriptor) {
 
 }  // namespace
 
-const char* nameOf(MeshStatus status) { return kMeshStatuses[static_cast<size_t>(status)].second; }
+const char* nameOf(MeshStatus status) { return kMeshStatuses[static_cast<size_t>(status)].first; }
 
 bool hasVerdictError(const MeshRecord& record) {
   return std::any_of(kVerdictErrors.begin(), kVerdictErrors.end(),
@@ -61,9 +61,9 @@ void to_json(Json& json, MeshStatus status) { json = nameOf(status); }
 
 void from_json(const Json& json, MeshStatus& status) {
   const auto named = std::find_if(kMeshStatuses.begin(), kMeshStatuses.end(),
-                                  [&](const auto& row) { return row.second == json.get_ref<const std::string&>(); });
+                                  [&](const auto& row) { return row.first == json.get_ref<const std::string&>(); });
   if (named == kMeshStatuses.end()) throw std::invalid_argument("an unknown status");
-  status = named->first;
+  status = named->second;
 }
 
 std::string utcTime() {
@@ -95,7 +95,8 @@ std::optional<MeshRecord> parseRecord(std::string_view text) {
     for (const auto& [key, value] : json.items())
       if (!value.is_null()) complete[key] = value;
     auto record = complete.get<MeshRecord>();
-    if (complete.contains("inputBytes")) record.input = bytesOfHex(complete["inputBytes"].get<std::string>());
+    if (record.inputBytes) record.input = bytesOfHex(*record.inputBytes);
+    record.inputBytes = std::nullopt;
     return record;
   } catch (const std::exception&) {  // Invalid JSON, a missing key, or a value of a wrong type.
     return std::nullopt;

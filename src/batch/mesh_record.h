@@ -21,36 +21,42 @@ enum class MeshStatus {
   Failed,
   Dropped,  ///< The run was cancelled while this mesh was computed.
 };
-inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses{{{MeshStatus::Done, "done"},
-                                                                                  {MeshStatus::Skipped, "skipped"},
-                                                                                  {MeshStatus::Failed, "failed"},
-                                                                                  {MeshStatus::Dropped, "dropped"}}};
+inline constexpr std::array<std::pair<const char*, MeshStatus>, 4> kMeshStatuses{{{"done", MeshStatus::Done},
+                                                                                  {"skipped", MeshStatus::Skipped},
+                                                                                  {"failed", MeshStatus::Failed},
+                                                                                  {"dropped", MeshStatus::Dropped}}};
+constexpr const char* enumerationName(MeshStatus) { return "MeshStatus"; }
+constexpr const auto& choicesOf(MeshStatus) { return kMeshStatuses; }
 [[nodiscard]] const char* nameOf(MeshStatus status);
 
 /// Record of a mesh of a batch: a line of the log, and the content of the file beside the output.
 struct MeshRecord {
-  std::string input;
-  std::string key;  ///< InputFile::key
+  int formatVersion = kJsonFormatVersion;  ///< Version of the format of JSON documents.
+  std::string input;                       ///< Path of the mesh.
+  /// Bytes of the path as hexadecimal digits; exists only if the path is not valid UTF-8.
+  OptionalKey<std::string> inputBytes;
+  std::string key;  ///< Name of the mesh in a list or a tar; empty without one.
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
-  std::optional<std::string> output;               ///< Unset if no output was written.
-  std::optional<std::string> picture;              ///< Unset if no picture was written.
-  std::string inputHash, optionsHash, outputHash;  ///< contentHash() of input, options and output; empty if unknown.
-  /// Values of the JSON report other than lists, except for points and findings; null or unset if unknown.
+  std::optional<std::string> output;               ///< Path of the result; unset if no output was written.
+  std::optional<std::string> picture;              ///< Path of the picture; unset if no picture was written.
+  std::string inputHash, optionsHash, outputHash;  ///< XXH3 hashes of input, options and output; empty if unknown.
+  /// Value of the JSON report; unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
-  std::optional<uint32_t> segmentCount;
-  std::string unit;
+  std::optional<uint32_t> segmentCount;  ///< Value of the JSON report; unset if unknown.
+  std::string unit;                      ///< Value of the JSON report.
+  /// Value of the JSON report without lists, except for points and findings; null if unknown.
   Json sdf, thickness, parts, estimatedError, findings, options;
-  std::string version, commit, device, backend;
-  std::map<std::string, double> seconds;  ///< Seconds of each stage that ran.
-  double totalSeconds = 0;                ///< Time from the start of reading to the end of writing.
-  uint64_t peakMemoryBytes = 0;
-  uint32_t attemptCount = 1;          ///< 2 if the first worker process was killed for its memory.
-  std::vector<std::string> warnings;  ///< Codes of the warnings.
-  MeshStatus status = MeshStatus::Done;
-  int code = 0;         ///< Exit code of this mesh.
-  std::string error;    ///< Name of the error; empty without a failure.
-  std::string message;  ///< Message of the error in one line; empty without a failure.
+  std::string version, commit, device, backend;  ///< Value of the JSON report; empty if unknown.
+  std::map<std::string, double> seconds;         ///< Seconds of each stage that ran.
+  double totalSeconds = 0;                       ///< Time from the start of reading to the end of writing, in seconds.
+  uint64_t peakMemoryBytes = 0;                  ///< Greatest resident memory of the process, in bytes.
+  uint32_t attemptCount = 1;                     ///< 2 if the first worker process was killed for its memory.
+  std::vector<std::string> warnings;             ///< Codes of the warnings.
+  MeshStatus status = MeshStatus::Done;          ///< What became of the mesh.
+  int code = 0;                                  ///< Exit code of this mesh.
+  std::string error;                             ///< Name of the error; null without a failure.
+  std::string message;                           ///< The reason of the failure in one line; empty without a failure.
 };
 
 /// The values of MeshRecord::error that are verdicts of checks on a computed mesh, and what a summary calls such
@@ -80,10 +86,10 @@ inline constexpr std::array<std::pair<const char*, const char*>, 6> kVerdictErro
 
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
-ASDFVK_JSON(MeshRecord, input, key, status, code, error, message, warnings, faceCount, vertexCount, componentCount,
-            noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError, findings, totalSeconds, seconds,
-            peakMemoryBytes, attemptCount, backend, device, output, picture, time, version, commit, inputHash,
-            optionsHash, outputHash, options)
+ASDFVK_JSON(MeshRecord, formatVersion, input, inputBytes, key, status, code, error, message, warnings, faceCount,
+            vertexCount, componentCount, noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError,
+            findings, totalSeconds, seconds, peakMemoryBytes, attemptCount, backend, device, output, picture, time,
+            version, commit, inputHash, optionsHash, outputHash, options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
 /// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.

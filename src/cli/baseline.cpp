@@ -10,6 +10,7 @@
 #include <iterator>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
@@ -21,9 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormatVersion = 1;
-constexpr const char* kVersionKey = "formatVersion";
-constexpr const char* kPlacesKey = "known";
 /// A place that is thinner by more than this share is new.
 constexpr double kValueTolerance = 0.05;
 
@@ -104,13 +102,13 @@ Baseline readBaseline(const std::string& path) {
     throw Error(ErrorCode::UnreadableInput,
                 fmt::format("the baseline {} does not exist; --update-baseline writes it", path));
   const Json json = readObject(path, "the baseline");
-  if (json.value(kVersionKey, Json()) != kFormatVersion)
+  if (json.value("formatVersion", Json()) != kJsonFormatVersion)
     throw Error(ErrorCode::UnreadableInput,
                 fmt::format("the baseline {} has another format version than {}; write it anew with --update-baseline",
-                            path, kFormatVersion));
+                            path, kJsonFormatVersion));
   Baseline baseline{.folder = fs::absolute(path).lexically_normal().parent_path().string(), .places = {}};
   try {
-    json.at(kPlacesKey).get_to(baseline.places);
+    baseline.places = json.get<BaselineDocument>().known;
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::UnreadableInput, fmt::format("the baseline {} is damaged: {}", path, error.what()));
   }
@@ -131,7 +129,7 @@ void updateBaseline(const std::string& path, std::span<const MeshRecord> records
       baseline.places[mesh] = std::move(failures);
   }
   AtomicFile file(path);
-  file.write(jsonText({{kVersionKey, kFormatVersion}, {kPlacesKey, baseline.places}}, 1) + "\n");
+  file.write(jsonText(BaselineDocument{.known = std::move(baseline.places)}, 1) + "\n");
   file.commit();
 }
 

@@ -16,11 +16,10 @@ namespace asdfvk {
 
 /// A finding that was accepted in an earlier run.
 struct KnownPlace {
-  std::string kind;
-  std::optional<double> value;
-  std::optional<double> limit;
-  std::optional<std::array<double, 3>> place;
-  std::vector<std::string> bodies;
+  std::string kind;                            ///< Kind of the finding, such as `thinWall`.
+  std::optional<double> value, limit;          ///< Value and limit of the finding.
+  std::optional<std::array<double, 3>> place;  ///< Place of the finding.
+  std::vector<std::string> bodies;             ///< Names of the bodies at the place.
 };
 
 /// The known places of each mesh (--baseline). Paths of meshes are relative to the folder of the file.
@@ -36,6 +35,13 @@ struct Baseline {
 
 ASDFVK_JSON(KnownPlace, kind, value, limit, place, bodies)
 ASDFVK_JSON(Baseline, folder, places)
+
+/// A file of known places.
+struct BaselineDocument {
+  int formatVersion = kJsonFormatVersion;                ///< Version of the format of JSON documents.
+  std::map<std::string, std::vector<KnownPlace>> known;  ///< Known places of each mesh, by its path below the folder.
+};
+ASDFVK_JSON(BaselineDocument, formatVersion, known)
 
 /// Throws Error{UnreadableInput}.
 [[nodiscard]] Baseline readBaseline(const std::string& path);

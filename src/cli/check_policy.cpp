@@ -14,13 +14,15 @@
 #include "describe/option_json.h"
 #include "describe/option_rules.h"
 #include "describe/report_json.h"
+#include "serve/json_schema.h"
+#include "serve/mesh_request.h"
 
 namespace asdfvk {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kRulesKey = "limits", *kFilesKey = "files";
+constexpr const char *kRulesKey = "limits", *kFilesKey = "files", *kSchemaKey = "$schema";
 constexpr std::array kLimitNames{"fail-if-thinner", "fail-if-thicker", "fail-if-closer", "fail-if-voids",
                                  "fail-if-contact", "count-details",   "count-edges"};
 
@@ -93,6 +95,7 @@ LimitRules readLimits(const std::string& path) {
     LimitRules limits{fs::absolute(path).lexically_normal().parent_path().string(), {}};
     if (!json.contains(kRulesKey) || !json[kRulesKey].is_array())
       throw Error(ErrorCode::UnreadableInput, "there is no list \"limits\"; write {\"limits\": [...]}");
+    requireKeys(json, {kRulesKey, kSchemaKey}, "the file");
     for (const Json& rule : json[kRulesKey]) limits.rules.push_back(ruleOf(rule));
     for (const LimitRule& rule : limits.rules)  // Each rule alone must be valid.
       (void)LimitRules{"/", {{"*", rule.options}}}.applied("any", {});
@@ -101,6 +104,28 @@ LimitRules readLimits(const std::string& path) {
     const std::string text = error.what();
     throw Error(error.code(), text.find(path) != std::string::npos ? text : fmt::format("{}: {}", path, text));
   }
+}
+
+Json limitDefinitions() {
+  ComputationSettings settings;
+  OptionRows rows = computationRows(settings);
+  std::erase_if(rows, [](const OptionRow& row) {
+    return std::find(kLimitNames.begin(), kLimitNames.end(), std::string_view(row.name)) == kLimitNames.end();
+  });
+  Json rule = optionsSchema({&rows, 1}, OptionSpelling::Name);
+  rule["description"] = "Limits of the meshes that match a pattern. Null removes a limit.";
+  rule["properties"][kFilesKey] = {
+      {"type", "string"}, {"description", "Pattern of the names of the meshes; with a slash, of their paths."}};
+  rule["required"] = Json::array({kFilesKey});
+  return {{"LimitFile",
+           {{"description", "Limits of single meshes. All rules that match a mesh apply; the last one wins."},
+            {"type", "object"},
+            {"properties",
+             {{kSchemaKey, {{"type", "string"}, {"description", "For editors; ignored."}}},
+              {kRulesKey, {{"type", "array"}, {"items", schemaReference("LimitRule")}}}}},
+            {"required", Json::array({kRulesKey})},
+            {"additionalProperties", false}}},
+          {"LimitRule", std::move(rule)}};
 }
 
 void to_json(Json& json, const LimitRules& limits) {

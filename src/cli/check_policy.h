@@ -33,6 +33,9 @@ struct CheckPolicy {
 /// Throws Error{UnreadableInput}, and the errors of setOption() for wrong values.
 [[nodiscard]] LimitRules readLimits(const std::string& path);
 
+/// The JSON Schemas of the file and of a rule, by their names in docs/schema.json.
+[[nodiscard]] Json limitDefinitions();
+
 void to_json(Json& json, const LimitRules& limits);
 void from_json(const Json& json, LimitRules& limits);
 

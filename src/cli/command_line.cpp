@@ -15,11 +15,11 @@
 #include "cli/exit_code.h"
 #include "cli/input_options.h"
 #include "cli/program_options.h"
-#include "cli/report_json.h"
 #include "core/text.h"
 #include "describe/fields.h"
 #include "describe/option_rules.h"
 #include "pipeline/backend.h"
+#include "serve/json_schema.h"
 
 namespace asdfvk {
 namespace {
@@ -96,7 +96,7 @@ bool takesNext(const OptionRow& row, const std::string& next) {
 
 /// Throws Error{OptionConflict} if an option is given that --list-devices or --device-report ignores.
 void requireNoIgnoredOption(const std::vector<std::string>& given, const CommandLine& line) {
-  if (line.printsSchema && given.size() > 1)
+  if (!line.schema.empty() && given.size() > 1)
     refuseOptions("--print-schema prints the schema only; drop the other arguments");
   if (!line.listDevices && !line.deviceReport) return;
   const std::string name = line.listDevices ? "--list-devices" : "--device-report";
@@ -286,8 +286,11 @@ OptionRows deviceRows(CommandLine& line) {
                 .more = "Takes `{backend}`, `{device}` and `{require-gpu}` ([devices.md](devices.md))."},
       OptionRow{.name = "print-schema",
                 .group = kOutputGroup,
-                .member = &line.printsSchema,
-                .text = "Print the JSON Schema of what {json} prints"},
+                .member = &line.schema,
+                .text = "Print the JSON Schema of a document; report: what {json} prints",
+                .more = "[formats.md](formats.md#json-schema) has a table of the documents.",
+                .names = schemaNames,
+                .bareValue = kSchemaDocuments.front().name},
   });
 }
 
@@ -367,8 +370,8 @@ CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
     return line;
   }
   requireNoIgnoredOption(parser.givenNames(), line);
-  if (line.printsSchema) {
-    line.answer = std::string(reportSchemaText());
+  if (!line.schema.empty()) {
+    line.answer = documentSchema(line.schema);
     return line;
   }
   GivenOptions given{.names = {}, .spelling = OptionSpelling::Flag};

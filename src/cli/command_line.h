@@ -24,7 +24,7 @@ struct CommandLine {
   BatchOptions batch;
   bool listDevices = false;
   bool deviceReport = false;
-  bool printsSchema = false;
+  std::string schema;                 ///< The document whose JSON Schema is printed; empty: none.
   std::optional<std::string> answer;  ///< Answer to --help, --version or --print-schema. If set, nothing is computed.
 };
 

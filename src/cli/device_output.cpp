@@ -7,31 +7,13 @@
 
 #include "asdf_vk/choices.h"
 #include "asdf_vk/version.h"
-#include "core/json.h"
+#include "cli/device_documents.h"
 #include "core/text.h"
-#include "describe/report_json.h"
 #include "describe/report_text.h"
-#include "diagnose/device_report.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 
 namespace asdfvk {
-
-void to_json(Json& json, const TracerReport& tracer) {
-  json = {{"backend", tracer.backend},
-          {"variant", tracer.variant},
-          {"isDefault", tracer.isDefault},
-          {"passed", tracer.passed},
-          {"refusal", tracer.refusal},
-          {"failure", tracer.failure},
-          {"comparedCount", tracer.comparedCount},
-          {"differingCount", tracer.differingCount},
-          {"raysPerSecond", std::round(tracer.raysPerSecond)},
-          {"kernelRaysPerSecond", std::round(tracer.kernelRaysPerSecond)}};
-}
-ASDFVK_JSON(SolverCheckReport, name, passed, refusal, failure, unknownCount, iterations, finishedOnCpu, difference,
-            seconds)
-ASDFVK_JSON(DeviceInfo, name, driver, kind, usable, reason)
 
 namespace {
 
@@ -39,16 +21,10 @@ std::string versionText(uint32_t packed) {
   return fmt::format("{}.{}.{}", (packed >> 22) & 0x7f, (packed >> 12) & 0x3ff, packed & 0xfff);
 }
 
-Json deviceOf(const DeviceFacts& device) {
-  return {{"name", device.name},
-          {"kind", toString(device.kind)},
-          {"driver", device.driver},
-          {"apiVersion", versionText(device.apiVersion)},
-          {"subgroupSize", device.subgroupSize}};
-}
-
-Json defaultsOf(const DeviceReport& report) {
-  return {{"variant", report.choice.variant()}, {"solver", report.defaultSolver}};
+TracerReport withRoundedRates(TracerReport tracer) {
+  tracer.raysPerSecond = std::round(tracer.raysPerSecond);
+  tracer.kernelRaysPerSecond = std::round(tracer.kernelRaysPerSecond);
+  return tracer;
 }
 
 }  // namespace
@@ -89,28 +65,33 @@ std::string textDevices(std::span<const DeviceInfo> devices, const std::string& 
 }
 
 std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
-  Json list = Json::array();
-  for (const DeviceInfo& device : devices) {
-    list.push_back({{"index", list.size()}});
-    list.back().update(Json(device));
-  }
-  return jsonText({{"devices", list}, {"reason", reason}}) + "\n";
+  DeviceList list{.devices = {}, .reason = reason};
+  for (const DeviceInfo& device : devices)
+    list.devices.push_back(
+        {list.devices.size(), device.name, device.driver, device.kind, device.usable, device.reason});
+  return jsonText(list) + "\n";
 }
 
 std::string jsonDeviceReport(const DeviceReport& report) {
-  const TracerReport* const fastest = report.fastest();
-  const Json json{{"version", ASDFVK_VERSION},
-                  {"commit", ASDFVK_COMMIT},
-                  {"passed", report.passed()},
-                  {"reason", report.failure ? report.failure->what() : ""},
-                  {"devices", report.deviceLines},
-                  {"device", report.device ? deviceOf(*report.device) : Json(nullptr)},
-                  {"defaults", report.device ? defaultsOf(report) : Json(nullptr)},
-                  {"mesh", {{"faceCount", report.faceCount}, {"raysPerCone", report.rayCount}}},
-                  {"fastest", fastest == nullptr ? Json(nullptr) : Json(*fastest)},
-                  {"tracers", report.tracers},
-                  {"solvers", report.solvers}};
-  return jsonText(json, 2) + "\n";
+  DeviceReportDocument document{.version = ASDFVK_VERSION,
+                                .commit = ASDFVK_COMMIT,
+                                .passed = report.passed(),
+                                .reason = report.failure ? report.failure->what() : "",
+                                .devices = report.deviceLines,
+                                .device = {},
+                                .defaults = {},
+                                .mesh = {report.faceCount, report.rayCount},
+                                .fastest = {},
+                                .tracers = {},
+                                .solvers = report.solvers};
+  if (const std::optional<DeviceFacts>& device = report.device) {
+    document.device = TestedDevice{device->name, std::string(toString(device->kind)), device->driver,
+                                   versionText(device->apiVersion), device->subgroupSize};
+    document.defaults = DeviceDefaults{report.choice.variant(), report.defaultSolver};
+  }
+  if (const TracerReport* const fastest = report.fastest()) document.fastest = withRoundedRates(*fastest);
+  for (const TracerReport& tracer : report.tracers) document.tracers.push_back(withRoundedRates(tracer));
+  return jsonText(document, 2) + "\n";
 }
 
 ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop) {

@@ -24,9 +24,10 @@ namespace asdfvk {
 /// reportDevice(). Also throws DeviceReport::failure, after printing.
 [[nodiscard]] ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop);
 
-/// Indented JSON with the keys of docs/devices.md.
+/// Indented JSON with a DeviceReportDocument.
 [[nodiscard]] std::string jsonDeviceReport(const struct DeviceReport& report);
 
+/// One line with a DeviceList.
 [[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
 }  // namespace asdfvk

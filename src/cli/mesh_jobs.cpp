@@ -29,7 +29,7 @@ namespace {
 Json withoutLists(Json object) {
   Json kept;
   for (auto& [key, value] : object.items())
-    if (!value.is_array() || key == "minPlace" || key == "minOpposite")
+    if (!value.is_array() || isKeptInRecord(key))
       kept[key] = value.is_object() ? withoutLists(std::move(value)) : std::move(value);
   return kept;
 }
@@ -78,6 +78,8 @@ bool isReadAhead(const Job& job) {
 }
 
 }  // namespace
+
+bool isKeptInRecord(std::string_view key) { return key == "minPlace" || key == "minOpposite"; }
 
 JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),

@@ -5,12 +5,16 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "batch/job.h"
 #include "cli/one_mesh.h"
 
 namespace asdfvk {
+
+/// Whether records have a list of this key of `thickness`, `parts` and `estimatedError`.
+[[nodiscard]] bool isKeptInRecord(std::string_view key);
 
 /// Makes the records of jobs. In a batch, writes each record to a file beside the output.
 class JobRecords {

@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "describe/option_json.h"
 #include "describe/report_json.h"
+#include "serve/json_schema.h"
 
 namespace asdfvk {
 namespace {
@@ -34,6 +35,16 @@ OptionRows chosenRows(OptionRows rows, std::initializer_list<std::string_view> n
                 [&](const OptionRow& row) { return std::find(names.begin(), names.end(), row.name) == names.end(); });
   return rows;
 }
+
+/// The options of the file of values.
+OptionRows resultRows(Outputs& outputs) {
+  return chosenRows(outputRows(outputs), {"format", "fields", "ascii", "colour-of", "vertex-colours"});
+}
+OptionRows pictureRows(Outputs& outputs) {
+  return chosenRows(outputRows(outputs), {"picture-of", "picture-view", "picture-up"});
+}
+/// Shorter names of options in the object of a picture.
+constexpr const char *kPictureOf = "pictureOf", *kShortOf = "of", *kPictureView = "pictureView", *kShortView = "view";
 
 void setFileOptions(const OptionRows& rows, const Json& options, GivenOptions& given) {
   given.names.merge(setOptions({&rows, 1}, withJoinedLists(options)).names);
@@ -64,9 +75,7 @@ void setOutputs(const MeshRequest& request, const RequestFiles& files, const std
                 GivenOptions& given) {
   Outputs& outputs = line.outputs;
   if (request.output) {
-    const OptionRows rows =
-        chosenRows(outputRows(outputs), {"format", "fields", "ascii", "colour-of", "vertex-colours"});
-    setFileOptions(rows, request.output->options, given);
+    setFileOptions(resultRows(outputs), request.output->options, given);
     if (request.output->path.empty() && outputs.format.empty())
       throw Error(ErrorCode::OptionConflict,
                   fmt::format("output: an inline result needs a format, one of {}", joined(outputFormats(), ", ")));
@@ -77,14 +86,23 @@ void setOutputs(const MeshRequest& request, const RequestFiles& files, const std
   if (request.picture) {
     Json options = Json::object();
     for (const auto& [key, value] : request.picture->options.items())
-      options[key == "of" ? "pictureOf" : key == "view" ? "pictureView" : key] = value;
-    setFileOptions(chosenRows(outputRows(outputs), {"picture-of", "picture-view", "picture-up"}), options, given);
+      options[key == kShortOf ? kPictureOf : key == kShortView ? kPictureView : key] = value;
+    setFileOptions(pictureRows(outputs), options, given);
     outputs.picture = request.picture->path.empty() ? (fs::path(temporary) / "picture.png").string()
                                                     : outputPath(request.picture->path, files);
     if (!outputs.picture.ends_with(".png"))
       throw Error(ErrorCode::OptionOutOfRange, "picture: the name does not end in .png");
     given.names.insert("picture");
   }
+}
+
+/// The schema of an object with a path or `inline`, and options.
+Json fileSchema(const OptionRows& rows) {
+  Json schema = optionsSchema({&rows, 1}, kRequestSpelling);
+  schema["properties"].update(
+      {{"path", {{"type", "string"}, {"minLength", 1}, {"description", "Path of the file"}}},
+       {"inline", {{"type", "boolean"}, {"description", "Instead of path: the answer has the bytes of the file"}}}});
+  return schema;
 }
 
 }  // namespace
@@ -120,6 +138,46 @@ CommandLine commandLineOf(const MeshRequest& request, const SessionSettings& ses
   line.outputs.json = true;
   line.outputs.quiet = true;
   return line;
+}
+
+Json requestDefinitions() {
+  CommandLine line;
+  const std::array<OptionRows, 3> tables{computationRows(line.computation), readingRows(line.reading),
+                                         sessionRows(line.session)};
+  Json result = fileSchema(resultRows(line.outputs)), picture = fileSchema(pictureRows(line.outputs));
+  Json& fields = result["properties"]["fields"];
+  fields = {{"type", {"string", "array", "null"}},  // A text has several names with commas between them.
+            {"items", fields["anyOf"][0]},
+            {"description", fields["description"]}};
+  picture["properties"][kShortOf] = picture["properties"][kPictureOf];
+  picture["properties"][kShortView] = picture["properties"][kPictureView];
+
+  Json properties = Json::object();
+  for (const RequestKey& key : requestKeys()) properties[key.name] = key.schema;
+  const auto refer = [&](const char* key, const char* name) {
+    Json& schema = properties[key];
+    const bool isPath = !schema.contains("type");
+    const Json reference = schemaReference(name);
+    if (isPath)
+      schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, reference};
+    else
+      schema = {{"description", schema["description"]}, {"$ref", reference["$ref"]}};
+  };
+  refer("options", "RequestOptions");
+  refer("output", "RequestOutput");
+  refer("picture", "RequestPicture");
+  Json meshes = Json::array();
+  for (const Json& keys : {Json{"mesh"}, Json{"format", "data"}, Json{"vertices", "faces"}, Json{"cancel"}})
+    meshes.push_back({{"required", keys.is_array() ? keys : Json::array({keys})}});
+  return {{"Request",
+           {{"description", "A request to compute a mesh, or to cancel such requests."},
+            {"type", "object"},
+            {"properties", std::move(properties)},
+            {"anyOf", std::move(meshes)},
+            {"additionalProperties", false}}},
+          {"RequestOptions", optionsSchema(tables, kRequestSpelling)},
+          {"RequestOutput", std::move(result)},
+          {"RequestPicture", std::move(picture)}};
 }
 
 }  // namespace asdfvk

@@ -25,4 +25,7 @@ struct RequestFiles {
 [[nodiscard]] CommandLine commandLineOf(const MeshRequest& request, const SessionSettings& session,
                                         const RequestFiles& files, const std::string& temporary);
 
+/// The JSON Schemas of a request and of its objects, by their names in docs/schema.json.
+[[nodiscard]] Json requestDefinitions();
+
 }  // namespace asdfvk

@@ -111,4 +111,27 @@ Json optionSchema(const OptionRow& row, const OptionRows& rows) {
   return schema;
 }
 
+Json orNull(Json schema) {
+  if (schema.contains("type") && !schema.contains("enum")) {
+    Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});
+    if (std::find(types.begin(), types.end(), "null") == types.end()) types.push_back("null");
+    schema["type"] = std::move(types);
+    return schema;
+  }
+  Json nullable = Json::object();
+  if (schema.contains("description")) nullable["description"] = schema["description"];
+  schema.erase("description");
+  nullable["anyOf"] = {std::move(schema), {{"type", "null"}}};
+  return nullable;
+}
+
+Json optionsSchema(std::span<const OptionRows> tables, OptionSpelling spelling) {
+  Json properties = Json::object();
+  for (const OptionRows& rows : tables)
+    for (const OptionRow& row : rows)
+      if (const std::string name = spelled(row, spelling); !name.empty())
+        properties[name] = orNull(optionSchema(row, rows));
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
 }  // namespace asdfvk

@@ -26,4 +26,10 @@ namespace asdfvk {
 /// JSON Schema of the values of an option.
 [[nodiscard]] nlohmann::ordered_json optionSchema(const OptionRow& row, const OptionRows& rows);
 
+/// The schema of a value that may also be null.
+[[nodiscard]] nlohmann::ordered_json orNull(nlohmann::ordered_json schema);
+
+/// JSON Schema of an object with these options. The value null leaves an option as it is.
+[[nodiscard]] nlohmann::ordered_json optionsSchema(std::span<const OptionRows> tables, OptionSpelling spelling);
+
 }  // namespace asdfvk

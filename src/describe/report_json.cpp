@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "asdf_vk/version.h"
-#include "core/json.h"
 #include "describe/report_keys.h"
 
 namespace asdfvk {
@@ -29,19 +28,18 @@ void to_json(Json& json, const Structure& value) { putKeys(json, value); }
 
 namespace {
 
-/// {"name": "sdf", "unit": "length", "per": "face", "components": 1, "type": "float64", "min": ...}
-Json fieldOf(const Field& field) {
+ReportedField reportedField(const Field& field) {
   constexpr const char* kTypes[]{"float64", "uint8", "uint32"};
   const FieldSummary summary = summarize(field);
-  return {{"name", field.name},
-          {"unit", field.unit},
-          {"per", field.location == FieldLocation::PerFace ? "face" : "vertex"},
-          {"components", field.componentCount},
-          {"type", kTypes[field.values.index()]},
-          {"min", summary.min},
-          {"median", summary.median},
-          {"max", summary.max},
-          {"missingCount", summary.missingCount}};
+  return {field.name,
+          field.unit,
+          field.location == FieldLocation::PerFace ? "face" : "vertex",
+          field.componentCount,
+          kTypes[field.values.index()],
+          summary.min,
+          summary.median,
+          summary.max,
+          summary.missingCount};
 }
 
 }  // namespace
@@ -70,12 +68,9 @@ Json optionValues(const ComputationSettings& computation, const SessionSettings&
 Json resultJson(const Report& report, std::span<const Field> fields, const ComputationSettings& computation,
                 const SessionSettings& session) {
   Json json = toJson(report);
-  json["formatVersion"] = kReportFormatVersion;
-  json["fields"] = Json::array();
-  for (const Field& field : fields) json["fields"].push_back(fieldOf(field));
-  json["version"] = ASDFVK_VERSION;
-  json["commit"] = ASDFVK_COMMIT;
-  json["options"] = optionValues(computation, session);
+  ResultFacts facts{.version = ASDFVK_VERSION, .commit = ASDFVK_COMMIT, .options = optionValues(computation, session)};
+  for (const Field& field : fields) facts.fields.push_back(reportedField(field));
+  json.update(Json(facts));
   return json;
 }
 

@@ -16,25 +16,25 @@ namespace asdfvk {
 
 /// Self-test and rate of a backend or variant.
 struct TracerReport {
-  std::string backend;                  ///< A name of Session::backend().
-  std::optional<TraceVariant> variant;  ///< Set for Vulkan.
+  std::string backend;                  ///< Name of the backend.
+  std::optional<TraceVariant> variant;  ///< Variant of the kernels; set for Vulkan.
   bool isDefault = false;               ///< The variant is the default of the device.
   std::string refusal;                  ///< Set if a limit or a missing feature of the device excludes the variant.
   std::string failure;                  ///< Set if the test ended with an error.
-  uint32_t comparedCount = 0, differingCount = 0;  ///< See TracerCheck; 64 faces are compared.
+  uint32_t comparedCount = 0, differingCount = 0;  ///< Compared faces, and those with another value.
   bool passed = false;                             ///< The test ran and at most one face differs.
   double raysPerSecond = 0;                        ///< The best of a few runs; 0 if the test did not run.
-  double kernelRaysPerSecond =
-      0;  ///< The same for the kernels alone, by the clock of the device; 0 without timestamps.
+  /// The same for the kernels alone, by the clock of the device; 0 without timestamps.
+  double kernelRaysPerSecond = 0;
 };
 
 /// Comparison of a solver on the device with the solver on the CPU.
 struct SolverCheckReport {
-  std::string name;
+  std::string name;              ///< Name of the solver.
   std::string refusal, failure;  ///< See TracerReport.
-  uint32_t unknownCount = 0;
-  uint32_t iterations = 0;
-  bool finishedOnCpu = false;  ///< See SolverReport.
+  uint32_t unknownCount = 0;     ///< Unknowns of the equation.
+  uint32_t iterations = 0;       ///< Iterations on the device.
+  bool finishedOnCpu = false;    ///< The solver did not converge on the device.
   double difference = 0;  ///< Greatest difference from the solution on the CPU, divided by the range of this solution.
   double seconds = 0;     ///< The best of a few runs.
   bool passed = false;    ///< The solver converged and the difference is at most kSolverTolerance.

@@ -20,8 +20,10 @@ namespace asdfvk {
 /// Returns docs/formats.md with new tables of the fields and of the keys of the report.
 [[nodiscard]] std::string formatPage(const std::string& page, const ReportModel& model);
 
-/// docs/report.schema.json. earlier: the text of an earlier version, from which the versions of keys are taken.
-[[nodiscard]] std::string reportSchema(const ReportModel& model, const std::string& earlier);
+/// docs/schema.json. model: documentModel(). earlier: the text of an earlier version, from which the versions of keys
+/// are taken. Throws Error{ValueOutOfRange} if a key of a released version is missing or has another type, and
+/// kJsonFormatVersion is the same.
+[[nodiscard]] std::string jsonSchema(const ReportModel& model, const std::string& earlier);
 
 /// The module asdf_vk._keywords.
 [[nodiscard]] std::string keywordModule();

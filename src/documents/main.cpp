@@ -1,6 +1,5 @@
-// asdfvk-write-documents SOURCES          writes docs/options.md, docs/formats.md, docs/report.schema.json, and
-// python/asdf_vk/_keywords.py and
-//                                         _report.py; a test compares these files
+// asdfvk-write-documents SOURCES          writes docs/options.md, docs/formats.md, docs/schema.json, and
+//                                         python/asdf_vk/_keywords.py and _report.py; a test compares these files
 // asdfvk-write-documents SOURCES FOLDER   writes the man pages into FOLDER; run by the build, not installed
 #include <cstdio>
 #include <exception>
@@ -36,8 +35,8 @@ void writeSources(const std::filesystem::path& sources) {
   const ReportModel model = reportModel(sources);
   writeText(options, optionPage(textOf(options)));
   writeText(formats, formatPage(textOf(formats), model));
-  const std::filesystem::path schema = sources / "docs/report.schema.json";
-  writeText(schema, reportSchema(model, textOf(schema)));
+  const std::filesystem::path schema = sources / "docs/schema.json";
+  writeText(schema, jsonSchema(documentModel(sources), textOf(schema)));
   writeText(package / "_keywords.py", keywordModule());
   writeText(package / "_report.py", reportModule(model));
 }

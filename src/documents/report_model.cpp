@@ -1,25 +1,38 @@
 #include "documents/report_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
+#include "batch/log_summary.h"
+#include "cli/baseline.h"
+#include "cli/device_documents.h"
+#include "cli/report_json.h"
 #include "core/check.h"
 #include "core/text.h"
 #include "describe/report_keys.h"
+#include "serve/line_protocol.h"
 
 namespace asdfvk {
 namespace {
 
-/// Reads the comments of structures, members and enumerators from public headers. Of C++ it knows only that a
+/// Reads the comments of structures, members and enumerators from headers. Of C++ it knows only that a
 /// declaration is one line, and that its comment ends the line ("///<") or is in the lines before ("///").
 class Comments {
  public:
   explicit Comments(const std::filesystem::path& sources) {
-    for (const char* const name : {"finding.h", "thickness_report.h", "report.h"}) {
-      std::ifstream in(sources / "include/asdf_vk" / name);
+    for (const char* const name :
+         {"include/asdf_vk/finding.h", "include/asdf_vk/thickness_report.h", "include/asdf_vk/report.h",
+          "src/describe/report_json.h", "src/diagnose/device_report.h", "src/batch/mesh_record.h",
+          "src/batch/log_summary.h", "src/serve/mesh_request.h", "src/serve/line_protocol.h", "src/cli/report_json.h",
+          "src/cli/device_documents.h", "src/cli/baseline.h"}) {
+      std::ifstream in(sources / name);
       for (std::string line; std::getline(in, line);) lines_.push_back(line);
     }
   }
@@ -135,6 +148,25 @@ class ModelBuilder {
     return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
   }
 
+  ReportMember memberOf(const Json&) { return {{}, "json", "any", {}, {}}; }
+  ReportMember memberOf(int) { return {{}, "int", "count", {}, {}}; }
+  ReportMember memberOf(const std::array<double, 3>&) { return memberOf(Vec3d()); }
+  template <typename T>
+  ReportMember memberOf(const std::map<std::string, T>&) {
+    ReportMember row = memberOf(T{});
+    row.pythonType = "dict[str, " + row.pythonType + "]";
+    return row;
+  }
+  template <typename T>
+  requires std::is_arithmetic_v<T> ReportMember memberOf(const std::vector<std::pair<std::string, T>>&) {
+    return memberOf(std::map<std::string, T>());
+  }
+  template <typename T>
+  ReportMember memberOf(const OptionalKey<T>&) {
+    ReportMember row = memberOf(T{});
+    row.isOptional = true;
+    return row;
+  }
   ReportMember memberOf(bool) { return {{}, "bool", "flag", {}, {}}; }
   ReportMember memberOf(double) { return {{}, "float", "number", {}, {}}; }
   ReportMember memberOf(uint32_t) { return {{}, "int", "count", {}, {}}; }
@@ -180,6 +212,14 @@ class ModelBuilder {
 ReportModel reportModel(const std::filesystem::path& sources) {
   ModelBuilder builder(sources);
   builder.addStructure(Report{});
+  return std::move(builder.model);
+}
+
+ReportModel documentModel(const std::filesystem::path& sources) {
+  ModelBuilder builder(sources);
+  const auto add = [&](const auto&... structures) { (builder.addStructure(structures), ...); };
+  add(Report{}, ReportFiles{}, ResultFacts{}, FailureDocument{}, SkippedDocument{}, MeshRecord{}, SummaryDocument{},
+      ReportAnswer{}, ErrorAnswer{}, CancelAnswer{}, DeviceList{}, DeviceReportDocument{}, BaselineDocument{});
   return std::move(builder.model);
 }
 

@@ -13,6 +13,7 @@ struct ReportMember {
   std::string documentType;  ///< "list of objects"
   std::string inner;         ///< The structure or enumeration of the value, or of its items; else empty.
   std::string comment;       ///< That of the header.
+  bool isOptional = false;   ///< The key may be missing.
 };
 
 struct ReportStructure {
@@ -28,12 +29,16 @@ struct ReportEnumeration {
 };
 
 struct ReportModel {
-  std::vector<ReportStructure> structures;  ///< Each after the structures of its members: Report is the last one.
+  /// Each after the structures of its members: Report is the last one of reportModel().
+  std::vector<ReportStructure> structures;
   std::vector<ReportEnumeration> enumerations;
 };
 
-/// Types and keys are those of the compiled report; the comments are read from the public headers below `sources`.
+/// Types and keys are those of the compiled report; the comments are read from headers below `sources`.
 /// Throws CheckFailure if a member has no comment.
 [[nodiscard]] ReportModel reportModel(const std::filesystem::path& sources);
+
+/// The same with the structures of the other JSON documents.
+[[nodiscard]] ReportModel documentModel(const std::filesystem::path& sources);
 
 }  // namespace asdfvk

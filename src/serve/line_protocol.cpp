@@ -1,6 +1,7 @@
 #include "serve/line_protocol.h"
 
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -9,25 +10,24 @@ namespace asdfvk {
 namespace {
 
 std::string errorAnswer(const Json& id, const RequestFailure& failure) {
-  return jsonText({{"id", id}, {"error", toJson(failure)}});
+  return jsonText(ErrorAnswer{.id = id, .error = failure});
+}
+
+template <typename T>
+OptionalKey<T> keyOf(const std::optional<T>& value) {
+  return value ? OptionalKey<T>(*value) : OptionalKey<T>();
 }
 
 std::string answerOf(const Json& id, const MeshAnswer& answer) {
   if (answer.report.empty()) return errorAnswer(id, answer.failure.value_or(RequestFailure{"internal", "", 70}));
   // The report is a text already. To parse it and to write it again would take longer than to compute a small mesh.
-  std::string text = jsonText({{"id", id}});
-  text.pop_back();
-  text += ",\"report\":" + answer.report;
-  if (answer.failure) text += ",\"failure\":" + jsonText(toJson(*answer.failure));
-  const auto add = [&](const char* name, const std::optional<AnsweredFile>& file) {
-    if (file) text += jsonText({{name, {{"format", file->format}, {"data", file->data}}}}).substr(1);
-    if (file) text.pop_back();
-  };
-  if (answer.output) text += ',';
-  add("output", answer.output);
-  if (answer.picture) text += ',';
-  add("picture", answer.picture);
-  return text + "}";
+  std::string text = jsonText(ReportAnswer{.id = id,
+                                           .failure = keyOf(answer.failure),
+                                           .output = keyOf(answer.output),
+                                           .picture = keyOf(answer.picture),
+                                           .report = nullptr});
+  text.resize(text.size() - std::string_view("null}").size());
+  return text + answer.report + "}";
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void LineProtocol::refuse(const Json& id, const std::string& message) {
 void LineProtocol::receiveObject(const Json& json, size_t byteCount) {
   if (const auto cancelled = json.find("cancel"); cancelled != json.end()) {
     const bool isFound = queue_.cancel(*cancelled);
-    return queue_.answer(jsonText({{"cancel", *cancelled}, {"found", isFound}}));
+    return queue_.answer(jsonText(CancelAnswer{.cancel = *cancelled, .found = isFound}));
   }
   const auto request = std::make_shared<const MeshRequest>(meshRequestOf(json));
   const Json id = json.value("id", Json());

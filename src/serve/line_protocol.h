@@ -6,6 +6,32 @@
 
 namespace asdfvk {
 
+/// The answer to a request for a mesh that was computed.
+struct ReportAnswer {
+  int formatVersion = kJsonFormatVersion;     ///< Version of the format of JSON documents.
+  Json id;                                    ///< That of the request.
+  OptionalKey<RequestFailure> failure;        ///< The requested check that failed; exists only then.
+  OptionalKey<AnsweredFile> output, picture;  ///< A file of the answer; exists only if it was requested.
+  Json report;                                ///< The JSON report. The paths of files of the answer are null.
+};
+ASDFVK_JSON_KEYS(ReportAnswer, formatVersion, id, failure, output, picture, report)
+
+/// The answer to a request for a mesh that was not computed.
+struct ErrorAnswer {
+  int formatVersion = kJsonFormatVersion;  ///< Version of the format of JSON documents.
+  Json id;                                 ///< That of the request; null if the line is not JSON.
+  RequestFailure error;                    ///< Why the mesh was not computed.
+};
+ASDFVK_JSON_KEYS(ErrorAnswer, formatVersion, id, error)
+
+/// The answer to a cancel.
+struct CancelAnswer {
+  int formatVersion = kJsonFormatVersion;  ///< Version of the format of JSON documents.
+  Json cancel;                             ///< That of the request.
+  bool found;                              ///< Whether a request with this id was open.
+};
+ASDFVK_JSON_KEYS(CancelAnswer, formatVersion, cancel, found)
+
 /// The protocol of `asdf-vk serve` (docs/serve.md): one request and one answer per line.
 class LineProtocol {
  public:

@@ -10,11 +10,12 @@
 #include "core/text.h"
 #include "describe/computation_options.h"
 #include "describe/option_json.h"
+#include "serve/json_schema.h"
 
 namespace asdfvk {
 namespace {
 
-/// An argument of tools that is no option of computations.
+/// An argument of tools that is neither an option of computations nor a key of requests.
 struct ToolArgument {
   const char* name;
   Json schema;
@@ -22,14 +23,6 @@ struct ToolArgument {
 
 const std::vector<ToolArgument>& toolArguments() {
   static const std::vector<ToolArgument> arguments{
-      {"mesh", {{"type", "string"}, {"description", "Path of the mesh file, relative to the folder of the server"}}},
-      {"with",
-       {{"type", "array"},
-        {"items", {{"type", "string"}}},
-        {"description", "Paths of other parts of the assembly, to measure the clearance to them"}}},
-      {"former",
-       {{"type", "string"},
-        {"description", "Path of a former version of the mesh. Only walls that are new or thinner fail"}}},
       {"output",
        {{"type", "string"},
         {"description",
@@ -47,7 +40,39 @@ const std::vector<ToolArgument>& toolArguments() {
 
 const Json& schemaOf(std::string_view argument) {
   const auto& all = toolArguments();
-  return std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == argument; })->schema;
+  const auto own = std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.name == argument; });
+  return own != all.end() ? own->schema : schemaOfKey(argument);
+}
+
+/// The schema without references and texts. depth: objects that are nested deeper have no properties, because clients
+/// send the list of the tools to a model.
+Json briefSchema(const Json& schema, int depth) {
+  if (schema.contains("$ref"))
+    return briefSchema(schemaDefinitions().at(schema["$ref"].get<std::string>().substr(8)), depth);
+  Json brief = Json::object();
+  for (const char* const key : {"type", "enum"})
+    if (schema.contains(key)) brief[key] = schema[key];
+  if (schema.contains("items")) brief["items"] = briefSchema(schema["items"], depth);
+  if (schema.contains("properties") && depth > 0)
+    for (const auto& [key, property] : schema["properties"].items())
+      brief["properties"][key] = briefSchema(property, depth - 1);
+  for (const Json& alternative : schema.value("anyOf", Json::array()))
+    brief["anyOf"].push_back(briefSchema(alternative, depth));
+  return brief;
+}
+
+/// The keys of the structured content on which a client can rely.
+Json outputSchemaOf(const McpTool& tool) {
+  const Json& report = schemaDefinitions().at("Result").at("properties");
+  Json properties = Json::object(), required = Json::array();
+  for (const char* const key : tool.results) {
+    properties[key] = briefSchema(report.at(key), 1);
+    required.push_back(key);
+  }
+  properties["error"] = briefSchema(schemaReference("RequestFailure"), 1);
+  return {{"type", "object"},
+          {"properties", std::move(properties)},
+          {"anyOf", {{{"required", std::move(required)}}, {{"required", {"error"}}}}}};
 }
 
 std::string jsonName(const OptionRows& rows, const char* option) {
@@ -83,6 +108,7 @@ const std::vector<McpTool>& mcpTools() {
        .options = {"thinner-than", "closer-than", "thicker-than", "fail-if-voids", "fail-if-contact", "count-edges",
                    "count-details", "next-wall", "wall-angle"},
        .arguments = {"with", "former"},
+       .results = {"unit", "thickness", "gap", "findings"},
        .needsOption = true},
       {.name = "measure",
        .title = "Measure thickness or diameters",
@@ -91,13 +117,15 @@ const std::vector<McpTool>& mcpTools() {
            "or the shape diameter (by rays, measure=sdf). Returns least, median and greatest values. With output, "
            "writes a value per face.",
        .options = {"measure", "seeds", "max-error", "recipe", "definition", "orient", "per"},
-       .arguments = {"output"}},
+       .arguments = {"output"},
+       .results = {"unit", "size", "sdf", "thickness", "gap", "estimatedError"}},
       {.name = "find_parts",
        .title = "Find the parts of a shape",
        .description = "Divides a shape into parts such as limbs and handles, by its shape diameter. Returns the number "
                       "and the sizes of the parts. With output, writes a part number per face.",
        .options = {"parts", "detail", "orient"},
        .arguments = {"output"},
+       .results = {"segmentCount", "parts"},
        .fixedOptions = {{"segment", "parts"}}},
       {.name = "picture",
        .title = "Picture of a mesh",
@@ -105,7 +133,8 @@ const std::vector<McpTool>& mcpTools() {
            "Draws a mesh as PNG. With thinnerThan, thin places are red and have labels with their thickness; "
            "else the colours show a field.",
        .options = {"thinner-than", "closer-than", "measure", "segment", "count-edges", "count-details", "orient"},
-       .arguments = {"of", "view"}},
+       .arguments = {"of", "view"},
+       .results = {"faceCount", "size"}},
   };
   return tools;
 }
@@ -133,6 +162,7 @@ Json descriptionOf(const McpTool& tool) {
             {"properties", std::move(properties)},
             {"required", Json::array({"mesh"})},
             {"additionalProperties", false}}},
+          {"outputSchema", outputSchemaOf(tool)},
           {"annotations",
            {{"title", tool.title},
             {"readOnlyHint", !writes},
@@ -179,7 +209,7 @@ Json toolResultOf(const MeshAnswer& answer, bool repeatsReport) {
 
 Json toolErrorOf(const RequestFailure& failure) {
   return {{"content", Json::array({textContent(failure.message)})},
-          {"structuredContent", {{"error", toJson(failure)}}},
+          {"structuredContent", {{"formatVersion", kJsonFormatVersion}, {"error", failure}}},
           {"isError", true}};
 }
 

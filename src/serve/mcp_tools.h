@@ -17,6 +17,7 @@ struct McpTool {
   const char* description;
   std::vector<const char*> options;    ///< Names of rows of computationRows().
   std::vector<const char*> arguments;  ///< Further arguments: "with", "former", "output", "of", "view".
+  std::vector<const char*> results;    ///< Keys of the JSON report that the tool describes.
   Json fixedOptions = Json::object();  ///< Options that the tool always sets.
   bool needsOption = false;            ///< Whether one of the options must be given.
 };

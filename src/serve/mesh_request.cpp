@@ -75,8 +75,37 @@ std::vector<std::string> textsAt(const Json& json, const char* name) {
 
 }  // namespace
 
-Json toJson(const RequestFailure& failure) {
-  return {{"code", failure.code}, {"message", failure.message}, {"exitCode", failure.exitCode}};
+const std::vector<RequestKey>& requestKeys() {
+  const auto text = [](const char* description) {
+    return Json{{"type", "string"}, {"minLength", 1}, {"description", description}};
+  };
+  const auto list = [](Json items, const char* description) {
+    return Json{{"type", "array"}, {"items", std::move(items)}, {"description", description}};
+  };
+  const auto listOf = [](const char* type, int count) {
+    return Json{{"type", "array"}, {"items", {{"type", type}}}, {"minItems", count}};
+  };
+  static const std::vector<RequestKey> keys{
+      {"id", {{"description", "The answer has the same value"}}},
+      {"mesh", text("Path of the mesh file, relative to the folder of the server")},
+      {"format", text("Instead of mesh, with data: extension of a format, such as stl")},
+      {"data", text("The bytes of a file of this format as base64")},
+      {"vertices", list(listOf("number", 3), "Instead of mesh, with faces: points [x, y, z]")},
+      {"faces", list(listOf("integer", 3), "Faces as lists of indices of vertices")},
+      {"options", {{"type", "object"}, {"description", "Options, as in the key options of the JSON report"}}},
+      {"output", {{"description", "Path of a new file for the values, or an object"}}},
+      {"picture", {{"description", "Path of a PNG file, or an object"}}},
+      {"with", list({{"type", "string"}}, "Paths of other parts of the assembly, to measure the clearance to them")},
+      {"former", text("Path of a former version of the mesh. Only walls that are new or thinner fail")},
+      {"timeout", {{"type", "number"}, {"exclusiveMinimum", 0}, {"description", "Time limit in seconds"}}},
+      {"cancel", {{"description", "Cancels the requests with this id; other keys have no effect"}}},
+  };
+  return keys;
+}
+
+const Json& schemaOfKey(std::string_view name) {
+  const auto& keys = requestKeys();
+  return std::find_if(keys.begin(), keys.end(), [&](const RequestKey& key) { return key.name == name; })->schema;
 }
 
 RequestFailure invalidRequest(const std::string& message) { return {"invalidRequest", oneLine(message), kUsageCode}; }
@@ -99,10 +128,9 @@ void requireKeys(const Json& object, const std::vector<std::string>& names, cons
 }
 
 MeshRequest meshRequestOf(const Json& json) {
-  requireKeys(json,
-              {"id", "mesh", "format", "data", "vertices", "faces", "options", "output", "picture", "with", "former",
-               "timeout", "cancel"},
-              "a request");
+  std::vector<std::string> names;
+  for (const RequestKey& key : requestKeys()) names.emplace_back(key.name);
+  requireKeys(json, names, "a request");
   MeshRequest request;
   request.mesh = textAt(json, "mesh");
   request.format = textAt(json, "format");

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,14 @@ struct RequestedFile {
   Json options = Json::object();  ///< Further options of the file.
 };
 
+/// A key of a request with its JSON Schema.
+struct RequestKey {
+  const char* name;
+  Json schema;
+};
+[[nodiscard]] const std::vector<RequestKey>& requestKeys();
+[[nodiscard]] const Json& schemaOfKey(std::string_view name);
+
 /// A request to compute a mesh. The mesh is a file, the bytes of a file, or arrays.
 struct MeshRequest {
   std::string mesh;          ///< Path; empty: the request has the mesh.
@@ -31,19 +40,22 @@ struct MeshRequest {
   double timeoutSeconds = std::numeric_limits<double>::infinity();
 };
 
+/// Why a request has no report, or which requested check failed.
 struct RequestFailure {
-  std::string code;     ///< Such as "unreadableInput" or "tooThin".
+  std::string code;     ///< Name of the error, such as `unreadableInput` or `tooThin`.
   std::string message;  ///< The reason and the remedy, in one line.
   int exitCode = 0;     ///< Exit code of the program for the same failure.
 };
-[[nodiscard]] Json toJson(const RequestFailure& failure);
+ASDFVK_JSON_KEYS(RequestFailure, code, message, exitCode)
 /// The failure of a request that is no request of the protocol.
 [[nodiscard]] RequestFailure invalidRequest(const std::string& message);
 
+/// A file in an answer.
 struct AnsweredFile {
-  std::string format;
-  std::string data;  ///< The bytes of the file as base64.
+  std::string format;  ///< Extension of the format, such as `npy`.
+  std::string data;    ///< The bytes of the file as base64.
 };
+ASDFVK_JSON_KEYS(AnsweredFile, format, data)
 
 struct MeshAnswer {
   std::string report;  ///< The JSON report in one line; empty if the mesh was not computed.

@@ -1,4 +1,5 @@
 #include "batch/log_summary.h"
+#include "support/kept_json.h"
 
 #include <doctest/doctest.h>
 
@@ -81,7 +82,7 @@ TEST_CASE("dropped meshes are not listed as failed, and the table has a line per
   CHECK_NE(text.find("\ndropped   code 130 unreadableInput: 1 mesh; a b: cancelled failed    code 1\n"),
            std::string::npos);
   CHECK_NE(text.find("\nfailed    code 130 unreadableInput: 1 mesh; c: "), std::string::npos);
-  CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures")[1].at("status").get<std::string>(), "dropped");
+  CHECK_EQ(test::keptDocument(jsonOf(summary)).at("failures")[1].at("status").get<std::string>(), "dropped");
 }
 
 TEST_CASE("meshes whose names differ only in bytes that are not UTF-8 are two meshes") {
@@ -94,7 +95,7 @@ TEST_CASE("meshes whose names differ only in bytes that are not UTF-8 are two me
 TEST_CASE("the summary has counts and failures") {
   const LogSummary summary = sample();
   CHECK_NE(textOf(summary).find("4: 1 done, 1 skipped, 2 failed"), std::string::npos);
-  CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures").size(), 2);
+  CHECK_EQ(test::keptDocument(jsonOf(summary)).at("failures").size(), 2);
 }
 
 /// The cells of a column without commas in its cells.
@@ -169,7 +170,7 @@ TEST_CASE("the summary names the meshes of each warning") {
   const std::string text = textOf(summary);
   CHECK_NE(text.find("\nwarning   coarseParts: 4 meshes; a, b, c and 1 more\n"), std::string::npos);
   CHECK_NE(text.find("\nwarning   thinShell: 1 mesh; a\n"), std::string::npos);
-  const auto warnings = nlohmann::json::parse(jsonOf(summary)).at("warnings");
+  const auto warnings = test::keptDocument(jsonOf(summary)).at("warnings");
   CHECK_EQ(warnings[0].at("inputs").size(), 4);
   CHECK_EQ(warnings[1].at("code").get<std::string>(), "thinShell");
 }

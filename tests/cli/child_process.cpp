@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/stopwatch.h"
+#include "support/kept_json.h"
 
 namespace asdfvk::test {
 namespace {
@@ -65,7 +66,9 @@ void drain(int& stream, std::string& text) {
 
 ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
                            const ChildOptions& options)
-    : pendingInput_(options.input), keepInputOpen_(options.keepInputOpen) {
+    : pendingInput_(options.input),
+      keptInput_(!arguments.empty() && arguments.front() == "serve" ? options.input : ""),
+      keepInputOpen_(options.keepInputOpen) {
   std::signal(SIGPIPE, SIG_IGN);  // A child that does not read its input must not end the test.
   const Pipe in = makePipe();
   const Pipe out = makePipe();
@@ -135,6 +138,7 @@ ChildOutcome ChildProcess::finish(double seconds) {
   closeStream(error_);
   if (WIFEXITED(status)) outcome_.exitCode = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) outcome_.signal = WTERMSIG(status);
+  if (outcome_.signal == 0) keepJson(outcome_.output, keptInput_);
   return outcome_;
 }
 

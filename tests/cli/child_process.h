@@ -46,6 +46,7 @@ class ChildProcess {
   pid_t process_ = -1;
   int input_ = -1, output_ = -1, error_ = -1;
   std::string pendingInput_;
+  const std::string keptInput_;  ///< The requests of `serve`, for keepJson().
   bool keepInputOpen_ = false;
   ChildOutcome outcome_;
 };

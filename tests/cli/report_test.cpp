@@ -10,6 +10,7 @@
 #include "cli/report_text.h"
 #include "describe/report_text.h"
 #include "diagnose/device_report.h"
+#include "support/kept_json.h"
 
 namespace asdfvk {
 namespace {
@@ -246,7 +247,7 @@ TEST_CASE("the document has the smoothed range and the number of segments") {
   result.report.postprocess = PostprocessReport{0.25, 2.5};
   result.report.segmentCount = 1234;
   CHECK(holds(textReport(outcomeOf(line, result)), "\n  segments  1,234\n"));
-  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
+  const nlohmann::json json = test::keptDocument(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("postprocess"), nlohmann::json({{"min", 0.25}, {"max", 2.5}}));
   CHECK_EQ(json.at("segmentCount"), 1234);
 }
@@ -258,7 +259,7 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   result.report.parts = PartsReport{3, 5, 0.956, false, {0.085, 0.7149, 0.2}};
   CHECK(holds(textReport(outcomeOf(line, result)),
               "\n  parts     3 (3 to 5 at nearby detail); 71, 20 and 8.5 % of the area\n"));
-  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
+  const nlohmann::json json = test::keptDocument(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("segmentCount"), 3);
   const nlohmann::json& parts = json.at("parts");
   CHECK_EQ(parts.at("fewestCount"), 3);
@@ -268,16 +269,16 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CHECK_EQ(parts.at("areaShares").size(), 3);
   result.report.parts = PartsReport{3, 3, {}, false, {1}};
   CHECK(holds(textReport(outcomeOf(line, result)), "\n  parts     3\n"));
-  CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("parts").at("agreement").is_null());
+  CHECK(test::keptDocument(jsonReport(outcomeOf(line, result))).at("parts").at("agreement").is_null());
   result.report.parts.reset();
-  CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("parts").is_null());
+  CHECK(test::keptDocument(jsonReport(outcomeOf(line, result))).at("parts").is_null());
 }
 
 TEST_CASE("JSON has the estimate, or null") {
   const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
-  CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("estimatedError").is_null());
+  CHECK(test::keptDocument(jsonReport(outcomeOf(line, result))).at("estimatedError").is_null());
   report.estimatedError = ErrorEstimate{.average = 0.01,
                                         .standardError = 0.002,
                                         .relativeMedian = 0.02,
@@ -285,7 +286,7 @@ TEST_CASE("JSON has the estimate, or null") {
                                         .heldOutCount = 400,
                                         .worstFaces = {{77, 0.5}, {3, 0.25}}};
   report.roundCount = 4;
-  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
+  const nlohmann::json json = test::keptDocument(jsonReport(outcomeOf(line, result)));
   const nlohmann::json& estimate = json.at("estimatedError");
   CHECK_EQ(estimate.at("average").get<double>(), 0.01);
   CHECK_EQ(estimate.at("standardError").get<double>(), 0.002);
@@ -320,7 +321,7 @@ TEST_CASE("a check that compared nothing is reported as such and not as passed")
   report.check.emplace().passed = false;
   CHECK(holds(checkFailure(*report.check), "nothing was compared"));
   CHECK(holds(textReport(outcomeOf(line, result)), "nothing was compared"));
-  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
+  const nlohmann::json json = test::keptDocument(jsonReport(outcomeOf(line, result)));
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
 
@@ -335,7 +336,7 @@ TEST_CASE("JSON has null for numbers that are not finite and is one line") {
   result.fields = {{.name = "sdf", .values = std::vector<double>{kNoValue, kNoValue}}};
   const std::string text = jsonReport(outcomeOf(line, result));
   CHECK_EQ(text.find('\n'), text.size() - 1);
-  const nlohmann::json json = nlohmann::json::parse(text);
+  const nlohmann::json json = test::keptDocument(text);
   for (const char* key : {"min", "median", "max"}) CHECK(json.at("sdf").at(key).is_null());
   CHECK(json.at("check").at("worstDifference").is_null());
   CHECK(json.at("fields").at(0).at("median").is_null());
@@ -359,7 +360,7 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
   const CommandLine line = fullReport();
   Result result = sampleResult();
   result.report.warnings = {{WarningCode::NotConverged, "x", {}}, {WarningCode::InvertedComponents, "y", {}}};
-  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
+  const nlohmann::json json = test::keptDocument(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("warnings").at(0).at("code"), "notConverged");
   CHECK_EQ(json.at("warnings").at(1).at("code"), "invertedComponents");
   CHECK_EQ(json.at("warnings").at(1).at("message"), textWarning(result.report.warnings[1], OptionSpelling::Flag));
@@ -369,9 +370,9 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
 TEST_CASE("a failure as JSON has mesh, error and code; an invalid command line has no mesh") {
   const std::string text = jsonFailure("a.ply", "deviceLost", "two\nlines");
   CHECK_EQ(text.find('\n'), text.size() - 1);
-  CHECK_EQ(nlohmann::json::parse(text),
+  CHECK_EQ(test::keptDocument(text),
            nlohmann::json({{"formatVersion", 1}, {"mesh", "a.ply"}, {"error", "two\nlines"}, {"code", "deviceLost"}}));
-  CHECK(nlohmann::json::parse(jsonFailure("", "optionConflict", "x")).at("mesh").is_null());
+  CHECK(test::keptDocument(jsonFailure("", "optionConflict", "x")).at("mesh").is_null());
 }
 
 TEST_CASE("devices are listed with number and reason, or the reason why there are none") {
@@ -381,7 +382,7 @@ TEST_CASE("devices are listed with number and reason, or the reason why there ar
            "0  A     discrete GPU   driver a 1.0   chosen\n"
            "1  Bee   CPU            driver b       not usable: has no queue for compute work\n");
   CHECK_EQ(textDevices({}, "no loader"), "no Vulkan device: no loader\n");
-  const nlohmann::json json = nlohmann::json::parse(jsonDevices(devices, ""));
+  const nlohmann::json json = test::keptDocument(jsonDevices(devices, ""));
   CHECK_EQ(json.at("devices").at(1).at("name").get<std::string>(), "Bee");
   CHECK_FALSE(json.at("devices").at(1).at("usable").get<bool>());
 }
@@ -405,7 +406,7 @@ TEST_CASE("the report on a device as JSON has the device, the defaults and each 
       {.backend = "vulkan", .variant = TraceVariant{TraceKernel::Ray, BvhFetch::Texel}, .refusal = "too few texels"},
       {.backend = "cpu", .differingCount = 7}};
   report.solvers = {{.name = "cg", .failure = "the device was lost"}};
-  const nlohmann::json json = nlohmann::json::parse(jsonDeviceReport(report));
+  const nlohmann::json json = test::keptDocument(jsonDeviceReport(report));
   CHECK_FALSE(json.at("passed").get<bool>());
   CHECK_EQ(json.at("device").at("name"), "some GPU");
   CHECK_EQ(json.at("device").at("kind"), "discrete GPU");

@@ -3,10 +3,12 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 #include "core/check.h"
+#include "support/kept_json.h"
 
 namespace asdfvk::test {
 
@@ -18,6 +20,10 @@ ScratchFolder::ScratchFolder() {
 
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
+  if (std::getenv("ASDF_VK_JSON_FOLDER") != nullptr)
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_, ignored))
+      if (entry.is_regular_file(ignored) && std::ifstream(entry.path()).peek() == '{')
+        keepJson(read(entry.path().lexically_relative(path_).string()), {}, entry.path().string());
   std::filesystem::remove_all(path_, ignored);
 }
 

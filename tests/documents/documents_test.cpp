@@ -10,11 +10,14 @@
 #include <regex>
 #include <set>
 
+#include "asdf_vk/error.h"
+#include "asdf_vk/version.h"
 #include "cli/command_line.h"
 #include "cli/exit_code.h"
-#include "cli/report_json.h"
+#include "core/json.h"
 #include "documents/documents.h"
 #include "generate/generator_options.h"
+#include "serve/json_schema.h"
 
 namespace fs = std::filesystem;
 
@@ -81,10 +84,46 @@ TEST_CASE("the written files are up to date; asdfvk-write-documents SOURCES writ
   CHECK(formatPage(formats, model) == formats);
   CHECK(keywordModule() == contentOf("python/asdf_vk/_keywords.py"));
   CHECK(reportModule(model) == contentOf("python/asdf_vk/_report.py"));
-  const std::string schema = contentOf("docs/report.schema.json");
-  CHECK(reportSchema(model, schema) == schema);
-  CHECK(reportSchemaText() == schema);
+  const std::string schema = contentOf("docs/schema.json");
+  CHECK(jsonSchema(documentModel(kSources), schema) == schema);
+  CHECK(schemaText() == schema);
   CHECK(page.find("| `--wall-angle DEGREES` | 120 | above 90 and at most 180 |") != std::string::npos);
+}
+
+TEST_CASE("keys of released versions are neither removed nor changed while the format version stays") {
+  const ReportModel model = documentModel(kSources);
+  const Json schema = Json::parse(contentOf("docs/schema.json"));
+  const auto isAllowed = [&](Json changed, int formatVersion = kJsonFormatVersion) {
+    changed["x-formatVersion"] = formatVersion;
+    try {
+      (void)jsonSchema(model, jsonText(changed));
+      return true;
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).find("Finding") != std::string::npos);
+      return false;
+    }
+  };
+  const auto withKey = [&](const char* key, const Json& property) {
+    Json changed = schema;
+    changed["$defs"]["Finding"]["properties"][key].update(property);
+    return changed;
+  };
+  CHECK(isAllowed(schema));
+  CHECK_FALSE(isAllowed(withKey("gone", {{"x-since", "0.1.0"}})));
+  CHECK(isAllowed(withKey("gone", {{"x-since", "0.1.0"}}), kJsonFormatVersion - 1));
+  CHECK(isAllowed(withKey("gone", {{"x-since", ASDFVK_VERSION}})));
+  CHECK(isAllowed(withKey("message", {{"x-since", "0.1.0"}, {"description", "another text"}})));
+  CHECK_FALSE(isAllowed(withKey("message", {{"x-since", "0.1.0"}, {"type", "integer"}})));
+  Json optional = withKey("message", {{"x-since", "0.1.0"}});
+  optional["$defs"]["Finding"]["required"].clear();
+  CHECK_FALSE(isAllowed(optional));
+  Json kinds = schema;
+  kinds["$defs"]["FindingKind"]["enum"].push_back("gone");
+  CHECK(isAllowed(kinds));
+  kinds["$defs"]["FindingKind"]["x-since"] = "0.1.0";
+  CHECK_FALSE(isAllowed(kinds));
+  const std::string since = R"("x-since": "0.1.0")";
+  CHECK(jsonSchema(model, jsonText(withKey("message", {{"x-since", "0.1.0"}}))).find(since) != std::string::npos);
 }
 
 TEST_CASE(

@@ -8,7 +8,11 @@ import random
 import shlex
 import signal
 import subprocess
+import sys
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import kept_json
 
 LIMIT_SECONDS = 120  # Far beyond what any case takes.
 # The exit codes of docs/options.md, without 70, the internal error.
@@ -109,4 +113,6 @@ def _run(command: list[str], folder: pathlib.Path, text: str, signals: Signals |
         output, error = process.communicate()
         code = None
     seconds = time.monotonic() - began
+    if code is not None and code >= 0:
+        kept_json.keep(output)
     return Ended(text, code, output, error.decode("utf-8", "replace"), seconds, tuple(sent))

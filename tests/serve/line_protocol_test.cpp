@@ -20,12 +20,14 @@ TEST_CASE("a request is answered with its id and its report") {
        R"({"mesh": "thin"})", R"({"id": null, "mesh": "missing"})",
        R"({"id": 4, "mesh": "a", "picture": {"of": "sdf"}})"});
   REQUIRE_EQ(answers.size(), 4);
-  CHECK_EQ(answers[0].dump(), R"({"id":{"any":[1]},"report":{"mesh":"part.stl","verdict":"failed"}})");
+  CHECK_EQ(answers[0].dump(),
+           R"({"formatVersion":1,"id":{"any":[1]},"report":{"mesh":"part.stl","verdict":"failed"}})");
   CHECK_EQ(answers[1].at("failure").dump(),
            R"({"code":"tooThin","message":"FAIL: 1 wall thinner than 0.8","exitCode":6})");
   CHECK_EQ(answers[1].at("report").at("mesh"), "thin");
-  CHECK_EQ(answers[2].dump(),
-           R"({"id":null,"error":{"code":"unreadableInput","message":"missing: cannot be opened","exitCode":2}})");
+  CHECK_EQ(
+      answers[2].dump(),
+      R"({"formatVersion":1,"id":null,"error":{"code":"unreadableInput","message":"missing: cannot be opened","exitCode":2}})");
   CHECK_EQ(answers[3].at("picture").dump(), R"({"format":"png","data":"cGljdHVyZQ=="})");
   const std::vector<MeshRequest> requests = kept.computer.requests();
   REQUIRE_EQ(requests.size(), 4);
@@ -117,10 +119,11 @@ TEST_CASE("a cancel is answered at once, and its request has the error cancelled
   protocol.receive({R"({"cancel": [7]})"});
   kept.queue.finish();
   REQUIRE_EQ(kept.lines.size(), 3);
-  CHECK_EQ(kept.lines[0], R"({"cancel":7,"found":false})");
-  CHECK(std::count(kept.lines.begin(), kept.lines.end(), R"({"cancel":[7],"found":true})") == 1);
-  CHECK(std::count(kept.lines.begin(), kept.lines.end(),
-                   R"({"id":[7],"error":{"code":"cancelled","message":"cancelled","exitCode":130}})") == 1);
+  CHECK_EQ(kept.lines[0], R"({"formatVersion":1,"cancel":7,"found":false})");
+  CHECK(std::count(kept.lines.begin(), kept.lines.end(), R"({"formatVersion":1,"cancel":[7],"found":true})") == 1);
+  CHECK(std::count(
+            kept.lines.begin(), kept.lines.end(),
+            R"({"formatVersion":1,"id":[7],"error":{"code":"cancelled","message":"cancelled","exitCode":130}})") == 1);
 }
 
 }  // namespace asdfvk::test

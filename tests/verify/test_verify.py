@@ -15,6 +15,9 @@ import mesh_files
 import search
 import verify_report
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import kept_json
+
 PROGRAM, GENERATOR = os.environ["ASDF_VK_PROGRAM"], os.environ["ASDF_VK_GENERATE"]
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/verify-report"
 # Numbers of points of the search: less than for a user, so that the tests take seconds.
@@ -30,6 +33,7 @@ def report_of(mesh: pathlib.Path, *options: str) -> dict:
     output = mesh.with_suffix(".npz")
     done = subprocess.run([PROGRAM, mesh, *options, "--json", "--quiet", "--backend", "reference", "-o", output],
                           capture_output=True, text=True, check=False)
+    kept_json.keep(done.stdout)
     return json.loads(done.stdout)
 
 
