@@ -47,7 +47,8 @@ The wall thickness is exact and needs no rays.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME asdf-vk)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
+# The option --tar loads libarchive at run time.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}, libarchive13 | libarchive13t64")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS asdf-vk-step)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "local thickness of triangle meshes by Vulkan compute
 ${description}This package has the programs asdf-vk and asdf-vk-generate.")

@@ -4,6 +4,7 @@
     python3 bench/batch cgal MESHES            CPU time of CGAL's sdf_values with 25 rays / CPU time of one call
     python3 bench/batch many [--count 10000]   generated meshes: 1 % are broken, one hangs, one needs 10 GB of memory
     python3 bench/batch kill [--moments 50]    kill -9 at random moments, then the same call: bytes as without kill -9
+    python3 bench/batch cost                   CPU seconds per mesh: checks and shape diameters by number of faces
     python3 bench/batch shards MESHES          --shard 1/7 to 7/7: union of the results, and the work of each shard
 
 The programs are in the build folder --build (default build/develop). Files are written to a temporary folder. The exit
@@ -20,7 +21,7 @@ import runs
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["threads", "cgal", "many", "kill", "shards"])
+    parser.add_argument("what", choices=["threads", "cgal", "many", "kill", "cost", "shards"])
     parser.add_argument("meshes", nargs="?", help="folder of meshes, for threads, cgal and shards")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent.parent / "build/develop")
     parser.add_argument("--runs", type=int, default=3)

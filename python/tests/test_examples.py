@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import re
 import subprocess
@@ -34,6 +35,25 @@ def test_parts_and_thickness(tmp_path: Path) -> None:
     assert (tmp_path / "parts.png").read_bytes().startswith(b"\x89PNG")
     fields, _ = fields_of_ply(tmp_path / "parts.ply")
     np.testing.assert_array_equal(fields["part"], asdf_vk.segment(*dumbbell()))
+
+
+def test_the_class_of_the_ray_recipe(tmp_path: Path) -> None:
+    spec = importlib.util.spec_from_file_location("ray_batch", _ROOT / "docs/examples/cluster/ray_batch.py")
+    assert spec is not None and spec.loader is not None
+    recipe = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(recipe)
+    vertices, faces = cube()
+    for name, height in {"thick": 1, "thin": 0.1}.items():
+        asdf_vk.write(tmp_path / f"{name}.ply", (vertices * [1, 1, height], faces))
+    contents = [(tmp_path / f"{name}.ply").read_bytes() for name in ("thick", "thin")]
+    batch = {"path": np.array(["a", "b", "c"]), "bytes": np.array([*contents, b"nonsense"], dtype=object)}
+    table = recipe.Check(thinner_than=0.5)(batch)
+    assert list(table["path"]) == ["a", "b", "c"]
+    assert list(table["verdict"]) == ["passed", "failed", ""]
+    least = 0.1 * np.ptp(vertices[:, 2])
+    assert table["least"][1] == pytest.approx(least, rel=1e-3)
+    assert list(table["faces"]) == [len(faces), len(faces), 0]
+    assert [bool(error) for error in table["error"]] == [False, False, True]
 
 
 def test_thin_walls(tmp_path: Path, program: Path) -> None:

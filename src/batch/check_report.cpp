@@ -45,7 +45,7 @@ std::vector<CheckItem> checkItemsOf(const MeshRecord& record) {
     return item.level == "failure" || item.level == "notJudged";
   });
   // Without a result, for example from an unreadable file; or from a check that has no places.
-  if (record.code != 0 && record.status != MeshStatus::Skipped && !isExplained)
+  if (record.code != 0 && !isExplained)
     items.push_back({record.error.empty() ? "failed" : record.error, "error", record.message, nullptr});
   return items;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <thread>
 #include <utility>
@@ -35,6 +36,25 @@ class Engine {
   Engine(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
          const std::stop_token& stop)
       : jobs_(jobs), options_(options), client_(client), monitor_(monitor), stop_(stop) {}
+
+  void run(JobStream& stream) {
+    const uint32_t atOnce = options_.requestedAtOnce > 0 ? options_.requestedAtOnce : options_.threadCount;
+    const JobPhase phase{.jobs = {}, .atOnce = atOnce, .threadCount = std::max(1U, options_.threadCount / atOnce)};
+    std::map<size_t, Job> current;
+    monitor_.beginComputation();
+    const JobSupply supply([&](size_t) { return stream.next(); }, stream.descriptor());
+    const auto jobAt = [&](size_t i) -> const Job& {
+      const auto [job, isNew] = current.try_emplace(i);
+      if (isNew) job->second = stream.take(i);
+      return job->second;
+    };
+    const auto add = [&](size_t i, JobResult result) {
+      current.erase(i);
+      stream.add(i, std::move(result));
+    };
+    const std::optional<OpenFailure> failure = runInWorkerPool(phase, supply, jobAt, add);
+    if (failure) report(*failure, stream.next() != JobSupply::State::Ended);
+  }
 
   void run() {
     std::vector<size_t> pending = addFinished();
@@ -101,6 +121,25 @@ class Engine {
   }
 
   void runInWorkerPool(const JobPhase& phase) {
+    size_t endedCount = 0;
+    const auto jobAt = [&](size_t i) -> const Job& { return jobs_[phase.jobs[i]]; };
+    const auto add = [&](size_t i, JobResult result) {
+      ++endedCount;
+      monitor_.add(phase.jobs[i], std::move(result));
+    };
+    const std::optional<OpenFailure> failure = runInWorkerPool(phase, phase.jobs.size(), jobAt, add);
+    if (failure) report(*failure, endedCount < phase.jobs.size());
+  }
+
+  void report(const OpenFailure& failure, bool hasJobs) {
+    if (hasJobs) throw OpenFailure(failure);
+    monitor_.note(fmt::format("not all workers have started: {}", failure.what()));
+  }
+
+  /// Returns the failure of the latest worker that could not start, unless a stop was requested.
+  template <typename JobAt, typename Add>
+  std::optional<OpenFailure> runInWorkerPool(const JobPhase& phase, const JobSupply& supply, const JobAt& jobAt,
+                                             const Add& add) {
     const uint32_t onGpu = atOnceOnGpu(phase);
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
     const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, even if its file was replaced.
@@ -109,34 +148,51 @@ class Engine {
                                  .workerCount = phase.atOnce,
                                  .timeoutSeconds = options_.timeoutSeconds,
                                  .memoryBytes = options_.memoryBytes};
-    std::optional<OpenFailure> failure;  // Failure of the latest worker that could not start.
-    size_t endedCount = 0;
-    const WorkerPoolClient client{.request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); },
-                                  .ready = [&](const std::string& answer) -> uint32_t {
-                                    const Json json = decode(answer);
-                                    if (json.contains("failure")) {
-                                      failure.emplace(json["code"], json["name"], json["failure"]);
-                                      return 0;
-                                    }
-                                    const auto description = json.get<ComputerDescription>();
-                                    monitor_.announce(description);
-                                    return description.isCpu ? phase.atOnce : onGpu;
-                                  },
-                                  .finished =
-                                      [&](const JobOutcome& outcome) {
-                                        ++endedCount;
-                                        return takeOutcome(phase.jobs[outcome.job], outcome);
-                                      }};
-    const std::string reason = runOnWorkers(phase.jobs.size(), pool, client, stop_);
+    std::optional<OpenFailure> failure;
+    const WorkerPoolClient client{
+        .request =
+            [&](size_t i, uint32_t attempt) {
+              Job job = jobAt(i);
+              job.attemptCount = attempt;
+              return encode(job);
+            },
+        .ready = [&](const std::string& answer) -> uint32_t {
+          const Json json = decode(answer);
+          if (json.contains("failure")) {
+            failure.emplace(json["code"], json["name"], json["failure"]);
+            return 0;
+          }
+          const auto description = json.get<ComputerDescription>();
+          monitor_.announce(description);
+          return description.isCpu ? phase.atOnce : onGpu;
+        },
+        .finished =
+            [&](const JobOutcome& outcome) {
+              Job job = jobAt(outcome.job);
+              job.attemptCount = outcome.attempt;
+              auto [result, isSpent] = resultOf(job, outcome);
+              add(outcome.job, std::move(result));
+              return !isSpent;
+            },
+        .retried = [&](const JobOutcome& outcome) { removeUnfinishedOutput(jobAt(outcome.job), outcome); }};
+    const std::string reason = runOnWorkers(supply, pool, client, stop_);
     if (!reason.empty()) failure = OpenFailure(kInternalCode, "internal", "a worker process cannot start: " + reason);
-    if (!failure || stop_.stop_requested()) return;
-    if (endedCount < phase.jobs.size()) throw OpenFailure(*failure);
-    monitor_.note(fmt::format("not all workers have started: {}", failure->what()));
+    if (stop_.stop_requested()) return {};
+    return failure;
   }
 
-  /// Adds the result of a job. Returns whether the worker gets further jobs.
-  bool takeOutcome(size_t index, JobOutcome outcome) {
-    const Job& job = jobs_[index];
+  /// Removes temporary files of a worker that has ended.
+  static void removeUnfinishedOutput(const Job& job, const JobOutcome& outcome) {
+    if (job.content) return;
+    for (const std::string& output : {job.output, job.picture}) {
+      if (output.empty()) continue;
+      const auto folder = std::filesystem::path(output).parent_path();
+      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    }
+  }
+
+  /// Returns the result of a job, and whether its worker gets no further job.
+  std::pair<JobResult, bool> resultOf(const Job& job, JobOutcome outcome) {
     bool isDropped =
         outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == 0 && outcome.workerEnd.exitCode == kCancelledCode;
     if (outcome.end == JobEnd::Answered) {
@@ -144,20 +200,15 @@ class Engine {
       auto result = answer.at("result").get<JobResult>();
       result.record.options = client_.recordOptions;
       isDropped = result.record.status == MeshStatus::Dropped;
-      if (!isDropped || isStopping(stop_)) {
-        monitor_.add(index, std::move(result));
-        return !answer.at("isSpent").get<bool>();
-      }
-    } else if (!job.output.empty()) {
-      const auto folder = std::filesystem::path(job.output).parent_path();
-      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+      if (!isDropped || isStopping(stop_)) return {std::move(result), answer.at("isSpent").get<bool>()};
+    } else {
+      removeUnfinishedOutput(job, outcome);
     }
     if (isDropped) outcome.end = isStopping(stop_) ? JobEnd::Dropped : JobEnd::Terminated;
     JobResult result = client_.fail(job, outcome);
     result.record.totalSeconds = outcome.seconds;
     result.record.peakMemoryBytes = outcome.peakBytes;
-    monitor_.add(index, std::move(result));
-    return false;
+    return {std::move(result), true};
   }
 
   const std::vector<Job>& jobs_;
@@ -198,6 +249,12 @@ std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t>
 void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
              const std::stop_token& stop) {
   Engine(jobs, options, client, monitor, stop).run();
+}
+
+void runStream(JobStream& stream, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
+               const std::stop_token& stop) {
+  const std::vector<Job> none;
+  Engine(none, options, client, monitor, stop).run(stream);
 }
 
 }  // namespace asdfvk

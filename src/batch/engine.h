@@ -38,6 +38,19 @@ inline constexpr uint32_t kMaxLanesOnGpu = 4;
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<Job>& jobs, std::vector<size_t> pending,
                                              uint32_t requested, uint32_t threadCount);
 
+/// Jobs that arrive while others are computed. One thread calls the functions.
+class JobStream {
+ public:
+  virtual ~JobStream() = default;
+  /// See JobSupply.
+  [[nodiscard]] virtual JobSupply::State next() = 0;
+  [[nodiscard]] virtual int descriptor() const = 0;
+  /// Returns the next job. Called once for each job, with the numbers 0, 1, ...
+  [[nodiscard]] virtual Job take(size_t index) = 0;
+  /// Receives the results, in any order.
+  virtual void add(size_t index, JobResult result) = 0;
+};
+
 struct EngineOptions {
   uint32_t requestedAtOnce = 0;  ///< Number of concurrent jobs; 0: planJobs() chooses.
   uint32_t threadCount = 1;      ///< Sum of the CPU threads of all concurrent jobs.
@@ -69,5 +82,11 @@ struct EngineClient {
 /// begins. Throws OpenFailure if no device can be opened for the remaining jobs, and the errors of the monitor.
 void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
              const std::stop_token& stop);
+
+/// Computes the jobs of the stream in worker processes: EngineOptions::requestedAtOnce of them, or one per thread.
+/// EngineClient::findFinished and shareDevice are not used. A stop request drops the current jobs. Throws OpenFailure
+/// if no device can be opened for the remaining jobs, and the errors of the stream and the monitor.
+void runStream(JobStream& stream, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
+               const std::stop_token& stop);
 
 }  // namespace asdfvk

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,11 +12,15 @@
 #include <iostream>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <string_view>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/json.h"
 #include "core/text.h"
 #include "io/formats.h"
 
@@ -83,7 +88,53 @@ class FolderSearch {
   const InputRequest& request_;
 };
 
-std::vector<std::string> readList(const InputRequest& request) {
+struct ListEntry {
+  std::string path, key;
+};
+
+/// Why the key cannot be the name of an output; empty if it can.
+std::string flawOf(const std::string& key) {
+  if (key.empty()) return "it is empty";
+  if (key.front() == '/') return "it is absolute";
+  if (oneLine(key) != key) return "it has a control character";
+  for (const std::string& part : splitAt(key + "/", '/'))
+    if (part.empty() || part == "." || part == "..") return fmt::format("it has the part '{}'", part);
+  try {
+    (void)Json(key).dump();
+  } catch (const Json::exception&) {
+    return "it is not UTF-8";
+  }
+  return {};
+}
+
+/// Reads the keys of the lines of a list.
+class KeyReader {
+ public:
+  explicit KeyReader(std::string list) : list_(std::move(list)) {}
+
+  /// The path and the key of the next line.
+  ListEntry entryOf(const std::string& line) {
+    ++lineNumber_;
+    const size_t tab = line.find('\t');
+    if (tab == std::string::npos) return {line, ""};
+    std::string key = line.substr(tab + 1);
+    if (const std::string flaw = flawOf(key); !flaw.empty())
+      fail(list_, oneLine(fmt::format("line {}: the key '{}' is not a name such as part-7 or b/part-7: {}", lineNumber_,
+                                      key, flaw)));
+    if (const auto [first, isNew] = lineOfKey_.emplace(key, lineNumber_); !isNew)
+      fail(list_, fmt::format("lines {} and {} have the same key '{}'; give each mesh its own key", first->second,
+                              lineNumber_, key));
+    if (tab == 0) fail(list_, fmt::format("line {}: there is no path before the key '{}'", lineNumber_, key));
+    return {line.substr(0, tab), std::move(key)};
+  }
+
+ private:
+  std::string list_;
+  size_t lineNumber_ = 0;
+  std::unordered_map<std::string, size_t> lineOfKey_;
+};
+
+std::vector<ListEntry> readList(const InputRequest& request) {
   std::ifstream file;
   const bool isStandardInput = request.list == "-";
   if (!isStandardInput) {
@@ -93,17 +144,21 @@ std::vector<std::string> readList(const InputRequest& request) {
     if (!file) fail(request.list, fmt::format("cannot be opened: {}", std::strerror(errno)));
   }
   std::istream& in = isStandardInput ? std::cin : file;
-  std::vector<std::string> paths;
+  const std::string name = isStandardInput ? "standard input" : request.list;
+  std::vector<ListEntry> entries;
+  KeyReader keys(name);
   bool isFirst = true;
-  for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');) {
+  for (std::string line; std::getline(in, line, request.isNullSeparated ? '\0' : '\n');) {
+    ListEntry entry{line, ""};
     if (!request.isNullSeparated) {  // In a list from Windows, lines end with "\r\n".
-      if (std::exchange(isFirst, false)) path = std::string(withoutByteOrderMark(path));
-      if (path.ends_with('\r')) path.pop_back();
+      if (std::exchange(isFirst, false)) line = std::string(withoutByteOrderMark(line));
+      if (line.ends_with('\r')) line.pop_back();
+      entry = keys.entryOf(line);
     }
-    if (!path.empty()) paths.push_back(path);
+    if (!entry.path.empty()) entries.push_back(std::move(entry));
   }
-  if (in.bad()) fail(isStandardInput ? "standard input" : request.list, "cannot be read");
-  return paths;
+  if (in.bad()) fail(name, "cannot be read");
+  return entries;
 }
 
 /// The longest common prefix of the components of both paths.
@@ -113,18 +168,21 @@ fs::path commonFolder(const fs::path& a, const fs::path& b) {
   return common;
 }
 
-void addList(const std::vector<std::string>& paths, std::vector<InputFile>& inputs) {
-  std::vector<fs::path> folders;
-  folders.reserve(paths.size());
-  for (const std::string& path : paths) {
-    if (path == "-") fail("-", "a list of meshes cannot contain standard input; give - as an argument");
-    folders.push_back(fs::absolute(path).lexically_normal().parent_path());
+void addList(const std::vector<ListEntry>& entries, std::vector<InputFile>& inputs) {
+  const auto folderOf = [](const ListEntry& entry) {
+    return fs::absolute(entry.path).lexically_normal().parent_path();
+  };
+  std::optional<fs::path> root;
+  for (const ListEntry& entry : entries) {
+    if (entry.path == "-") fail("-", "a list of meshes cannot contain standard input; give - as an argument");
+    if (!entry.key.empty()) continue;
+    const fs::path folder = folderOf(entry);
+    root = root ? commonFolder(*root, folder) : folder;
   }
-  fs::path root = folders.empty() ? fs::path() : folders.front();
-  for (const fs::path& folder : folders) root = commonFolder(root, folder);
-  for (size_t i = 0; i < paths.size(); ++i) {
-    const fs::path below = folders[i].lexically_relative(root);
-    inputs.push_back({paths[i], below == "." ? "" : below.string(), byteCountOf(paths[i])});
+  for (const ListEntry& entry : entries) {
+    const fs::path below =
+        entry.key.empty() ? folderOf(entry).lexically_relative(*root) : fs::path(entry.key).parent_path();
+    inputs.push_back({entry.path, below == "." ? "" : below.string(), byteCountOf(entry.path), entry.key});
   }
 }
 
@@ -146,14 +204,21 @@ std::vector<InputFile> listInputs(const InputRequest& request) {
 }
 
 Shard parseShard(const std::string& text) {
+  return parseShard(text, [](const char* name) { return std::getenv(name); });
+}
+
+Shard parseShard(const std::string& text, const EnvironmentLookup& lookup) {
   const size_t slash = std::min(text.find('/'), text.size());
   const auto index = numberIn<uint32_t>(std::string_view(text).substr(0, slash)),
              count = numberIn<uint32_t>(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  const bool isAuto = text.starts_with("auto") && (text.size() == 4 || slash == 4);
+  if (isAuto && (slash == text.size() || (count && *count >= 1 && *count <= kMaxShardCount)))
+    return shardOfScheduler(count, lookup);
   if (!index || !count || *index < 1 || *index > *count || *count > kMaxShardCount)
-    throw Error(
-        ErrorCode::OptionOutOfRange,
-        fmt::format("'{}' is not I/N, such as 2/7; I is from 1 to N, and N is at most {}", text, kMaxShardCount));
-  return {*index, *count};
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("'{}' is not I/N, such as 2/7, or auto or auto/N; I is from 1 to N, and N is at most {}",
+                            text, kMaxShardCount));
+  return {*index, *count, ""};
 }
 
 std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard) {
@@ -161,7 +226,7 @@ std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shar
   std::iota(bySize.begin(), bySize.end(), size_t{0});
   std::sort(bySize.begin(), bySize.end(), [&](size_t a, size_t b) {
     if (inputs[a].byteCount != inputs[b].byteCount) return inputs[a].byteCount > inputs[b].byteCount;
-    return inputs[a].path < inputs[b].path;
+    return std::tie(inputs[a].path, inputs[a].key) < std::tie(inputs[b].path, inputs[b].key);
   });
   // Bytes and index of a shard. If several shards have equal bytes, the shard with the lowest index comes first.
   using Load = std::pair<uint64_t, uint32_t>;

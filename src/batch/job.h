@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "batch/mesh_record.h"
 
@@ -15,13 +17,18 @@ struct Job {
   uint64_t byteCount = 0;     ///< Size of the input file; 0 if unknown.
   bool isStream = false;  ///< Whether the input is not a regular file, for example a FIFO. A worker may be unable to
                           ///< read such a file.
+  std::string key;        ///< InputFile::key
+  std::string picture;    ///< Path of the picture; empty: none.
+  uint32_t attemptCount = 1;           ///< With this attempt.
+  std::optional<std::string> content;  ///< The bytes of the mesh if it is a member of a tar; then `output` is a name.
 };
 
 /// The result of a job. The texts are empty or consist of complete lines.
 struct JobResult {
   MeshRecord record;
-  std::string report;    ///< Text for standard output.
-  std::string messages;  ///< Text for standard error.
+  std::string report;                                      ///< Text for standard output.
+  std::string messages;                                    ///< Text for standard error.
+  std::vector<std::pair<std::string, std::string>> files;  ///< Results of a member of a tar: names and bytes.
 };
 
 struct ComputerDescription {
@@ -30,8 +37,8 @@ struct ComputerDescription {
   bool isCpu = true;
 };
 
-ASDFVK_JSON(Job, input, output)  // The members that a worker needs.
-ASDFVK_JSON(JobResult, record, report, messages)
+ASDFVK_JSON(Job, input, output, key, picture, attemptCount, content)  // The members that a worker needs.
+ASDFVK_JSON(JobResult, record, report, messages, files)
 ASDFVK_JSON(ComputerDescription, backend, deviceLines, isCpu)
 
 /// Computes jobs on a device that stays open.

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 #include "core/median.h"
 #include "core/text.h"
@@ -45,6 +46,7 @@ Json rowOf(const MeshRecord& mesh) {
   row["warnings"] = joined(mesh.warnings, " ");
   for (const char* key : {"formatVersion", "inputHash", "optionsHash", "outputHash", "options", "findings"})
     row.erase(key);
+  if (mesh.key.empty()) row.erase("key");
   for (const char* key : {"sdf", "thickness", "parts", "estimatedError"})
     if (const Json& values = row.at(key);
         std::all_of(values.begin(), values.end(), [](const Json& value) { return value.is_null(); }))
@@ -99,22 +101,25 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   LogSummary summary;
   summary.recordCount = records.size();
   summary.invalidLineCount = invalidLineCount;
-  std::unordered_map<std::string, size_t> lastOf;
+  std::map<std::pair<std::string, std::string>, size_t> lastOf;  // By input and key.
+  const auto identityOf = [](const MeshRecord& record) { return std::pair(record.input, record.key); };
   for (size_t i = 0; i < records.size(); ++i) {
-    const auto [last, isFirst] = lastOf.emplace(records[i].input, i);
+    const auto [last, isFirst] = lastOf.emplace(identityOf(records[i]), i);
     if (!isFirst && records[i].time >= records[last->second].time) last->second = i;
   }
   for (size_t i = 0; i < records.size(); ++i)
-    if (lastOf[records[i].input] == i) summary.meshes.push_back(std::move(records[i]));
-  std::sort(summary.meshes.begin(), summary.meshes.end(),
-            [](const MeshRecord& a, const MeshRecord& b) { return a.input < b.input; });
+    if (lastOf[identityOf(records[i])] == i) summary.meshes.push_back(std::move(records[i]));
+  std::sort(summary.meshes.begin(), summary.meshes.end(), [](const MeshRecord& a, const MeshRecord& b) {
+    return std::tie(a.input, a.key) < std::tie(b.input, b.key);
+  });
 
   std::vector<double> seconds, errors;
   std::map<std::string, double> stages;
   std::map<std::string, uint64_t> devices;
   std::map<std::string, std::vector<std::string>> warnings;
   std::map<std::tuple<MeshStatus, int, std::string>, FailureGroup> failures;
-  for (const MeshRecord& mesh : summary.meshes) {
+  for (MeshRecord& mesh : summary.meshes) {
+    if (mesh.status == MeshStatus::Skipped && mesh.code != 0) mesh.status = MeshStatus::Failed;  // In an earlier run.
     ++summary.statusCounts[mesh.status];
     summary.peakMemoryBytes = std::max(summary.peakMemoryBytes, mesh.peakMemoryBytes);
     for (const std::string& warning : mesh.warnings) warnings[warning].push_back(mesh.input);

@@ -52,6 +52,11 @@ bool endsWithinLine(int descriptor) {
 
 const char* nameOf(MeshStatus status) { return kMeshStatuses[static_cast<size_t>(status)].first; }
 
+bool hasVerdictError(const MeshRecord& record) {
+  return std::any_of(kVerdictErrors.begin(), kVerdictErrors.end(),
+                     [&](const auto& verdict) { return record.error == verdict.first; });
+}
+
 void to_json(Json& json, MeshStatus status) { json = nameOf(status); }
 
 void from_json(const Json& json, MeshStatus& status) {
@@ -71,6 +76,7 @@ std::string utcTime() {
 Json toJson(const MeshRecord& record) {
   Json json = record;
   if (record.error.empty()) json["error"] = nullptr;
+  if (record.key.empty()) json["key"] = nullptr;
   if (survivesJson(record.input)) return json;
   std::string hex;
   for (const char c : record.input) hex += fmt::format("{:02x}", static_cast<unsigned char>(c));

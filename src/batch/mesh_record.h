@@ -35,9 +35,11 @@ struct MeshRecord {
   std::string input;                       ///< Path of the mesh.
   /// Bytes of the path as hexadecimal digits; exists only if the path is not valid UTF-8.
   OptionalKey<std::string> inputBytes;
+  std::string key;  ///< Name of the mesh in a list or a tar; empty without one.
   /// utcTime() when the computation began, or when a failed worker process ended; empty if unknown.
   std::string time;
   std::optional<std::string> output;               ///< Path of the result; unset if no output was written.
+  std::optional<std::string> picture;              ///< Path of the picture; unset if no picture was written.
   std::string inputHash, optionsHash, outputHash;  ///< XXH3 hashes of input, options and output; empty if unknown.
   /// Value of the JSON report; unset if unknown.
   std::optional<uint64_t> faceCount, vertexCount, componentCount, noValueCount;
@@ -49,12 +51,24 @@ struct MeshRecord {
   std::map<std::string, double> seconds;         ///< Seconds of each stage that ran.
   double totalSeconds = 0;                       ///< Time from the start of reading to the end of writing, in seconds.
   uint64_t peakMemoryBytes = 0;                  ///< Greatest resident memory of the process, in bytes.
+  uint32_t attemptCount = 1;                     ///< 2 if the first worker process was killed for its memory.
   std::vector<std::string> warnings;             ///< Codes of the warnings.
   MeshStatus status = MeshStatus::Done;          ///< What became of the mesh.
   int code = 0;                                  ///< Exit code of this mesh.
   std::string error;                             ///< Name of the error; null without a failure.
   std::string message;                           ///< The reason of the failure in one line; empty without a failure.
 };
+
+/// The values of MeshRecord::error that are verdicts of checks on a computed mesh, and what a summary calls such
+/// meshes.
+inline constexpr std::array<std::pair<const char*, const char*>, 6> kVerdictErrors{
+    {{"tooThin", "thin"},
+     {"tooThick", "thick"},
+     {"tooClose", "with narrow gaps"},
+     {"sealedVoids", "with sealed voids"},
+     {"bodiesInContact", "with bodies in contact"},
+     {"notJudged", "not judged"}}};
+[[nodiscard]] bool hasVerdictError(const MeshRecord& record);
 
 /// Returns the current time in ISO 8601, for example "2026-05-31T12:34:56.789Z". The alphabetical order of these texts
 /// is the order of the times.
@@ -72,10 +86,10 @@ struct MeshRecord {
 
 void to_json(Json& json, MeshStatus status);
 void from_json(const Json& json, MeshStatus& status);
-ASDFVK_JSON(MeshRecord, formatVersion, input, inputBytes, status, code, error, message, warnings, faceCount,
+ASDFVK_JSON(MeshRecord, formatVersion, input, inputBytes, key, status, code, error, message, warnings, faceCount,
             vertexCount, componentCount, noValueCount, segmentCount, unit, sdf, thickness, parts, estimatedError,
-            findings, totalSeconds, seconds, peakMemoryBytes, backend, device, output, time, version, commit, inputHash,
-            optionsHash, outputHash, options)
+            findings, totalSeconds, seconds, peakMemoryBytes, attemptCount, backend, device, output, picture, time,
+            version, commit, inputHash, optionsHash, outputHash, options)
 
 /// A file with one record per line, to which several threads and processes may append. Each line is written by one
 /// write(). A killed process leaves at most one incomplete line. The next append() of any process ends this line.

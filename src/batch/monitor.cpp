@@ -16,11 +16,7 @@ constexpr double kTerminalSeconds = 0.2, kFurtherLineSeconds = 60;
 }  // namespace
 
 Monitor::Monitor(const MonitorOptions& options, const std::vector<Job>& jobs)
-    : options_(options),
-      jobs_(jobs),
-      waiting_(jobs.size()),
-      isAdded_(jobs.size(), 0),
-      isTerminal_(isStandardErrorTerminal()) {
+    : options_(options), jobs_(jobs), isTerminal_(isStandardErrorTerminal()) {
   if (!options.log.empty()) log_.emplace(options.log);
   progress_.meshCount = jobs.size();
   progress_.isCheck = options.isCheck;
@@ -70,16 +66,25 @@ void Monitor::noteOtherBackend(JobResult& result) {
         warningLine(record.input, fmt::format("computed on the backend {}, {}", record.backend, record.device));
 }
 
+/// A second attempt is slower than a first one, and other options avoid it.
+void Monitor::noteSecondAttempt(JobResult& result) const {
+  const MeshRecord& record = result.record;
+  if (options_.isQuiet || record.attemptCount < 2 || !record.faceCount || record.status == MeshStatus::Skipped) return;
+  result.messages += warningLine(record.input,
+                                 "computed in a second attempt, alone, because the first worker process was killed for "
+                                 "its memory; fewer jobs at once need less memory");
+}
+
 void Monitor::add(size_t job, JobResult result) {
   const std::scoped_lock lock(mutex_);
   const MeshRecord& record = result.record;
-  codes_.push_back(record.code);
+  codes_.insert(record.code);
   noteOtherBackend(result);
-  progress_.count(record, jobs_[job].byteCount);
+  noteSecondAttempt(result);
+  progress_.count(record, job < jobs_.size() ? jobs_[job].byteCount : 0);
   if (record.status == MeshStatus::Dropped) dropped_.push_back(record.input);
   if (log_) log_->append(record);
   if (options_.keepsRecords) records_.emplace(job, record);
-  isAdded_[job] = 1;
   waiting_[job] = {options_.printsReports ? std::move(result.report) : std::string(), std::move(result.messages)};
   printInOrder();
   showProgress();
@@ -89,8 +94,7 @@ void Monitor::finish() {
   ticker_ = {};
   const std::scoped_lock lock(mutex_);
   wipeProgress();
-  for (std::optional<Texts>& texts : waiting_)
-    if (texts) print(*std::exchange(texts, std::nullopt));
+  for (const auto& [job, texts] : waiting_) print(texts);
   if (options_.showsProgress && !options_.isQuiet) {
     if (!dropped_.empty())
       writeStandardError(oneLine(fmt::format("asdf-vk: dropped: {}", joined(dropped_, ", "))) + "\n");
@@ -108,8 +112,8 @@ std::vector<MeshRecord> Monitor::records() const {
 std::vector<size_t> Monitor::unfinishedJobs() const {
   const std::scoped_lock lock(mutex_);
   std::vector<size_t> jobs;
-  for (size_t i = 0; i < isAdded_.size(); ++i)
-    if (!isAdded_[i]) jobs.push_back(i);
+  for (size_t i = nextPrinted_; i < jobs_.size(); ++i)
+    if (!waiting_.contains(i)) jobs.push_back(i);
   return jobs;
 }
 
@@ -124,9 +128,10 @@ void Monitor::print(const Texts& texts) {
 }
 
 void Monitor::printInOrder() {
-  for (; nextPrinted_ < waiting_.size() && waiting_[nextPrinted_]; ++nextPrinted_) {
-    if (!waiting_[nextPrinted_]->messages.empty()) wipeProgress();
-    print(*std::exchange(waiting_[nextPrinted_], std::nullopt));
+  for (auto next = waiting_.begin(); next != waiting_.end() && next->first == nextPrinted_; ++nextPrinted_) {
+    if (!next->second.messages.empty()) wipeProgress();
+    print(next->second);
+    next = waiting_.erase(next);
   }
 }
 
@@ -136,7 +141,8 @@ void Monitor::showProgress() {
   if (seconds < nextProgressSeconds_) return;
   const std::string text = progressText(progress_, seconds);
   if (isTerminal_) {
-    writeStandardError(fmt::format("{}{} {}", kWipeLine, progressBarText(progress_.share()), text));
+    const std::string bar = progress_.meshCount == 0 ? "" : progressBarText(progress_.share()) + " ";
+    writeStandardError(fmt::format("{}{}{}", kWipeLine, bar, text));
     isProgressVisible_ = true;
   } else {
     writeStandardError(fmt::format("asdf-vk: {}\n", text));

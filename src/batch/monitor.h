@@ -28,7 +28,8 @@ struct MonitorOptions {
 /// Receives results of jobs in any order from any thread. Prints and logs them in the order of the jobs.
 class Monitor {
  public:
-  /// Opens the log. Throws Error{OutputNotWritable}. Precondition: `jobs` outlives this object.
+  /// Opens the log. jobs: empty for a stream, whose jobs have the numbers 0, 1, ... Throws Error{OutputNotWritable}.
+  /// Precondition: `jobs` outlives this object.
   Monitor(const MonitorOptions& options, const std::vector<Job>& jobs);
   ~Monitor();
   Monitor(const Monitor&) = delete;
@@ -50,7 +51,8 @@ class Monitor {
 
   /// The records of the jobs with a result, in the order of the jobs. Precondition: MonitorOptions::keepsRecords.
   [[nodiscard]] std::vector<MeshRecord> records() const;
-  [[nodiscard]] const std::vector<int>& codes() const { return codes_; }
+  /// The codes that jobs have.
+  [[nodiscard]] const std::set<int>& codes() const { return codes_; }
   [[nodiscard]] std::vector<size_t> unfinishedJobs() const;
   /// Whether jobs were dropped or have no result.
   [[nodiscard]] bool hasUnfinished() const;
@@ -61,6 +63,7 @@ class Monitor {
   };
 
   void noteOtherBackend(JobResult& result);
+  void noteSecondAttempt(JobResult& result) const;
   void print(const Texts& texts);
   void printInOrder();
   void showProgress();
@@ -71,11 +74,10 @@ class Monitor {
   const std::vector<Job>& jobs_;
   mutable std::mutex mutex_;
   std::optional<RecordLog> log_;
-  std::vector<std::optional<Texts>> waiting_;  ///< Texts that wait until all earlier jobs are printed.
-  std::vector<char> isAdded_;
+  std::map<size_t, Texts> waiting_;  ///< Texts of jobs that wait until all earlier jobs are printed.
   size_t nextPrinted_ = 0;
   BatchProgress progress_;
-  std::vector<int> codes_;
+  std::set<int> codes_;
   std::map<size_t, MeshRecord> records_;  ///< By job.
   std::vector<std::string> dropped_;
   std::set<std::string> announcedBackends_;

@@ -53,10 +53,13 @@ std::optional<MeshRecord> readOutputRecord(const fs::path& output) {
 
 std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const fs::path& output) {
   std::optional<MeshRecord> record = readOutputRecord(output);
-  if (!record || record->code != 0 || !haveSameOrigin(*record, expected) || record->outputHash.empty() ||
+  const bool isFinished =
+      record && (record->code == 0 || record->status == MeshStatus::Done || hasVerdictError(*record));
+  if (!isFinished || !haveSameOrigin(*record, expected) || record->outputHash.empty() ||
       outputHashOf(output) != record->outputHash)
     return std::nullopt;
   record->input = expected.input;
+  record->key = expected.key;
   record->output = output.string();
   record->time = expected.time;
   record->status = MeshStatus::Skipped;

@@ -18,7 +18,8 @@ namespace asdfvk {
 [[nodiscard]] std::optional<MeshRecord> readOutputRecord(const std::filesystem::path& output);
 
 /// Returns the record beside the output if the output is up to date, else nothing. An output is up to date if three
-/// conditions hold. The record has no failure. The record has the input hash, options hash, version and commit of
+/// conditions hold. The record has no failure, or its failure is
+/// a verdict (hasVerdictError()). The record has the input hash, options hash, version and commit of
 /// `expected`. The bytes of the output have the recorded hash. The returned record has the status Skipped, and the
 /// input, output and time of this run.
 [[nodiscard]] std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected,

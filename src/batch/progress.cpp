@@ -2,10 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "batch/input_list.h"
 #include "core/text.h"
@@ -24,15 +22,9 @@ std::string rateText(uint64_t count, double seconds) {
 /// What a failure of a mesh is called in a summary.
 std::string wordsOf(const MeshRecord& record) {
   constexpr int kUnreadable = 2;
-  constexpr std::array kWords{std::pair{"tooThin", "thin"},
-                              std::pair{"tooThick", "thick"},
-                              std::pair{"tooClose", "with narrow gaps"},
-                              std::pair{"sealedVoids", "with sealed voids"},
-                              std::pair{"bodiesInContact", "with bodies in contact"},
-                              std::pair{"notJudged", "not judged"},
-                              std::pair{"checkFailed", "failed the comparison"}};
-  for (const auto& [error, words] : kWords)
+  for (const auto& [error, words] : kVerdictErrors)
     if (record.error == error) return words;
+  if (record.error == "checkFailed") return "failed the comparison";
   return record.code == kUnreadable ? "unreadable" : "failed";
 }
 
@@ -43,6 +35,9 @@ void BatchProgress::count(const MeshRecord& record, uint64_t bytes) {
     case MeshStatus::Skipped:
       ++skippedCount;
       skippedBytes += bytes;
+      if (record.error.empty()) return;
+      ++skippedVerdictCount;
+      ++failures[wordsOf(record)];
       return;
     case MeshStatus::Dropped:
       ++droppedCount;
@@ -65,6 +60,7 @@ double BatchProgress::share() const {
 }
 
 double BatchProgress::secondsLeft(double elapsedSeconds) const {
+  if (meshCount == 0) return std::numeric_limits<double>::infinity();
   const double computed = weightOf(doneCount + failedCount, doneBytes);
   const double left = weightOf(meshCount - finishedCount(), byteCount - doneBytes - skippedBytes);
   if (left <= 0) return 0;
@@ -81,9 +77,9 @@ std::string durationText(double seconds) {
 }
 
 std::string progressText(const BatchProgress& progress, double elapsedSeconds) {
-  std::string text =
-      fmt::format("{} of {} meshes, {}", groupDigits(progress.finishedCount()), groupDigits(progress.meshCount),
-                  rateText(progress.doneCount + progress.failedCount, elapsedSeconds));
+  const std::string ofAll = progress.meshCount == 0 ? "" : " of " + groupDigits(progress.meshCount);
+  std::string text = fmt::format("{}{} meshes, {}", groupDigits(progress.finishedCount()), ofAll,
+                                 rateText(progress.doneCount + progress.failedCount, elapsedSeconds));
   const double left = progress.secondsLeft(elapsedSeconds);
   if (std::isfinite(left)) text += fmt::format(", {} left", durationText(left));
   if (progress.skippedCount > 0) text += fmt::format(", {} skipped", groupDigits(progress.skippedCount));
@@ -96,10 +92,10 @@ std::string summaryText(const BatchProgress& progress, double elapsedSeconds) {
   const auto add = [&](uint64_t count, const std::string& status) {
     if (count > 0) text += fmt::format(", {} {}", groupDigits(count), status);
   };
-  add(progress.skippedCount, "skipped");
+  add(progress.skippedCount - progress.skippedVerdictCount, "skipped");
   for (const auto& [words, count] : progress.failures) add(count, words);
   add(progress.droppedCount, "dropped");
-  add(progress.meshCount - progress.finishedCount(), "not begun");
+  if (progress.meshCount > 0) add(progress.meshCount - progress.finishedCount(), "not begun");
   text += fmt::format("; {:.3g} s", elapsedSeconds);
   const uint64_t computedCount = progress.doneCount + progress.failedCount;
   if (computedCount > 0)

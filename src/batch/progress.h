@@ -10,13 +10,15 @@ namespace asdfvk {
 
 /// Counts of a running batch, for estimates of its rate and its remaining time. Bytes refer to the input files.
 struct BatchProgress {
-  uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files.
+  uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files; 0: unknown.
   uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
-  uint64_t doneBytes = 0;  ///< Bytes of the meshes that were computed or failed.
+  uint64_t skippedVerdictCount = 0;  ///< Skipped meshes whose verdict of an earlier run is not OK.
+  uint64_t doneBytes = 0;            ///< Bytes of the meshes that were computed or failed.
   uint64_t skippedBytes = 0;
-  uint64_t faceCount = 0;                    ///< Faces of the meshes that were computed.
-  bool isCheck = false;                      ///< The summary calls meshes "ok" instead of "done".
-  std::map<std::string, uint64_t> failures;  ///< Numbers of failed meshes by what happened, in words.
+  uint64_t faceCount = 0;  ///< Faces of the meshes that were computed.
+  bool isCheck = false;    ///< The summary calls meshes "ok" instead of "done".
+  std::map<std::string, uint64_t>
+      failures;  ///< Numbers of meshes that failed in this run or an earlier one, by what happened, in words.
 
   void count(const MeshRecord& record, uint64_t bytes);
 

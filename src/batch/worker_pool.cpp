@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -30,22 +31,34 @@ struct Worker {
   bool isGivenUp = false;  ///< No further process is started for this worker.
   int failedStarts = 0;    ///< Consecutive failed starts.
   std::optional<size_t> job;
+  uint32_t attempt = 1;     ///< Attempt of the job.
   Stopwatch watch;          ///< Measures the time since the greeting or the job was sent.
   uint64_t readyBytes = 0;  ///< Memory when the worker became ready.
   uint64_t peakBytes = 0;
 };
 
+/// The system also ends processes by SIGKILL if memory runs out.
+bool isKilledForMemory(const JobOutcome& outcome) {
+  return outcome.end == JobEnd::MemoryExceeded ||
+         (outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == SIGKILL);
+}
+
 class WorkerPool {
  public:
-  WorkerPool(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+  WorkerPool(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
              const std::stop_token& stop)
-      : jobCount_(jobCount), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
+      : jobs_(jobs), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
 
   std::string run() {
     for (;;) {
       if (stop_.stop_requested() && !stopWatch_) requestStop();
+      if (isAlone_ && retries_.empty() && !isAtWork()) endAlone();
+      if (!isAlone_ && hasRetriesOnly()) beginAlone();
       for (Worker& worker : workers_) feed(worker);
-      if (isIdle()) return failure_;
+      if (isIdle()) {
+        abandonRetries();
+        return failure_;
+      }
       wait();
       for (Worker& worker : workers_)
         if (worker.process) watchOver(worker);
@@ -53,11 +66,43 @@ class WorkerPool {
   }
 
  private:
-  [[nodiscard]] bool hasJobs() const { return next_ < jobCount_ && !stopWatch_; }
+  [[nodiscard]] bool isAt(JobSupply::State state) const { return jobs_.next(next_) == state; }
+  [[nodiscard]] bool hasJobs() const {
+    return !stopWatch_ && (isAlone_ ? !retries_.empty() : isAt(JobSupply::State::Ready));
+  }
+  [[nodiscard]] bool hasWorkers() const {
+    return std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
+  }
+  [[nodiscard]] bool isAtWork() const {
+    return std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
+  }
   [[nodiscard]] bool isIdle() const {
-    const bool hasWorkers = std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
-    return !(hasJobs() && hasWorkers) &&
-           std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
+    return !isAtWork() && (stopWatch_ || !hasWorkers() || (retries_.empty() && isAt(JobSupply::State::Ended)));
+  }
+  /// Also while jobs of a stream may follow: they may wait for the results of these retries.
+  [[nodiscard]] bool hasRetriesOnly() const {
+    return !stopWatch_ && !retries_.empty() && hasWorkers() && !isAtWork() && !isAt(JobSupply::State::Ready);
+  }
+
+  /// Ends all workers, which may keep memory of earlier jobs, and continues with one.
+  void beginAlone() {
+    isAlone_ = true;
+    workers_.clear();
+    workers_.resize(1);
+  }
+
+  void endAlone() {
+    isAlone_ = false;
+    workers_.resize(options_.workerCount);
+  }
+
+  /// Ends the jobs whose second attempt did not begin.
+  void abandonRetries() {
+    for (JobOutcome& outcome : retries_) {
+      if (stopWatch_) outcome.end = JobEnd::Dropped;
+      client_.finished(outcome);
+    }
+    retries_.clear();
   }
 
   /// Only one process may run until a worker is ready. Then client_.ready() determines the number.
@@ -83,14 +128,16 @@ class WorkerPool {
 
   void feed(Worker& worker) {
     if (!hasJobs() || worker.job) return;
-    if (worker.process && worker.hasServed && hasGrown(worker)) worker.process.reset();
+    if (worker.process && worker.hasServed && (isAlone_ || hasGrown(worker))) worker.process.reset();
     if (!worker.process && mayStart(worker)) start(worker);
     if (!worker.process || !worker.isReady) return;
-    worker.job = next_++;
+    worker.attempt = isAlone_ ? 2 : 1;
+    worker.job = isAlone_ ? retries_.front().job : next_++;
+    if (isAlone_) retries_.pop_front();
     worker.watch = Stopwatch();
     worker.peakBytes = 0;
     // If the worker has ended, watchOver() will detect it.
-    worker.process->messages().send(client_.request(*worker.job));
+    worker.process->messages().send(client_.request(*worker.job, worker.attempt));
   }
 
   [[nodiscard]] bool hasGrown(const Worker& worker) const {
@@ -105,6 +152,7 @@ class WorkerPool {
     std::vector<pollfd> polled;
     for (const Worker& worker : workers_)
       if (worker.process) polled.push_back({worker.process->descriptor(), POLLIN, 0});
+    if (jobs_.descriptor >= 0 && !stopWatch_) polled.push_back({jobs_.descriptor, POLLIN, 0});
     double milliseconds = options_.memoryBytes > 0 ? kMemoryPollMilliseconds : kPollMilliseconds;
     if (std::isfinite(options_.timeoutSeconds))
       for (const Worker& worker : workers_)
@@ -188,7 +236,13 @@ class WorkerPool {
     outcome.job = *worker.job;
     outcome.seconds = worker.watch.seconds();
     outcome.peakBytes = worker.peakBytes;
+    outcome.attempt = worker.attempt;
     worker.job.reset();
+    if (outcome.attempt == 1 && isKilledForMemory(outcome)) {
+      if (client_.retried) client_.retried(outcome);
+      retries_.push_back(outcome);
+      return false;
+    }
     return client_.finished(outcome);
   }
 
@@ -198,22 +252,25 @@ class WorkerPool {
       if (worker.process && worker.job) worker.process->signal(SIGTERM);
   }
 
-  size_t jobCount_, next_ = 0;
+  const JobSupply& jobs_;
+  size_t next_ = 0;
   const WorkerPoolOptions& options_;
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
   std::vector<Worker> workers_;
-  uint32_t allowedCount_ = 1;  ///< Number of processes that may run at the same time.
-  bool hasStarted_ = false;    ///< Whether any worker was ready.
+  std::deque<JobOutcome> retries_;  ///< First outcomes of jobs that are tried again.
+  bool isAlone_ = false;            ///< Whether only second attempts begin.
+  uint32_t allowedCount_ = 1;       ///< Number of processes that may run at the same time.
+  bool hasStarted_ = false;         ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
   std::string failure_;  ///< Reason why the last worker could not start.
 };
 
 }  // namespace
 
-std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+std::string runOnWorkers(const JobSupply& jobs, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop) {
-  return WorkerPool(jobCount, options, client, stop).run();
+  return WorkerPool(jobs, options, client, stop).run();
 }
 
 }  // namespace asdfvk

@@ -120,7 +120,7 @@ void updateBaseline(const std::string& path, std::span<const MeshRecord> records
   std::error_code ignored;
   if (fs::exists(path, ignored)) baseline = readBaseline(path);
   for (const MeshRecord& record : records) {
-    if (record.findings.is_null() || record.status == MeshStatus::Skipped) continue;
+    if (record.findings.is_null()) continue;
     const std::string mesh = pathBelow(baseline.folder, record.input);
     std::vector<KnownPlace> failures = failuresOf(record);
     if (failures.empty())

@@ -56,6 +56,7 @@ Many meshes
   asdf-vk -r parts -o results --log log.jsonl  all meshes below a folder
   asdf-vk summarize log.jsonl                  counts, times and failures
     --skip-existing               resume: skip meshes whose result is up to date
+    --tar                         the inputs and results are tars of meshes
     --jobs N                      meshes at once
 
 Input and output
@@ -150,10 +151,11 @@ void completeLimits(CommandLine& line, const GivenOptions& given) {
 }
 
 void completeResult(CommandLine& line, const GivenOptions& given) {
-  constexpr std::array kAboutResult{"output", "format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
-  line.outputs.writesResult =
-      !(line.computation.isCheck() || !line.outputs.limits.empty()) ||
-      std::any_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  constexpr std::array kAboutResult{"format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
+  line.outputs.writesRecordsOnly =
+      (line.computation.isCheck() || !line.outputs.limits.empty()) &&
+      std::none_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
+  line.outputs.writesResult = !line.outputs.writesRecordsOnly || given.has("output") || given.has("keep-members");
   if (!line.outputs.writesResult && line.batch.skipsExisting)
     refuseOptions("--skip-existing looks for results, but --fail-if-... writes none without -o; give -o");
 }
@@ -188,7 +190,7 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
   if (given.has("log") && batch.log.empty()) refuseOptions("--log: the name is empty");
   if (batch.list == "-" && readsInput)
     refuseOptions("--files-from - and the mesh '-' both read standard input; name a file instead of one of the two");
-  if (batch.isolates && readsInput)
+  if (batch.isolates && readsInput && !batch.readsTars)
     refuseOptions(
         "--isolate and --memory-limit compute in other processes, which cannot read the mesh '-'; name a file instead "
         "of '-'");
@@ -199,11 +201,18 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
       refuseOptions("for one page of all meshes, one mesh is computed after another; drop --jobs");
     return;
   }
-  if (line.outputs.path == "-") refuseOptions("standard output (-o -) holds one result; give -o a folder");
-  if (!line.outputs.picture.empty() || !line.outputs.points.empty())
+  if (line.outputs.path == "-" && !batch.readsTars)
+    refuseOptions("standard output (-o -) holds one result; give -o a folder");
+  if (batch.readsTars && writesPages(line.outputs))
+    refuseOptions("a page is a file of its own, and no member of a tar; drop --tar, or --format html");
+  if (batch.readsTars && !line.outputs.picture.empty())
+    refuseOptions("--picture draws meshes in files of their own; drop it, or --tar");
+  if (!line.outputs.picture.empty() && !hasPictureFolder(line.outputs))
+    refuseOptions(fmt::format("--picture {} is for one mesh; give a folder that ends in /, such as --picture pictures/",
+                              line.outputs.picture));
+  if (!line.outputs.points.empty())
     refuseOptions(
-        "--picture and --points take one mesh; drop them, or -r, --files-from, --log, --skip-existing, --shard and "
-        "--isolate");
+        "--points takes one mesh; drop it, or -r, --files-from, --log, --skip-existing, --shard and --isolate");
   if (writesOnePage(line.outputs) || line.outputs.opensPage)
     refuseOptions("a batch writes a page per mesh: give -o a folder, with --format html, and drop --open");
 }
@@ -232,8 +241,10 @@ void validateOptions(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuseOptions("the name of a mesh is empty");
   if (line.outputs.path == "-" && line.outputs.json)
     refuseOptions("-o - and --json both write to standard output; give -o a file or drop --json");
-  if (!line.outputs.picture.empty() && line.meshes.size() > 1)
-    refuseOptions("--picture takes one mesh; name one mesh, or run asdf-vk once per mesh");
+  if (!line.outputs.picture.empty() && !hasPictureFolder(line.outputs) && line.meshes.size() > 1)
+    refuseOptions(
+        fmt::format("--picture {} is for one mesh; name one mesh, or give a folder, such as --picture pictures/",
+                    line.outputs.picture));
   if (line.outputs.picture == "-" && (line.outputs.path == "-" || line.outputs.json))
     refuseOptions(
         "--picture -, --json and -o - write to standard output, which only one of them can use; give --picture a file, "

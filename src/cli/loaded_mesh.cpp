@@ -12,6 +12,7 @@
 #include "batch/content_hash.h"
 #include "core/stopwatch.h"
 #include "io/files.h"
+#include "io/formats.h"
 
 namespace asdfvk {
 namespace {
@@ -37,6 +38,20 @@ LoadedMesh loadNow(const std::string& path, const ReadOptions& options, bool com
 }
 
 }  // namespace
+
+LoadedMesh loadMember(const std::string& name, const std::string& bytes, ReadOptions options, bool computesHash) {
+  LoadedMesh loaded;
+  const Stopwatch watch;
+  if (computesHash) loaded.hash = contentHash(bytes);
+  options.format = meshExtension(name);
+  try {
+    loaded.mesh = parseMesh(bytes, options);
+  } catch (...) {
+    loaded.failure = std::current_exception();
+  }
+  loaded.seconds = watch.seconds();
+  return loaded;
+}
 
 bool mayWait(const std::string& path) {
   std::error_code ignored;

@@ -25,4 +25,8 @@ struct LoadedMesh {
 [[nodiscard]] LoadedMesh loadMesh(const std::string& path, const ReadOptions& options, bool computesHash,
                                   const std::stop_token& stop);
 
+/// Reads a mesh from its bytes, without files beside it.
+[[nodiscard]] LoadedMesh loadMember(const std::string& name, const std::string& bytes, ReadOptions options,
+                                    bool computesHash);
+
 }  // namespace asdfvk

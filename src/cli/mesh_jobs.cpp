@@ -1,5 +1,7 @@
 #include "cli/mesh_jobs.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "batch/output_record.h"
 #include "batch/process_memory.h"
 #include "cli/device_output.h"
+#include "cli/member_files.h"
 #include "cli/page_output.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"
@@ -90,6 +93,8 @@ JobRecords::JobRecords(const MeshSettings& settings)
 MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;
   record.input = job.input;
+  record.key = job.key;
+  record.attemptCount = job.attemptCount;
   record.time = utcTime();
   record.optionsHash = optionsHash_;
   record.options = options_;
@@ -102,12 +107,13 @@ JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
                              const std::optional<MeshRecord>& old) const {
   if (run.report) fillRecord(record, *run.report);
   if (run.hasResult && !job.output.empty()) record.output = job.output;
+  if (!run.picture.empty()) record.picture = run.picture;
   if (run.failure) fillRecord(record, *run.failure);
-  if (!run.failure && settings_.isOfBatch) {
+  if (settings_.isOfBatch && !job.content && (!run.failure || hasResult(run.failure->code))) {
     try {
       writeOutputRecord(record, job.output);
     } catch (...) {
-      run.add(currentFailure(), job.input, settings_.outputs.json);
+      run.add(currentFailure(), job.input, settings_.outputs.json && !run.failure);
       fillRecord(record, *run.failure);
       removeOutput(record, job.output);
       record.output.reset();
@@ -130,16 +136,25 @@ std::optional<JobResult> JobRecords::findFinished(const Job& job) const {
   MeshRecord expected = begin(job);
   expected.inputHash = inputHashOf(job.input);
   std::optional<MeshRecord> found = findFinishedOutput(expected, job.output);
-  if (!found) return std::nullopt;
+  if (!found || lacksPicture(job, *found)) return std::nullopt;
   std::string report = jsonSkipped(job.input, *found);
-  return JobResult{std::move(*found), std::move(report), ""};
+  std::string verdict;
+  if (found->code != 0) verdict = oneLine(fmt::format("asdf-vk: {}: {}", job.input, found->message)) + "\n";
+  return JobResult{std::move(*found), std::move(report), std::move(verdict)};
+}
+
+bool JobRecords::lacksPicture(const Job& job, const MeshRecord& finished) const {
+  std::error_code ignored;
+  if (!hasPictureFolder(settings_.outputs) || std::filesystem::exists(job.picture, ignored)) return false;
+  const bool isCheck = settings_.computation.isCheck() || !settings_.outputs.limits.empty();
+  return !isCheck || finished.code == static_cast<int>(ExitCode::OverLimit);
 }
 
 JobResult JobRecords::fail(const Job& job, const Failure& failure) const {
   MeshRecord record = begin(job);
   MeshRun run;
   run.add(failure, job.input, settings_.outputs.json);
-  const std::optional<MeshRecord> old = readOutputRecord(job.output);
+  const std::optional<MeshRecord> old = job.content ? std::nullopt : readOutputRecord(job.output);
   if (old) record.inputHash = contentHashOf(job.input).value_or("");
   return finish(job, std::move(record), std::move(run), old);
 }
@@ -162,6 +177,13 @@ void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
   jobsOfPage_ = &jobs;
 }
 
+const MeshSettings& MeshComputer::settingsOf(const Job& job) {
+  if (!hasPictureFolder(settings_.outputs)) return settings_;
+  if (!drawingSettings_) drawingSettings_.emplace(settings_).drawsFailedOnly = true;
+  drawingSettings_->outputs.picture = job.picture;
+  return *drawingSettings_;
+}
+
 ComputerDescription MeshComputer::describe() const {
   return {session_->backend(), deviceLinesOf(*session_, sessionOptions_, settings_.outputs.verbose),
           session_->runsOnCpu()};
@@ -169,25 +191,32 @@ ComputerDescription MeshComputer::describe() const {
 
 JobResult MeshComputer::compute(const Job& job, const Job* next) {
   MeshRecord record = records_.begin(job);
-  const std::optional<MeshRecord> old = settings_.isOfBatch ? readOutputRecord(job.output) : std::nullopt;
+  const std::optional<MeshRecord> old =
+      settings_.isOfBatch && !job.content ? readOutputRecord(job.output) : std::nullopt;
   const Stopwatch watch;
   resetPeakMemory();
   const Deadline deadline(settings_.timeoutSeconds, stop_);
-  LoadedMesh loaded =
-      ahead_.valid() ? ahead_.get() : loadMesh(job.input, settings_.reading, settings_.isOfBatch, deadline.token());
+  LoadedMesh loaded = job.content      ? loadMember(job.input, *job.content, settings_.reading, settings_.isOfBatch)
+                      : ahead_.valid() ? ahead_.get()
+                                       : loadMesh(job.input, settings_.reading, settings_.isOfBatch, deadline.token());
   if (next != nullptr && isReadAhead(*next))
     ahead_ = std::async(std::launch::async,
                         [this, next] { return loadMesh(next->input, settings_.reading, settings_.isOfBatch, stop_); });
   record.inputHash = loaded.hash;
   std::optional<SharedPage> page;
   if (page_ != nullptr) page.emplace(SharedPage{*page_, nameInSharedPage(job)});
-  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settings_, deadline,
+  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settingsOf(job), deadline,
                             {.showsBar = showsBar_}, page ? &*page : nullptr);
   isSpent_ = session_->backend() != backend_ || stop_.stop_requested() ||
              (run.failure && run.failure->code == ExitCode::Device);
   record.totalSeconds = watch.seconds();
   record.peakMemoryBytes = peakMemoryBytes();
-  return records_.finish(job, std::move(record), std::move(run), old);
+  std::vector<std::pair<std::string, std::string>> files;
+  if (job.content && !job.output.empty()) files = takenResult(job.output);
+  if (!files.empty()) record.outputHash = contentHash(files.back().second);
+  JobResult result = records_.finish(job, std::move(record), std::move(run), old);
+  result.files = std::move(files);
+  return result;
 }
 
 /// The file name, or the whole path if another mesh of the page has the same file name.

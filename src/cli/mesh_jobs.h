@@ -28,7 +28,8 @@ class JobRecords {
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
   /// Completes the record and, in a batch, writes it beside the output. If the record cannot be written, the mesh fails
-  /// and its output is removed. old: record of an earlier run. If the mesh failed, an outdated output is removed.
+  /// and its output is removed. A verdict remains the failure of the mesh. old: record of an earlier run. If the mesh
+  /// failed, an outdated output is removed.
   [[nodiscard]] JobResult finish(const Job& job, MeshRecord record, MeshRun run,
                                  const std::optional<MeshRecord>& old) const;
 
@@ -39,6 +40,8 @@ class JobRecords {
 
  private:
   [[nodiscard]] std::string inputHashOf(const std::string& input) const;
+  /// Whether the picture of an earlier result is missing.
+  [[nodiscard]] bool lacksPicture(const Job& job, const MeshRecord& finished) const;
 
   const MeshSettings& settings_;
   std::string optionsHash_;
@@ -63,8 +66,11 @@ class MeshComputer : public JobComputer {
 
  private:
   [[nodiscard]] std::string nameInSharedPage(const Job& job) const;
+  /// The settings with the picture of the job.
+  [[nodiscard]] const MeshSettings& settingsOf(const Job& job);
 
   const MeshSettings& settings_;
+  std::optional<MeshSettings> drawingSettings_;  ///< If each job has a picture of its own.
   const JobRecords& records_;
   const std::stop_token stop_;
   bool showsBar_;

@@ -42,14 +42,19 @@ MeshSettings meshSettingsOf(const CommandLine& line) {
 
 std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
                         const ReadOptions& reading, const Outputs& outputs) {
-  const Json identity{{"options", optionValues(computation, session)},
-                      {"chordError", {reading.chordError, reading.chordErrorUnit}},
-                      {"fields", fieldNames(outputs, computation.options)},
-                      {"choosesFields", !outputs.fields.empty()},
-                      {"format", outputs.format},
-                      {"colourOf", outputs.colourOf},
-                      {"vertexColours", outputs.coloursVertices},
-                      {"ascii", outputs.ascii}};
+  Json identity{{"options", optionValues(computation, session)},
+                {"chordError", {reading.chordError, reading.chordErrorUnit}},
+                {"fields", fieldNames(outputs, computation.options)},
+                {"choosesFields", !outputs.fields.empty()},
+                {"format", outputs.format},
+                {"colourOf", outputs.colourOf},
+                {"vertexColours", outputs.coloursVertices},
+                {"ascii", outputs.ascii}};
+  // --picture alone changes no hash; JobRecords::findFinished() looks for the picture.
+  const View& view = outputs.pictureView;
+  if (!outputs.pictureOf.empty() || outputs.choosesView || view.up)
+    identity["picture"] = {outputs.pictureOf, view.azimuthDegrees, view.elevationDegrees,
+                           view.up ? static_cast<int>(*view.up) : -1};
   return contentHash(jsonText(identity));
 }
 
@@ -63,7 +68,8 @@ Json toJson(MeshSettings settings) {
           {"keepsScene", settings.computation.options.keepsScene},
           {"timeoutSeconds", settings.timeoutSeconds},
           {"makesFolders", settings.makesFolders},
-          {"isOfBatch", settings.isOfBatch}};
+          {"isOfBatch", settings.isOfBatch},
+          {"memberFolder", settings.memberFolder}};
 }
 
 MeshSettings settingsOf(const Json& json) {
@@ -78,6 +84,7 @@ MeshSettings settingsOf(const Json& json) {
   settings.timeoutSeconds = json.at("timeoutSeconds");
   settings.makesFolders = json.at("makesFolders");
   settings.isOfBatch = json.at("isOfBatch");
+  settings.memberFolder = json.at("memberFolder");
   return settings;
 }
 

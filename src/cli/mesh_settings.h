@@ -25,6 +25,8 @@ struct MeshSettings {
   /// Whether the mesh is part of a batch. In a batch, a record beside the result replaces the report, and pages have no
   /// times.
   bool isOfBatch = false;
+  bool drawsFailedOnly = false;  ///< In a run with a check, only meshes that fail the check have a picture.
+  std::string memberFolder;      ///< For members of tars with results: see enterMemberFolder(). Else empty.
 };
 
 [[nodiscard]] MeshSettings meshSettingsOf(const struct CommandLine& line);

@@ -99,8 +99,10 @@ class MeshFiles {
     if (settings_.makesFolders) makeFolderOf(output_);
     if (!output_.empty()) requireWritablePlace(output_);
     if (settings_.isOfBatch && hasOutputRecord(output_)) requireWritablePlace(outputRecordPath(output_).string());
-    for (const std::string& further : {settings_.outputs.picture, settings_.outputs.points})
-      if (!further.empty()) requireWritablePlace(further);
+    if (!settings_.outputs.points.empty()) requireWritablePlace(settings_.outputs.points);
+    // The folder of a picture of a failed check is made only with the picture.
+    if (!settings_.outputs.picture.empty() && !settings_.drawsFailedOnly)
+      requireWritablePlace(settings_.outputs.picture);
   }
 
   template <typename Work>
@@ -140,13 +142,31 @@ class MeshFiles {
     asdfvk::writePoints(files, settings_.outputs.points, fields, {stop_, {}, {}});
   }
 
+  /// Whether a picture is asked for, and the mesh is one to draw.
+  [[nodiscard]] bool hasPicture(const ComputationSettings& computation, const Report& report) const {
+    if (settings_.outputs.picture.empty() || !settings_.drawsFailedOnly) return !settings_.outputs.picture.empty();
+    if (!settings_.computation.isCheck() && settings_.outputs.limits.empty()) return true;
+    const std::vector<Failure> failures = failedChecks(computation, report);
+    return std::any_of(failures.begin(), failures.end(),
+                       [](const Failure& failure) { return failure.code == ExitCode::OverLimit; });
+  }
+
+  /// Removes the picture of an earlier run in which the mesh failed the check.
+  void removeOldPicture() const {
+    std::error_code ignored;
+    if (settings_.drawsFailedOnly && fs::is_regular_file(settings_.outputs.picture, ignored))
+      fs::remove(settings_.outputs.picture, ignored);
+  }
+
   /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.
   void writePicture(AtomicFiles& files, const Result& result, const Field* field) const {
     const Outputs& outputs = settings_.outputs;
+    if (settings_.drawsFailedOnly) makeFolderOf(outputs.picture);
     const AwaitedReader reader(outputs.picture, stop_);
     const View view = viewOf(outputs.pictureView, input_, result, field == nullptr && !outputs.choosesView);
     withProgress([&](const RunControl& control) {
-      writePng(files, outputs.picture, pictureOf(result, field, view, {}, control));
+      writePng(files, outputs.picture,
+               pictureOf(result, field, view, settings_.drawsFailedOnly ? kSmallPicture : PictureStyle{}, control));
     });
   }
 
@@ -204,7 +224,6 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
   if (sharedPage == nullptr && writesPages(settings.outputs)) ownPage = emptyPage();
   Page* const page = sharedPage != nullptr ? &sharedPage->page : ownPage ? &*ownPage : nullptr;
   const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
-  const bool hasPicture = !settings.outputs.picture.empty();
   const auto compute = [&] {
     const ComputationSettings computation = settings.policy.limits.applied(input, settings.computation);
     const CheckedOptions options = computation.checked();
@@ -222,9 +241,12 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     find();
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] += loaded.seconds;
-    const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
-    const MeshOutcome outcome{input,           output,           computation, settings.session,
-                              settings.others, settings.outputs, result,      computed.faceCounts};
+    Outputs outputs = settings.outputs;
+    if (!files.hasPicture(computation, result.report)) outputs.picture.clear();
+    const bool hasPicture = !outputs.picture.empty();
+    const Field* const pictureField = hasPicture ? pictureFieldOf(outputs, result) : nullptr;
+    const MeshOutcome outcome{input,           output,  computation, settings.session,
+                              settings.others, outputs, result,      computed.faceCounts};
     const Stopwatch watch;
     removeOutputRecord(output);
     AtomicFiles written;
@@ -241,8 +263,12 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     }
     files.writePoints(written, fields);
     seconds[Stage::Write] = watch.seconds();
-    if (hasPicture) files.writePicture(written, result, pictureField);
+    if (hasPicture)
+      files.writePicture(written, result, pictureField);
+    else
+      files.removeOldPicture();
     written.commit();
+    run.picture = outputs.picture;
     if (ownPage && settings.outputs.opensPage) openInBrowser(output);
     if (isAmongOthers) result.fields = std::move(ofMesh);
     if (settings.outputs.json) run.json += jsonReport(outcome);

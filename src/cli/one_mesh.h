@@ -27,6 +27,7 @@ struct MeshRun {
   std::optional<Failure> failure;  ///< The first failure, or the cancellation.
   std::optional<Report> report;    ///< Set if the mesh was computed, and its result was written.
   bool hasResult = false;          ///< Whether the mesh was computed, and its result was written.
+  std::string picture;             ///< Path of the picture that was written; empty: none.
   std::string json;                ///< Lines of --json.
   std::string text;                ///< Errors. Outside of batches and without --quiet, also warnings and the report.
 

@@ -25,9 +25,14 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
-/// The name of a result, for example "horse.asdf.vtu" for "dir/horse.ply".
-std::string resultName(const std::string& mesh, const std::string& format) {
-  const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
+constexpr const char* kTarFormat = "tar";
+
+/// The name of a result, for example "horse.asdf.vtu" for "dir/horse.ply" or for the key "dir/horse".
+std::string resultName(const InputFile& input, const std::string& format) {
+  std::string stem = !input.key.empty()  ? fs::path(input.key).filename().string()
+                     : input.path == "-" ? "stdin"
+                                         : fs::path(input.path).stem().string();
+  if (format == kTarFormat && stem.ends_with(".tar")) stem.resize(stem.size() - 4);  // A compressed tar.
   return stem + ".asdf." + (format.empty() ? "ply" : format);
 }
 
@@ -65,13 +70,15 @@ bool takesFolder(const Outputs& outputs, const BatchOptions& batch) {
 
 std::string planOutput(const InputFile& input, const Outputs& outputs, const BatchOptions& batch) {
   const std::string& mesh = input.path;
+  const std::string format = batch.readsTars ? kTarFormat : outputs.format;
   if (!outputs.writesResult) return {};
   if (outputs.path == "-") return "-";
-  if (takesFolder(outputs, batch))
-    return (fs::path(outputs.path) / input.folder / resultName(mesh, outputs.format)).string();
+  if (takesFolder(outputs, batch)) return (fs::path(outputs.path) / input.folder / resultName(input, format)).string();
   if (!outputs.path.empty()) return outputs.path;
   if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
-  return (fs::path(mesh).parent_path() / resultName(mesh, outputs.format)).string();
+  if (!input.key.empty() && !input.folder.empty())
+    usageError(fmt::format("the key {} of {} has a folder, which is made below -o; give -o FOLDER", input.key, mesh));
+  return (fs::path(mesh).parent_path() / resultName(input, format)).string();
 }
 
 std::string normalised(const fs::path& path) {
@@ -127,6 +134,13 @@ bool writesOnePage(const Outputs& outputs) {
   return writesPages(outputs) && (isPageName(outputs.path) || outputs.path == "-") && !isFolder(outputs.path);
 }
 
+bool hasPictureFolder(const Outputs& outputs) { return outputs.picture.ends_with('/'); }
+
+std::string pictureFileOf(const InputFile& input, const Outputs& outputs) {
+  if (!hasPictureFolder(outputs)) return outputs.picture;
+  return (fs::path(outputs.picture) / input.folder / resultName(input, "png")).string();
+}
+
 std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
                                      std::span<const InputFile> files) {
   const bool sharePage = writesOnePage(outputs);
@@ -142,7 +156,8 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
           outputs.path));
   }
 
-  const WriteOptions options = writeOptionsOf(outputs, {});
+  WriteOptions options = writeOptionsOf(outputs, {});
+  if (batch.readsTars && options.format.empty()) options.format = "ply";
   std::vector<std::string> paths;
   std::unordered_map<std::string, std::string> meshOfOutput;
   for (const InputFile& file : files) {
@@ -158,7 +173,11 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     if (outputs.coloursVertices && (row == nullptr || !row->coloursByChoice))
       usageError("--vertex-colours is for PLY only; drop it");
     if (output != "-") {
-      if (const std::string named = formatNamedBy(output); !named.empty() && named != format)
+      const std::string named = formatNamedBy(output);
+      if (batch.readsTars && !named.empty())
+        usageError(
+            fmt::format("-o {} names a file of the format {}; --tar writes a tar: give -o FILE.tar", output, named));
+      if (!named.empty() && named != format)
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, outputs.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew && !sharePage && normalised(other->second) == normalised(mesh))
@@ -186,7 +205,9 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     if (batch.isBatch() && !paths[i].empty())
       plan(outputRecordPath(paths[i]).string(), "the record of " + paths[i], "-o");
   }
-  plan(outputs.picture, "the picture", "--picture");
+  if (!hasPictureFolder(outputs)) plan(outputs.picture, "the picture", "--picture");
+  for (size_t i = 0; hasPictureFolder(outputs) && i < files.size(); ++i)
+    plan(pictureFileOf(files[i], outputs), "the picture of " + files[i].path, "--picture");
   plan(outputs.points, "the points", "--points");
   if (!outputs.reportFormat.empty()) plan(outputs.report, "the report of checks", "--report");
   if (outputs.updatesBaseline) plan(outputs.baseline, "the baseline", "--baseline");

@@ -21,7 +21,9 @@ struct Outputs {
   bool ascii = false;
   std::string colourOf = {};  ///< See WriteOptions.
   bool coloursVertices = false;
-  std::string picture;    ///< Path of the .png file, "-" for standard output; empty: no picture.
+  /// Path of the .png file, "-" for standard output; or a folder that ends in /, see pictureFileOf(). Empty: no
+  /// picture.
+  std::string picture;
   std::string pictureOf;  ///< Name of the field that the picture shows; empty: see shownField().
   View pictureView;
   bool choosesView = false;  ///< Whether --picture-view is given.
@@ -29,10 +31,11 @@ struct Outputs {
   bool writesResult = true;
   std::string points;      ///< Path of the .ply or .swc file of skeleton points, "-" for standard output; empty: none.
   bool opensPage = false;  ///< Opens the page in the browser.
-  std::string reportFormat;      ///< One of checkFormatNames(); empty: no report of checks.
-  std::string limits, baseline;  ///< Paths of the files of CheckPolicy; empty: none.
-  bool updatesBaseline = false;  ///< Writes the baseline instead of comparing with it.
-  std::string report = "-";      ///< Path of the report of checks; "-" for standard output.
+  std::string reportFormat;        ///< One of checkFormatNames(); empty: no report of checks.
+  std::string limits, baseline;    ///< Paths of the files of CheckPolicy; empty: none.
+  bool writesRecordsOnly = false;  ///< A tar of answers has records and no results.
+  bool updatesBaseline = false;    ///< Writes the baseline instead of comparing with it.
+  std::string report = "-";        ///< Path of the report of checks; "-" for standard output.
   bool json = false;
   bool quiet = false;
   bool verbose = false;  ///< Prints the full report and the lines about devices.
@@ -42,6 +45,8 @@ struct Outputs {
 };
 
 struct BatchOptions {
+  bool readsTars = false;        ///< Inputs are tars of meshes.
+  bool keepsMembers = false;     ///< Tars of answers also have the members of their inputs.
   bool recurses = false;         ///< Arguments may be folders: all meshes below them are inputs.
   std::string list;              ///< Path of the file that lists meshes, "-" for standard input; empty: none.
   bool isNullSeparated = false;  ///< The paths of the list end with a zero byte.
@@ -57,7 +62,9 @@ struct BatchOptions {
   [[nodiscard]] bool hasTree() const { return recurses || !list.empty(); }
   /// Whether the run is a batch. In a batch, a record is written beside each output, and a progress line and a summary
   /// replace the reports.
-  [[nodiscard]] bool isBatch() const { return hasTree() || !log.empty() || skipsExisting || shard || isolates; }
+  [[nodiscard]] bool isBatch() const {
+    return hasTree() || readsTars || !log.empty() || skipsExisting || shard || isolates;
+  }
 };
 
 /// Names of the fields to write: Outputs::fields, or by default the fields that the options compute.
@@ -71,6 +78,13 @@ inline constexpr const char* kPageFormat = "html";
 [[nodiscard]] bool writesPages(const Outputs& outputs);
 
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
+
+/// Whether Outputs::picture is a folder, for a picture of each mesh that fails the check, or of each mesh without
+/// check.
+[[nodiscard]] bool hasPictureFolder(const Outputs& outputs);
+
+/// The path of the picture of an input. In a folder of pictures: NAME.asdf.png in the same subfolder as the result.
+[[nodiscard]] std::string pictureFileOf(const InputFile& input, const Outputs& outputs);
 
 /// Returns the path of the result of each input, "-" for standard output, empty for no result. If
 /// BatchOptions::hasTree(), results are in a tree below -o, whose folders need not exist. Throws Error{OptionConflict}

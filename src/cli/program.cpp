@@ -145,7 +145,8 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   const Interrupt interrupt;
   if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
   if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());
-  if (line.meshes.size() == 1 && !line.batch.isBatch() && !line.outputs.needsRecords())
+  if (line.meshes.size() == 1 && !line.batch.isBatch() && !line.outputs.needsRecords() &&
+      !hasPictureFolder(line.outputs))
     return computeOneMesh(line.meshes.front(), settingsWithPolicy(line), interrupt.token());
   return computeBatch(line.meshes, settingsWithPolicy(line), line.batch, interrupt.token());
 }

@@ -101,13 +101,17 @@ OptionRows outputRows(Outputs& outputs) {
       OptionRow{.name = "verbose",
                 .member = &outputs.verbose,
                 .text = "Print the full report: device, seeds, times, solver, places. Implies {next-wall}"},
-      OptionRow{.name = "picture",
-                .group = kPictureGroup,
-                .member = memberAs<FileCodec>(&outputs.picture),
-                .text = "Also render the coloured mesh; - is standard output. For one mesh only",
-                .more = "The picture has 1200 x 900 pixels and a colour bar from the 1st to the 99th percentile.",
-                .placeholder = "FILE.png",
-                .wanted = "a file that ends in .png"},
+      OptionRow{
+          .name = "picture",
+          .group = kPictureGroup,
+          .member = memberAs<FileCodec>(&outputs.picture),
+          .text = "Also render the coloured mesh; - is standard output. FOLDER/ is for many meshes: a picture "
+                  "NAME.asdf.png of each mesh that fails the check, or of each mesh if there is no check",
+          .more = "The picture has 1200 x 900 pixels, in a folder 480 x 360, and a colour bar from the 1st to the 99th "
+                  "percentile "
+                  "([batches.md](batches.md#pictures)).",
+          .placeholder = "FILE.png|FOLDER/",
+          .wanted = "a file that ends in .png, or a folder that ends in /"},
       OptionRow{.name = "picture-of",
                 .member = memberAs<ShownFieldCodec>(&outputs.pictureOf),
                 .text = "Field that the picture shows",
@@ -140,17 +144,32 @@ OptionRows batchRows(BatchOptions& batch) {
                 .flags = "-r,--recursive"},
       OptionRow{.name = "files-from",
                 .member = &batch.list,
-                .text = "Also compute the meshes of a list with a path per line; - is standard input",
+                .text = "Also compute the meshes of a list; - is standard input. A line has a path, or a path, a tab "
+                        "and a key, which "
+                        "names the results of this mesh",
                 .placeholder = "FILE|-"},
       OptionRow{.name = "null",
                 .member = &batch.isNullSeparated,
-                .text = "Paths of the list end with a zero byte, as find -print0 writes them",
+                .text = "Paths of the list end with a zero byte, as find -print0 writes them, and have no keys",
                 .needs = "files-from",
                 .flags = "-0,--null"},
+      OptionRow{
+          .name = "tar",
+          .member = &batch.readsTars,
+          .text =
+              "The inputs are tars of meshes, also compressed. The answers are tars: a result and a record per mesh, "
+              "in the order of the meshes; only records with {fail-if-thinner}",
+          .more = "[batches.md](batches.md#tars) describes the tars."},
+      OptionRow{.name = "keep-members",
+                .member = &batch.keepsMembers,
+                .text = "Also copy all members of the inputs. The answers are then named KEY.asdf.*",
+                .needs = "tar"},
       OptionRow{.name = "shard",
                 .member = memberAs<ShardCodec>(&batch.shard),
-                .text = "Compute part I of N only; the parts have about the same size",
-                .placeholder = "I/N"},
+                .text = "Compute part I of N only; the parts have about the same size. auto: the variables of a "
+                        "scheduler determine I and N",
+                .more = "With `auto/N`, the scheduler determines I only ([cluster.md](cluster.md#schedulers)).",
+                .placeholder = "I/N|auto|auto/N"},
       OptionRow{.name = "log",
                 .member = &batch.log,
                 .text = "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads the records",

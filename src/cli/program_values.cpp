@@ -83,6 +83,7 @@ bool FileCodec::read(const OptionValue& value, const OptionRow& row, std::string
   const std::string extension = lowerCase(std::filesystem::path(textIn(value)).extension().string());
   const std::vector<std::string> allowed = splitAt(row.placeholder, '|');
   const bool isAllowed = std::any_of(allowed.begin(), allowed.end(), [&](const std::string& file) {
+    if (file.ends_with('/')) return textIn(value).ends_with('/');
     return std::filesystem::path(file).extension() == extension;
   });
   return (isAllowed || textIn(value) == "-") && NameCodec::read(value, row, name);

@@ -42,7 +42,8 @@ struct NameCodec : TextCodec {
   [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, std::string& name);
 };
 
-/// "-", or a name with one of the extensions of the placeholder, which is for example "FILE.ply|FILE.swc".
+/// "-", or a name with one of the extensions of the placeholder, which is for example "FILE.ply|FILE.swc". If the
+/// placeholder has FOLDER/, also a name that ends in /.
 struct FileCodec : NameCodec {
   static constexpr const char* kWanted = nullptr;
   [[nodiscard]] static bool read(const OptionValue& value, const OptionRow& row, std::string& name);

@@ -16,6 +16,7 @@
 #include "cli/mesh_settings.h"
 #include "cli/one_mesh.h"
 #include "cli/request_mesh.h"
+#include "cli/temporary_folder.h"
 #include "core/parallel.h"
 #include "describe/report_text.h"
 #include "io/base64_text.h"
@@ -25,34 +26,6 @@ namespace asdfvk {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for the files of an answer. The destructor removes it.
-class AnswerFolder {
- public:
-  AnswerFolder() {
-    std::error_code error;
-    const fs::path folder = fs::temp_directory_path(error);
-    if (error)
-      throw Error(ErrorCode::OutputNotWritable,
-                  fmt::format("there is no folder for temporary files: {}; set TMPDIR", error.message()));
-    std::string path = (folder / "asdf-vk-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr)
-      throw Error(ErrorCode::OutputNotWritable,
-                  fmt::format("{} cannot be made: {}", path, std::generic_category().message(errno)));
-    path_ = std::move(path);
-  }
-  ~AnswerFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  AnswerFolder(const AnswerFolder&) = delete;
-  AnswerFolder& operator=(const AnswerFolder&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 AnsweredFile answeredFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -128,7 +101,7 @@ MeshAnswer MeshRequestComputer::compute(const MeshRequest& request, const Reques
 MeshAnswer MeshRequestComputer::computeWithin(const MeshRequest& request, const RequestContext& context,
                                               const std::function<void(double)>& progress, double timeoutSeconds,
                                               const Deadline& deadline) {
-  std::optional<AnswerFolder> folder;
+  std::optional<TemporaryFolder> folder;
   if (isInline(request.output) || isInline(request.picture)) folder.emplace();
   const CommandLine line =
       commandLineOf(request, settings_.session, settings_.files, folder ? folder->path() : std::string());

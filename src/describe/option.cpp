@@ -210,8 +210,10 @@ bool isNeedMet(const OptionRow& row, const OptionRows& rows) {
   const auto valueAt = [&](std::string_view name) { return findOption(rows, name)->member.write(); };
   if (sign == needs.size()) {
     const std::vector<std::string> names = splitAt(needs, '|');
-    return std::any_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return !std::holds_alternative<std::monostate>(valueAt(name)); });
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      const OptionValue value = valueAt(name);
+      return !std::holds_alternative<std::monostate>(value) && value != OptionValue(false);
+    });
   }
   const OptionValue value = valueAt(needs.substr(0, sign));
   const std::vector<std::string> wanted = splitAt(needs.substr(sign + 1), '|');

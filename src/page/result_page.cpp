@@ -49,7 +49,7 @@ void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fiel
   texts.elevationDegrees = view.elevationDegrees;
   texts.segments = segmentsOf(result, fields);
   const Field* const pictured = texts.thin ? nullptr : &fields.front().get();
-  texts.picture = encodePng(pictureOf(result, pictured, view, kPagePicture, control));
+  texts.picture = encodePng(pictureOf(result, pictured, view, kSmallPicture, control));
   page.add(result.scene->scene.mesh, fields, std::move(texts));
 }
 

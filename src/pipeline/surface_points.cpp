@@ -141,12 +141,11 @@ std::vector<ThicknessRange> thicknessRangesAt(const JudgedSurface& surface, std:
   std::fill(isWanted.begin(), isWanted.end(), uint8_t{0});
   for (const uint32_t i : order)
     if (const uint32_t solid = solids.solidOf[faces[i]]; sections[solid].caps(values[i])) isWanted[solid] = 1;
-  const std::vector<GreatestSection> caps =
-      findGreatestSections(view, solids.solidOf, isWanted, kQuickSection, control.part(kBallsDone, 1));
+  searchInexactSections(view, solids.solidOf, isWanted, kQuickSection, control.part(kBallsDone, 1), sections);
   const auto inMesh = [&](double diameter) { return std::isfinite(diameter) ? unit.toMeshLength(diameter) : kNoValue; };
   std::vector<ThicknessRange> ranges(points.size(), {kNoValue, kNoValue});
   for (const uint32_t i : order) {
-    const GreatestSection& cap = caps[solids.solidOf[faces[i]]];
+    const GreatestSection& cap = sections[solids.solidOf[faces[i]]];
     const bool isCapped = cap.caps(values[i]);
     ranges[i] = {inMesh(cap.capped(values[i])), inMesh(isCapped ? std::min(values[i], cap.bound) : values[i]),
                  isCapped};

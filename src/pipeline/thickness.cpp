@@ -154,11 +154,7 @@ class Measurement {
 
   void searchAgain(std::vector<GreatestSection>& sections, std::span<const uint8_t> isWanted,
                    const SectionSearch& search, const RunControl& control) const {
-    if (std::find(isWanted.begin(), isWanted.end(), 1) == isWanted.end()) return;
-    const std::vector<GreatestSection> searched =
-        findGreatestSections(scene_, solids_.solidOf, isWanted, search, control);
-    for (size_t solid = 0; solid < sections.size(); ++solid)
-      if (isWanted[solid] != 0) sections[solid] = searched[solid];
+    searchInexactSections(scene_, solids_.solidOf, isWanted, search, control, sections);
   }
 
   [[nodiscard]] bool isThinBody(const GreatestSection& section) const {

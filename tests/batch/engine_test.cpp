@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <mutex>
+#include <set>
 
 namespace asdfvk {
 namespace {
@@ -93,7 +94,7 @@ TEST_CASE("jobs that are not finished are computed in their order by one compute
   CHECK_EQ(batch.openCount, 1);
   CHECK(monitor->unfinishedJobs().empty());
   CHECK_FALSE(monitor->hasUnfinished());
-  CHECK_EQ(monitor->codes(), std::vector<int>(4, 0));
+  CHECK_EQ(monitor->codes(), std::set<int>{0});
 }
 
 TEST_CASE("several jobs at once are computed in lanes, which read no file ahead; by default at most four") {
@@ -123,7 +124,7 @@ TEST_CASE("no computer is opened where all jobs are finished, and none after the
 
 TEST_CASE("a computer whose device failed is replaced; where none can be opened, the other jobs have no result") {
   Batch batch({"a", "lose", "b"});
-  CHECK_EQ(run(batch)->codes(), std::vector<int>{0, 3, 0});
+  CHECK_EQ(run(batch)->codes(), std::set<int>{0, 3});
   CHECK_EQ(batch.openCount, 2);
   Batch lost({"a", "lose", "b", "c"});
   CHECK_THROWS_AS((void)run(lost, 1), OpenFailure);

@@ -104,6 +104,48 @@ TEST_CASE("the lines of a list may end as on Windows, names with -0 end as they 
   CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/x/a.off\r", ""}});
 }
 
+TEST_CASE("a line may have a key, whose folders are those of the outputs; with -0 a tab is part of the path") {
+  const ScratchFolder folder;
+  InputRequest request;
+  request.list =
+      folder.write("list", "/x/a.off\tpart-7\r\n/y/deep/a.off\tb/c/v1.2\n/z/e.off\n/z/deep/f.off\n/x/a.off\tagain");
+  const std::vector<InputFile> inputs = listInputs(request);
+  // The common folder is that of the paths without a key.
+  CHECK_EQ(
+      pathsOf(inputs),
+      Paths{{"/x/a.off", ""}, {"/y/deep/a.off", "b/c"}, {"/z/e.off", ""}, {"/z/deep/f.off", "deep"}, {"/x/a.off", ""}});
+  CHECK_EQ(inputs[0].key, "part-7");
+  CHECK_EQ(inputs[1].key, "b/c/v1.2");
+  CHECK_EQ(inputs[2].key, "");
+  request.list = folder.write("zero", std::string("/x/a\tb.off\0", 11));
+  request.isNullSeparated = true;
+  CHECK_EQ(listInputs(request).at(0).path, "/x/a\tb.off");
+}
+
+TEST_CASE("an unsafe key, a key without a path and a key of two lines are errors with the line") {
+  const ScratchFolder folder;
+  const auto messageOf = [&](const std::string& text) {
+    InputRequest request;
+    request.list = folder.write("list", text);
+    try {
+      (void)listInputs(request);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::UnreadableInput);
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK_EQ(messageOf("a.off\tx\n\nb.off\t../x\n"),
+           folder / "list" + ": line 3: the key '../x' is not a name such as part-7 or b/part-7: it has the part '..'");
+  for (const char* key : {"/x", "x/../y", "./x", "x/.", "x//y", "x/", ".", "..", "", "x\ty", "x\x01", "caf\xe9"})
+    CHECK_MESSAGE(messageOf("a.off\t" + std::string(key)).find("line 1: the key '") != std::string::npos, key);
+  for (const char* key : {"x", ".x", "..x", "x..y/z.", "caf\xc3\xa9", "a b"})
+    CHECK_EQ(messageOf("a.off\t" + std::string(key)), "accepted");
+  CHECK_EQ(messageOf("\n\tx"), folder / "list" + ": line 2: there is no path before the key 'x'");
+  CHECK_EQ(messageOf("a.off\tx\nb.off\nc.off\tx"),
+           folder / "list" + ": lines 1 and 3 have the same key 'x'; give each mesh its own key");
+}
+
 TEST_CASE("a list that cannot be read is an error") {
   const ScratchFolder folder;
   for (const std::string& list : {folder / "missing", folder / ""}) {

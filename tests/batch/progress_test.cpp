@@ -34,6 +34,19 @@ TEST_CASE("the time left is estimated from bytes; skipped meshes count for nothi
   CHECK_EQ(summaryText(progress, 10), "2 done, 1 skipped, 1 failed; 10 s, 0.3 meshes/s, 0.0002 million faces/s");
 }
 
+TEST_CASE("a skipped mesh with a verdict of an earlier run is counted by this verdict") {
+  BatchProgress progress{.meshCount = 3, .isCheck = true};
+  MeshRecord thin = withStatus(MeshStatus::Skipped);
+  thin.code = 6;
+  thin.error = "tooThin";
+  progress.count(thin, 0);
+  progress.count(withStatus(MeshStatus::Skipped), 0);
+  thin.status = MeshStatus::Failed;
+  progress.count(thin, 0);
+  CHECK_EQ(summaryText(progress, 2), "0 ok, 1 skipped, 2 thin; 2 s, 0.5 meshes/s, 0 million faces/s");
+  CHECK_EQ(progress.finishedCount(), 3);
+}
+
 TEST_CASE("what was dropped and what did not begin is in the summary") {
   BatchProgress progress{.meshCount = 1234};
   progress.count(withStatus(MeshStatus::Dropped), 0);

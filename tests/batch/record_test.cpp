@@ -20,6 +20,7 @@ using test::ScratchFolder;
 MeshRecord sampleRecord() {
   MeshRecord record;
   record.input = "a.off";
+  record.key = "x/a";
   record.output = "a.asdf.ply";
   record.time = "2026-05-31T12:34:56.789Z";
   record.inputHash = "01";
@@ -47,6 +48,8 @@ TEST_CASE("a record is one line and reads back as it was") {
   REQUIRE(read.has_value());
   CHECK_EQ(toJsonLine(*read), line);
   CHECK_EQ(read->faceCount, 12);
+  CHECK_EQ(read->key, "x/a");
+  CHECK(toJson({}).at("key").is_null());
   CHECK_EQ(read->time, "2026-05-31T12:34:56.789Z");
   CHECK(read->status == MeshStatus::Failed);
 }

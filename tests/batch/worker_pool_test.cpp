@@ -1,12 +1,20 @@
 #include "batch/worker_pool.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <map>
 #include <system_error>
 #include <thread>
 
+#include "cli/scratch_folder.h"
 #include "core/stopwatch.h"
 
 namespace asdfvk {
@@ -18,12 +26,13 @@ const std::string kMessages =
     " put() { printf '%d\\n%s' ${#1} \"$1\"; };";
 
 /// A worker in the language of the shell: answers each message with "done MESSAGE"; some make it misbehave.
-const std::vector<std::string> kWorker{"/bin/bash", "-c",
-                                       kMessages +
-                                           " get greeting; put ready; while get job; do case $job in"
-                                           " crash) kill -SEGV $$;; leave) exit 3;; hang) exec sleep 1000;;"
-                                           " grow) x=x; while :; do x=$x$x; done;; slow) sleep 0.3; put 'done slow';;"
-                                           " *) put \"done $job\";; esac; done"};
+const std::vector<std::string> kWorker{
+    "/bin/bash", "-c",
+    kMessages +
+        " get greeting; put ready; while get job; do case $job in"
+        " crash) kill -SEGV $$;; leave) exit 3;; hang) exec sleep 1000;;"
+        " grow*|swell) x=x; while :; do x=$x$x; done;; slow) sleep 0.3; put 'done slow';;"
+        " *) put \"done $job\";; esac; done"};
 
 struct Ends {
   std::map<size_t, JobOutcome> outcomes;
@@ -39,19 +48,20 @@ Ends runWorkers(const std::vector<std::string>& jobs, WorkerPoolOptions options 
     options.arguments = kWorker;
   }
   options.greeting = "hello";
-  const WorkerPoolClient client{.request = [&](size_t job) { return jobs[job]; },
-                                .ready =
-                                    [&](const std::string& answer) {
-                                      CHECK_EQ(answer, "ready");
-                                      ++ends.readyCount;
-                                      return allowedCount;
-                                    },
-                                .finished =
-                                    [&](const JobOutcome& outcome) {
-                                      CHECK(ends.outcomes.emplace(outcome.job, outcome).second);
-                                      if (atFinish) atFinish();
-                                      return outcome.answer != "done last";
-                                    }};
+  const WorkerPoolClient client{
+      .request = [&](size_t job, uint32_t attempt) { return jobs[job] + (attempt == 1 ? "" : " again"); },
+      .ready =
+          [&](const std::string& answer) {
+            CHECK_EQ(answer, "ready");
+            ++ends.readyCount;
+            return allowedCount;
+          },
+      .finished =
+          [&](const JobOutcome& outcome) {
+            CHECK(ends.outcomes.emplace(outcome.job, outcome).second);
+            if (atFinish) atFinish();
+            return outcome.answer != "done last";
+          }};
   ends.reason = runOnWorkers(jobs.size(), options, client, stop);
   return ends;
 }
@@ -94,8 +104,58 @@ TEST_CASE("a worker that grows is killed at the memory limit") {
   const Ends ends = runWorkers({"a", "grow", "b"}, {.memoryBytes = kLimit});
   CHECK(ends.outcomes.at(1).end == JobEnd::MemoryExceeded);
   CHECK_GT(ends.outcomes.at(1).peakBytes, kLimit);
+  CHECK_EQ(ends.outcomes.at(1).attempt, 2);
   CHECK(ends.outcomes.at(0).end == JobEnd::Answered);
   CHECK(ends.outcomes.at(2).end == JobEnd::Answered);
+}
+
+/// A worker that appends the begin and the end of each job to a file, with the number of workers at this time.
+std::vector<std::string> tellingWorker(const std::string& file) {
+  return {"/bin/bash", "-c",
+          kMessages + " tell() { set -- \"$1\" $(cat /proc/$PPID/task/$PPID/children); echo \"$1 $(($# - 1))\" >> " +
+              file +
+              "; }; get greeting; put ready; while get job; do tell \"begin $job\"; case $job in"
+              " die*) kill -KILL $$;; once) kill -KILL $$;; *) sleep 0.1;; esac; tell \"end $job\"; put \"done $job\";"
+              " done"};
+}
+
+TEST_CASE("a job whose worker was killed for memory is tried once more at the end, while no other worker exists") {
+  const test::ScratchFolder folder;
+  const std::vector<std::string> worker = tellingWorker(folder / "told");
+  const Ends ends = runWorkers({"once", "a", "b", "die", "c", "d", "e", "f"},
+                               {.program = worker.front(), .arguments = worker, .workerCount = 3});
+  REQUIRE_EQ(ends.outcomes.size(), 8);
+  CHECK_EQ(ends.outcomes.at(0).answer, "done once again");
+  CHECK_EQ(ends.outcomes.at(0).attempt, 2);
+  CHECK(ends.outcomes.at(3).end == JobEnd::Crashed);
+  CHECK_EQ(ends.outcomes.at(3).workerEnd.signal, SIGKILL);
+  CHECK_EQ(ends.outcomes.at(3).attempt, 2);
+  for (const size_t other : {1, 2, 4, 5, 6, 7}) CHECK_EQ(ends.outcomes.at(other).attempt, 1);
+  const std::string told = folder.read("told");
+  INFO(told);
+  CHECK(told.ends_with("begin once again 1\nend once again 1\nbegin die again 1\n"));
+  CHECK_GT(told.find("begin once again"), told.rfind("end f"));
+}
+
+TEST_CASE("at the memory limit a job is tried again, other crashes are not") {
+  const Ends ends =
+      runWorkers({"swell", "crash", "leave", "hang", "a"}, {.timeoutSeconds = 4, .memoryBytes = 64 << 20});
+  REQUIRE_EQ(ends.outcomes.size(), 5);
+  CHECK_EQ(ends.outcomes.at(0).answer, "done swell again");
+  CHECK_EQ(ends.outcomes.at(0).attempt, 2);
+  for (const size_t other : {1, 2, 3, 4}) CHECK_EQ(ends.outcomes.at(other).attempt, 1);
+}
+
+TEST_CASE("after a stop request no second attempt begins, and the job is dropped") {
+  std::stop_source source;
+  const std::vector<std::string> worker{
+      "/bin/bash", "-c",
+      kMessages + " get g; put ready; get job; [ $job = slow ] && sleep 0.3 && put ok; kill -KILL $$"};
+  const Ends ends = runWorkers({"die", "slow"}, {.program = worker.front(), .arguments = worker, .workerCount = 1},
+                               source.get_token(), [&] { source.request_stop(); });
+  REQUIRE_EQ(ends.outcomes.size(), 2);
+  CHECK(ends.outcomes.at(1).end == JobEnd::Answered);
+  CHECK(ends.outcomes.at(0).end == JobEnd::Dropped);
 }
 
 TEST_CASE("after a stop request no job begins, and a worker that ignores it is killed") {
@@ -128,13 +188,15 @@ TEST_CASE("a ready worker limits the number of workers, and one of no use ends t
 }
 
 TEST_CASE("a worker that kept much memory is replaced before the next job") {
-  const std::vector<std::string> worker{"/bin/bash", "-c",
-                                        kMessages +
-                                            " get greeting; put ready; while get job; do"
-                                            " [ $job = keep ] && printf -v x %50000000s; put $job; done"};
+  const std::vector<std::string> worker{
+      "/bin/bash", "-c",
+      kMessages +
+          " get greeting; put ready; while get job; do"
+          " [ $job = keep ] && for ((i = 0; i < 50; ++i)); do printf -v x$i %1000000s; done; put $job; done"};
   const Ends ends =
       runWorkers({"a", "keep", "b"}, {.program = worker.front(), .arguments = worker, .memoryBytes = 80'000'000});
   REQUIRE_EQ(ends.outcomes.size(), 3);
+  CHECK(ends.outcomes.at(1).end == JobEnd::Answered);
   CHECK_EQ(ends.outcomes.at(0).worker, ends.outcomes.at(1).worker);
   CHECK_NE(ends.outcomes.at(1).worker, ends.outcomes.at(2).worker);
   CHECK(ends.outcomes.at(2).end == JobEnd::Answered);
@@ -150,6 +212,69 @@ TEST_CASE("workers that cannot start, end or hang before they are ready end the 
   CHECK_EQ(reasonOf({"/bin/false"}), "ended with exit code 1");
   CHECK_EQ(reasonOf({"/bin/sleep", "1000"}), "not ready after 0.2 s");
   CHECK_THROWS_AS(reasonOf({"/missing"}), std::system_error);
+}
+
+TEST_CASE("jobs that arrive later begin when they have arrived") {
+  std::array<int, 2> ends{};
+  REQUIRE_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
+  std::atomic<size_t> arrivedCount = 1;
+  const std::jthread source([&] {
+    for (int i = 0; i < 4; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      arrivedCount += i < 3 ? 1 : 100;  // The last step is the end.
+      CHECK_EQ(::write(ends[1], "x", 1), 1);
+    }
+  });
+  size_t finishedCount = 0;
+  const auto next = [&](size_t job) {
+    char ignored = 0;
+    while (::read(ends[0], &ignored, 1) == 1) {
+    }
+    if (job < std::min<size_t>(arrivedCount, 4)) return JobSupply::State::Ready;
+    return arrivedCount > 4 ? JobSupply::State::Ended : JobSupply::State::Later;
+  };
+  const WorkerPoolClient client{.request = [](size_t job, uint32_t) { return std::to_string(job); },
+                                .ready = [](const std::string&) { return 2U; },
+                                .finished =
+                                    [&](const JobOutcome& outcome) {
+                                      CHECK_EQ(outcome.answer, "done " + std::to_string(outcome.job));
+                                      ++finishedCount;
+                                      return true;
+                                    }};
+  const WorkerPoolOptions options{
+      .program = kWorker.front(), .arguments = kWorker, .greeting = "hello", .workerCount = 2};
+  CHECK_EQ(runOnWorkers({next, ends[0]}, options, client, {}), "");
+  CHECK_EQ(finishedCount, 4);
+  for (const int end : ends) ::close(end);
+}
+
+TEST_CASE("a job that is tried again does not wait for jobs that wait for its result") {
+  std::map<size_t, std::string> answers;
+  const auto next = [&](size_t job) {
+    if (job == 6) return JobSupply::State::Ended;
+    return job < 3 || answers.contains(0) ? JobSupply::State::Ready : JobSupply::State::Later;
+  };
+  const WorkerPoolClient client{.request =
+                                    [](size_t job, uint32_t attempt) {
+                                      return job == 0 && attempt == 1 ? std::string("grow")
+                                                                      : fmt::format("{} {}", job, attempt);
+                                    },
+                                .ready = [](const std::string&) { return 2U; },
+                                .finished =
+                                    [&](const JobOutcome& outcome) {
+                                      CHECK(answers.emplace(outcome.job, outcome.answer).second);
+                                      return true;
+                                    },
+                                .retried = [](const JobOutcome& outcome) { CHECK_EQ(outcome.job, 0); }};
+  const WorkerPoolOptions options{.program = kWorker.front(),
+                                  .arguments = kWorker,
+                                  .greeting = "hello",
+                                  .workerCount = 2,
+                                  .memoryBytes = uint64_t{50} << 20};
+  CHECK_EQ(runOnWorkers({next, -1}, options, client, {}), "");
+  const std::map<size_t, std::string> expected{{0, "done 0 2"}, {1, "done 1 1"}, {2, "done 2 1"},
+                                               {3, "done 3 1"}, {4, "done 4 1"}, {5, "done 5 1"}};
+  CHECK_EQ(answers, expected);
 }
 
 }  // namespace

@@ -57,6 +57,29 @@ TEST_CASE("meshes that crash, hang or grow fail alone in worker processes") {
   CHECK_EQ(codes, StatusCounts{{"crashed", 70}, {"memoryLimit", 8}, {"timeLimit", 8}});
 }
 
+TEST_CASE("a mesh whose worker is killed for memory is computed alone at the end, and its record says so") {
+  MeshTree tree(false);
+  for (const char* name : {"in/a-once-kill.off", "in/b-swell.off", "in/c-kill.off"}) tree.add(name, sphereOff(5));
+  const Names arguments{"-r",        tree.root, "-o", tree / "out",     "--log", tree / "log",
+                        "--isolate", "--jobs",  "2",  "--memory-limit", "300M"};
+  const ChildOutcome outcome = runBatch(arguments, ASDFVK_FAULTY_PROGRAM);
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 7);
+  CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 11}, {"failed", 1}});
+  CHECK_NE(outcome.error.find("b-swell.off: computed in a second attempt, alone, because"), std::string::npos);
+  CHECK_NE(outcome.error.find("c-kill.off: the worker process was killed (signal 9) in two attempts"),
+           std::string::npos);
+  const std::vector<nlohmann::json> records = recordsIn(tree / "log");
+  for (size_t i = 0; i < records.size(); ++i)
+    CHECK_EQ(records[i].at("attemptCount").get<int>(), i < 9 ? 1 : 2);  // The second attempts are the last ones.
+  CHECK_EQ(nlohmann::json::parse(tree.folder.read("out/b-swell.asdf.npy.json")).at("attemptCount").get<int>(), 2);
+  CHECK(tree.folder.read("out/a-once-kill.asdf.npy") == tree.folder.read("out/b-swell.asdf.npy"));
+  const ChildOutcome again =
+      runBatch({"-r", tree.root, "-o", tree / "out", "--skip-existing", "--isolate"}, ASDFVK_FAULTY_PROGRAM);
+  CHECK_NE(again.error.find("11 skipped, 1 "), std::string::npos);
+  CHECK_EQ(again.error.find("second attempt, alone, because"), std::string::npos);
+}
+
 TEST_CASE("a signal to a worker, or a device that is lost, fails one mesh") {
   for (const bool isIsolated : {false, true}) {
     MeshTree tree(false);

@@ -72,6 +72,31 @@ TEST_CASE("a list of meshes gives the same tree, also from standard input with z
   CHECK(resultsIn(tree / "a") == resultsIn(tree / "c"));
 }
 
+TEST_CASE("keys of a list name results and are in the records, also of worker processes, failures and skipped meshes") {
+  const MeshTree tree;
+  const std::string list =
+      tree.folder.write("list", tree / "in/s0.off" + "\tfirst\n" + (tree / "in/s0.off") + "\tb/second\n" +
+                                    (tree / "in/deep/bad.off") + "\tb/third\n" + (tree / "in/s1.off") + "\n");
+  for (const Names& more : {Names{}, Names{"--isolate"}, Names{"--skip-existing"}}) {
+    fs::remove(tree / "log");
+    Names arguments{"--files-from", list, "-o", tree / "out", "--log", tree / "log", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    CHECK_EQ(runBatch(arguments).exitCode, 7);
+    const auto results = resultsIn(tree / "out");
+    CHECK_EQ(results.size(), 3);
+    CHECK(results.at("first.asdf.npy") == results.at("b/second.asdf.npy"));
+    CHECK(results.contains("s1.asdf.npy"));
+    std::multiset<std::string> keys;
+    for (const Json& record : recordsIn(tree / "log"))
+      keys.insert(record.at("key").is_null() ? "" : record.at("key").get<std::string>());
+    CHECK(keys == std::multiset<std::string>{"", "first", "b/second", "b/third"});
+  }
+  CHECK_EQ(Json::parse(runAsdf({"summarize", tree / "log", "--json"}).output).at("meshCount").get<int>(), 4);
+  CHECK_NE(runAsdf({"summarize", tree / "log", "--format", "csv"}).output.find("input,key,status"), std::string::npos);
+  const std::string unsafe = tree.folder.write("unsafe", tree / "in/s0.off" + "\t../x\n");
+  checkFailure(runBatch({"--files-from", unsafe, "-o", tree / "out", "--quiet"}), 2, "line 1: the key '../x'");
+}
+
 TEST_CASE("results do not depend on --jobs and --isolate") {
   const MeshTree tree;
   CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "one", "--jobs", "1", "--quiet"}).exitCode, 7);
@@ -171,6 +196,22 @@ TEST_CASE("the shards of a batch are the whole") {
   CHECK(resultsIn(tree / "parts") == resultsIn(tree / "whole"));
 }
 
+TEST_CASE("--shard auto computes the part of the scheduler and names it, and is refused without one") {
+  const MeshTree tree(false);
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
+  const Names arguments{"-r",  tree.root, "-o",     tree / "parts", "--format",
+                        "npy", "--shard", "auto/2", "--backend",    "reference"};
+  for (const char* index : {"0", "1"}) {
+    const ChildOutcome outcome = runAsdf(arguments, {.environment = {{"JOB_COMPLETION_INDEX", index}}});
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    CHECK(outcome.error.starts_with(index[0] == '0' ? "asdf-vk: part 1 of 2, by JOB_COMPLETION_INDEX\n"
+                                                    : "asdf-vk: part 2 of 2, by JOB_COMPLETION_INDEX\n"));
+  }
+  CHECK(resultsIn(tree / "parts") == resultsIn(tree / "whole"));
+  checkFailure(runAsdf(arguments), 1, "--shard: auto: none of these variables of schedulers is set: AWS_BATCH_JOB_");
+}
+
 TEST_CASE("summarize counts the last record of each mesh, as text and JSON") {
   const MeshTree tree;
   CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--quiet"}).exitCode, 7);
@@ -205,7 +246,15 @@ TEST_CASE("options of a batch that contradict each other are refused") {
   CHECK_NE(refusal({"-", "--memory-limit", "1G"}), "accepted");
   CHECK_NE(refusal({"-", "--skip-existing"}), "accepted");
   CHECK_NE(refusal({"-r", "in", "-o", "-"}), "accepted");
-  CHECK_NE(refusal({"-r", "in", "--picture", "a.png"}), "accepted");
+  CHECK_EQ(refusal({"-r", "in", "--picture", "a.png"}),
+           "--picture a.png is for one mesh; give a folder that ends in /, such as --picture pictures/");
+  CHECK_NE(refusal({"-r", "in", "--picture", "-"}), "accepted");
+  CHECK_NE(refusal({"a.ply", "b.ply", "--picture", "a.png"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "--picture", "pictures"}), "accepted");
+  CHECK_EQ(refusal({"-r", "in", "--picture", "pictures/"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "b.ply", "--picture", "pictures/"}), "accepted");
+  CHECK_NE(refusal({"a.ply", "--points", "points/"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "--points", "a.ply"}), "accepted");
   CHECK_NE(refusal({"-r", "in", "-o", "page.html"}), "accepted");
   CHECK_EQ(refusal({"--files-from", "list", "-o", "out"}), "accepted");
   for (const char* text : {"", "0", "-1", "x", "2X", "1e99"})

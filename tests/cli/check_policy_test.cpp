@@ -118,10 +118,12 @@ TEST_CASE("an update replaces the places of its meshes, and keeps those of other
   updateBaseline(file, recordsWith(b, asdfvk::Json::array({failureAt(2), failureAt(3)})));
   updateBaseline(file, recordsWith(b, nullptr));  // Unreadable in this run.
   std::vector<MeshRecord> skipped = recordsWith(b, asdfvk::Json::array());
-  skipped[0].status = MeshStatus::Skipped;  // An earlier run computed it; known places are notes there.
-  updateBaseline(file, skipped);
   CHECK_EQ(readBaseline(file).places.at("a.stl").size(), 1);
   CHECK_EQ(readBaseline(file).places.at("b.stl").size(), 2);
+  skipped[0].findings = asdfvk::Json::array({failureAt(4)});
+  skipped[0].status = MeshStatus::Skipped;  // An earlier run, also without a baseline, computed it.
+  updateBaseline(file, skipped);
+  CHECK_EQ(readBaseline(file).places.at("b.stl").size(), 1);
   updateBaseline(file, recordsWith(a, asdfvk::Json::array()));
   CHECK_EQ(readBaseline(file).places.count("a.stl"), 0);
   const std::string deep = R"({"x": )" + std::string(300'000, '[') + std::string(300'000, ']') +

@@ -90,6 +90,103 @@ TEST_CASE("limits of single meshes and known places determine the code, also in 
   CHECK_FALSE(std::filesystem::exists(parts.root + "/thin.asdf.ply"));
 }
 
+TEST_CASE("--skip-existing keeps verdicts: exit code, report of checks, messages and counts of the first run") {
+  const Parts parts;
+  std::filesystem::remove(parts.root + "/bad.off");
+  const std::string log = parts.folder / "log.jsonl";
+  for (const std::string format : {"sarif", "junit", "github"}) {
+    std::filesystem::remove_all(parts.folder / "out");
+    const std::vector<std::string> arguments{"-r",  parts.root, "-o", parts.folder / "out", "--fail-if-thinner",
+                                             "0.8", "--log",    log,  "--skip-existing",    "--report-format",
+                                             format};
+    const ChildOutcome first = runAsdf(arguments);
+    INFO(first.error);
+    CHECK_EQ(first.exitCode, 6);
+    CHECK(first.error.find("1 ok, 1 not judged, 1 thin; ") != std::string::npos);
+    std::filesystem::remove(log);
+    const ChildOutcome second = runAsdf(arguments);
+    INFO(second.error);
+    CHECK_EQ(second.exitCode, 6);
+    CHECK_EQ(second.output, first.output);
+    CHECK(second.error.find("0 ok, 1 skipped, 1 not judged, 1 thin; ") != std::string::npos);
+    CHECK(second.error.find("thin.off: FAIL: 1 wall thinner than 0.8") != std::string::npos);
+    CHECK_EQ(statusesIn(log), StatusCounts{{"skipped", 3}});
+  }
+  CHECK_EQ(nlohmann::json::parse(runAsdf({"summarize", log, "--json"}).output).at("failedCount").get<int>(), 2);
+  const auto run = [&](const std::vector<std::string>& more, const char* limit = "0.8") {
+    std::vector<std::string> all{"-r", parts.root, "-o", parts.folder / "out", "--skip-existing", "--fail-if-thinner"};
+    all.emplace_back(limit);
+    all.insert(all.end(), more.begin(), more.end());
+    return runAsdf(all);
+  };
+  // The baseline has the places of a skipped mesh; other options and a changed mesh are computed.
+  const std::string baseline = parts.folder / "walls.json";
+  CHECK(run({"--baseline", baseline, "--update-baseline"}).error.find("1 skipped, 1 not judged, 1 thin; ") !=
+        std::string::npos);
+  CHECK(run({"--baseline", baseline}).error.find("2 ok, 1 not judged; ") != std::string::npos);
+  CHECK_EQ(run({"--baseline", baseline}).exitCode, 5);
+  CHECK(run({}, "0.4").error.find("2 ok, 1 not judged; ") != std::string::npos);
+  CHECK_EQ(run({}).exitCode, 6);
+  parts.folder.write("in/thin.off", Parts::boxOff(1, true));
+  CHECK_EQ(run({}).exitCode, 5);
+}
+
+TEST_CASE("a folder of pictures has the parts that fail, and a part that passes later has none") {
+  const Parts parts;
+  const std::string log = parts.folder / "log", thin = parts.folder / "shown/thin.asdf.png";
+  for (const std::vector<std::string>& how : {std::vector<std::string>{"--isolate"}, {}}) {
+    std::vector<std::string> arguments{
+        "-r", parts.root,           "--fail-if-thinner", "0.8", "--picture", parts.folder / "shown/", "--log", log,
+        "-o", parts.folder / "out", "--skip-existing"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    std::filesystem::remove_all(parts.folder / "out");
+    parts.folder.write("in/thin.off", Parts::boxOff(0.5, true));
+    const auto run = [&] {
+      std::filesystem::remove(log);
+      CHECK_EQ(runAsdf(arguments).exitCode, 6);
+      CHECK(parts.folder.read("shown/thin.asdf.png").starts_with("\x89PNG"));
+      CHECK_EQ(std::distance(std::filesystem::directory_iterator(parts.folder / "shown"), {}), 1);
+      for (const auto& record : recordsIn(log)) {
+        const bool isThin = record.at("input").get<std::string>().ends_with("thin.off");
+        CHECK_EQ(record.at("picture"), isThin ? nlohmann::json(thin) : nlohmann::json());
+      }
+      return statusesIn(log);
+    };
+    CHECK_EQ(run(), StatusCounts{{"done", 1}, {"failed", 3}});
+    CHECK_EQ(run(), StatusCounts{{"failed", 1}, {"skipped", 3}});
+    std::filesystem::remove(thin);
+    CHECK_EQ(run(), StatusCounts{{"failed", 2}, {"skipped", 2}});
+    arguments.insert(arguments.end(), {"--picture-view", "0,0"});
+    CHECK_EQ(run(), StatusCounts{{"done", 1}, {"failed", 3}});
+    parts.folder.write("in/thin.off", Parts::boxOff(1, true));
+    CHECK_EQ(runAsdf(arguments).exitCode, 7);
+    CHECK_FALSE(std::filesystem::exists(thin));
+  }
+}
+
+TEST_CASE("without a check each mesh has a picture, beside its result if the folder is that of -o") {
+  const Parts parts;
+  std::filesystem::remove(parts.root + "/bad.off");
+  const ChildOutcome outcome =
+      runAsdf({parts.root + "/thin.off", parts.root + "/open.off", "-o", parts.folder / "out/", "--picture",
+               parts.folder / "out/", "--format", "npy", "--backend", "reference", "--json", "--quiet"});
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 0);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(parts.folder / "out"))
+    names.insert(entry.path().filename());
+  CHECK(names == std::set<std::string>{"open.asdf.npy", "open.asdf.png", "thin.asdf.npy", "thin.asdf.png"});
+  CHECK_EQ(nlohmann::json::parse(linesOf(outcome.output).at(0)).at("picture"), parts.folder / "out/thin.asdf.png");
+  // One mesh; a passing one has no picture, and the report says so.
+  const ChildOutcome thick = runAsdf(
+      {parts.root + "/thick.off", "--fail-if-thinner", "0.8", "--picture", parts.folder / "one/", "--json", "--quiet"});
+  CHECK_EQ(thick.exitCode, 0);
+  CHECK(nlohmann::json::parse(thick.output).at("picture").is_null());
+  CHECK(std::filesystem::is_empty(parts.folder / "one"));
+  parts.folder.write("file", "");
+  checkFailure(runAsdf({"-r", parts.root, "--picture", parts.folder / "file/", "--quiet"}), 4, "cannot be written");
+}
+
 TEST_CASE("a mesh with known places is not skipped in a run without the baseline, nor lost by an update") {
   const Parts parts;
   const std::string baseline = parts.folder / "walls.json";

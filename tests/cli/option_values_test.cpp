@@ -59,6 +59,7 @@ TEST_CASE("the options of a picture") {
   for (const char* view : {"30", "30,91", "30,-91", "361,0", "a,b", "1,2,3", ","})
     CHECK_MESSAGE(refusal({"a.ply", "--picture", "b.png", "--picture-view", view}) != "accepted", view);
   CHECK(refusal({"a.ply", "--picture", "b.jpg"}).find(".png") != std::string::npos);
+  CHECK_EQ(parseCommandLine({"a.ply", "--picture", "b/"}).outputs.picture, "b/");
   CHECK(refusal({"a.ply", "--picture-of", "seeds"}).find("--picture") != std::string::npos);
   CHECK(refusal({"a.ply", "b.ply", "--picture", "c.png"}).find("one mesh") != std::string::npos);
   CHECK(refusal({"a.ply", "-o", "-", "--picture", "-"}).find("standard output") != std::string::npos);

@@ -163,6 +163,41 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
   CHECK_THROWS_AS((void)planOutputs(line.outputs, line.batch, inputs), Error);
 }
 
+TEST_CASE("a key replaces the file name in the name of a result, and its folders are made below -o only") {
+  const test::ScratchFolder folder;
+  CommandLine line = lineOf({}, folder / "new", "npy");
+  line.batch.list = "list";
+  const InputFile named{.path = "in/a.off", .key = "v1.2"}, nested{.path = "in/b.ply", .folder = "x/y", .key = "x/y/z"};
+  CHECK_EQ(planOutputs(line.outputs, line.batch, std::vector{named, nested}),
+           Names{folder / "new/v1.2.asdf.npy", folder / "new/x/y/z.asdf.npy"});
+  const std::vector<InputFile> colliding{{.path = "in/a.off"}, {.path = "in/b.off", .key = "a"}};
+  CHECK_THROWS_AS((void)planOutputs(line.outputs, line.batch, colliding), Error);
+  const std::vector<InputFile> twice{{.path = "in/a.off", .key = "a1"}, {.path = "in/a.off", .key = "a2"}};
+  CHECK_EQ(planOutputs(line.outputs, line.batch, twice), Names{folder / "new/a1.asdf.npy", folder / "new/a2.asdf.npy"});
+  line.outputs.path.clear();
+  CHECK_EQ(planOutputs(line.outputs, line.batch, std::vector{named}), Names{"in/v1.2.asdf.npy"});
+  CHECK_THROWS_WITH_AS((void)planOutputs(line.outputs, line.batch, std::vector{nested}),
+                       "the key x/y/z of in/b.ply has a folder, which is made below -o; give -o FOLDER", Error);
+  line.outputs.writesResult = false;
+  CHECK_NOTHROW((void)planOutputs(line.outputs, line.batch, std::vector{nested}));
+}
+
+TEST_CASE("a folder of pictures has the tree and the names of the results") {
+  Outputs outputs;
+  CHECK_EQ(pictureFileOf({.path = "in/a.off"}, outputs), "");
+  outputs.picture = "a.png";
+  CHECK_EQ(pictureFileOf({.path = "in/a.off"}, outputs), "a.png");
+  outputs.picture = "shown/";
+  CHECK_EQ(pictureFileOf({.path = "in/b/a.off", .folder = "b"}, outputs), "shown/b/a.asdf.png");
+  CHECK_EQ(pictureFileOf({.path = "in/a.off", .folder = "x", .key = "x/v1.2"}, outputs), "shown/x/v1.2.asdf.png");
+  const std::vector<InputFile> colliding{{.path = "x/a.off"}, {.path = "x/a.ply"}};
+  outputs.writesResult = false;
+  CHECK_THROWS_WITH_AS((void)planOutputs(outputs, {.recurses = true}, colliding),
+                       "shown/a.asdf.png is the picture of x/a.off and would be overwritten by the picture of x/a.ply; "
+                       "choose another --picture",
+                       Error);
+}
+
 TEST_CASE("an impossible place for a file is an error before the work") {
   const test::ScratchFolder folder;
   CHECK_NOTHROW(requireWritablePlace(folder / "new.ply"));

@@ -97,6 +97,7 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
   if (top == "draco" && !isIn("draco", file)) return "Draco belongs in folders draco/";
   if (target == "meshoptimizer.h" && !isIn("meshoptimizer", file))
     return "meshoptimizer belongs in folders meshoptimizer/";
+  if ((target == "archive.h" || target == "archive_entry.h") && layer != "batch") return "libarchive belongs in batch";
   if (top == "CLI" && layer != "arguments") return "CLI11 belongs in arguments";
   if (top == "embree3" || top == "embree4") return "Embree belongs in bench";
   const bool isOurs = layers().count(top) || top == "shared";

@@ -22,8 +22,8 @@ class Option:
     joined: bool = False  # The value only after an equals sign.
 
 
-# --output is given by each case; --open starts a browser; --device-report takes long.
-LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--print-schema", "--help"})
+# --output is given by each case; --open starts a browser; --device-report takes long; --tar reads no meshes.
+LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--print-schema", "--help", "--tar", "--keep-members"})
 # Values of options whose kind the tables do not tell, and those that keep runs short.
 _VALUES: dict[str, tuple[Values, Values]] = {
     "--seeds": (
@@ -46,8 +46,8 @@ _VALUES: dict[str, tuple[Values, Values]] = {
     "--timeout": (("0.01", "100"), ("0", *_ILLEGAL_NUMBERS)),
     "--max-faces": (("0", "10", "100000"), _ILLEGAL_NUMBERS),
     "--memory-limit": (("10M", "4G"), ("0", "4X", *_ILLEGAL_NUMBERS)),
-    "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", *_ILLEGAL_NUMBERS)),
-    "--picture": (("picture.png", "-"), ("", "picture.jpg", "absent/picture.png")),
+    "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", "auto", "auto/0", *_ILLEGAL_NUMBERS)),
+    "--picture": (("picture.png", "-", "pictures/"), ("", "picture.jpg", "absent/picture.png")),
     "--picture-view": (("0,0", "30,18", "-360,90"), ("361,0", "0,91", "1", *_ILLEGAL_NUMBERS)),
     "--limits": (("limits.json", "absent.json"), ("", "mesh.off")),
     "--baseline": (("baseline.json", "absent/baseline.json"), ("",)),

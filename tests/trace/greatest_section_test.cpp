@@ -109,6 +109,41 @@ TEST_CASE("the section of an L is at its inner corner, in any unit") {
   checkSection(angleSection(1, 1.5, 0.7), 0.7);
 }
 
+TEST_CASE("a thin plate does not hide a thick one behind a narrow gap") {
+  BlockSolid solid;
+  addDraftedLattice(solid, {{0}, {1}, {20}}, {{0}, {2}, {2.1}, {5.1}}, {0, 20},
+                    [](uint32_t i, uint32_t j, uint32_t) { return i == 0 || j != 1; });
+  checkSection(solid.surface(), 3);
+}
+
+TEST_CASE("a turned solid has the same section") {
+  for (const double angle : {0.3, 0.785, 1.1}) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (Mesh mesh : {angleSection(1, 1.5, 2), shapes::box({7, 3, 1}, 3)}) {
+      for (Vec3d& v : mesh.vertices)
+        v = {c * v.x - s * v.y, c * (s * v.x + c * v.y) - s * v.z, s * (s * v.x + c * v.y) + c * v.z};
+      checkSection(mesh, mesh.faceCount() > 50 ? 1 : 2 * (2.5 - std::sqrt(3)));
+    }
+  }
+}
+
+TEST_CASE("few boxes are enough where the largest balls are in a row or in a layer") {
+  const auto isFound = [](const Mesh& mesh, uint32_t boxCount) {
+    const TracedMesh traced(mesh);
+    return findGreatestSections(traced.scene(), std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>{1},
+                                {.boxCount = boxCount}, {})
+        .front()
+        .isExact();
+  };
+  for (const uint32_t side : {1u, 6u}) {
+    CHECK(isFound(shapes::box({90, 80, 0.5}, side), 40));
+    CHECK(isFound(shapes::box({1, 1, 300}, side), 40));
+  }
+  CHECK(isFound(angleSection(1, 1.5, 2), 60));
+  CHECK(isFound(angleSection(1, 1.5, 20), 300));
+  for (const char* part : {"bracket-4", "ribbed-plate"}) CHECK(isFound(makeThicknessPart(part).solid.surface(), 150));
+}
+
 TEST_CASE("sections are those of a dense grid") {
   for (const Mesh& mesh :
        {angleSection(1, 1.5, 2), makeThicknessPart("round-cup").solid.surface(),

@@ -20,7 +20,7 @@ from typing import Any
 
 from distributed import Client, as_completed
 
-INTERNAL_ERROR = 70  # exit code of asdf-vk
+INTERNAL_ERROR, CANCELLED = 70, 130  # exit codes of asdf-vk
 
 
 def compute(mesh: str, folder: str, log_folder: str, options: list[str]) -> dict[str, Any]:
@@ -69,6 +69,9 @@ def main() -> int:
     if not any(option == "--threads" or option.startswith("--threads=") for option in options):
         options += ["--threads", "1"]
     names = pathlib.Path(list_file).read_text(errors="surrogateescape").split("\n")
+    if any("\t" in name for name in names):
+        print(f"{list_file}: this recipe takes no keys; remove the tabs, or use a recipe with shards", file=sys.stderr)
+        return 2
     meshes = [os.path.abspath(name) for name in (name.removesuffix("\r") for name in names) if name]
     if not meshes:
         print(f"{list_file}: no mesh was found", file=sys.stderr)
@@ -91,7 +94,7 @@ def main() -> int:
                 log = pathlib.Path(log_folder, "dask-client.jsonl")
                 message = f"{type(error).__name__}: {error}"
                 record = recorded_failure(log, mesh_of[future.key], INTERNAL_ERROR, message)
-            failed += record["status"] == "failed"
+            failed += record["code"] not in (0, CANCELLED)  # A skipped mesh has the verdict of an earlier call.
     print(f"{len(meshes)} meshes, {failed} failed", file=sys.stderr)
     return 7 if failed else 0
 
