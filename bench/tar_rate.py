@@ -3,7 +3,8 @@
 
     bench/tar_rate.py build/develop/src [--meshes 20000] [--format npy]
 
-The folder has the programs. The tar has binary STLs of 12, 500 and 552 faces in turn, or only those of --shape. Each row
+The folder has the programs. The tar has binary STLs of a cube, a bracket and six shapes of 500 faces in turn, or only
+those of --shape; --shape can be repeated. Each row
 has the meshes per second and the CPU milliseconds per mesh of all processes, which depend little on other programs, and
 the greatest memory of a process.
 """

@@ -109,7 +109,7 @@ JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
   if (run.hasResult && !job.output.empty()) record.output = job.output;
   if (!run.picture.empty()) record.picture = run.picture;
   if (run.failure) fillRecord(record, *run.failure);
-  if (settings_.isOfBatch && !job.content && (!run.failure || hasResult(run.failure->code))) {
+  if (settings_.isOfBatch && !job.content && run.hasResult) {
     try {
       writeOutputRecord(record, job.output);
     } catch (...) {

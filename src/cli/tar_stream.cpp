@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "batch/archive_library.h"
 #include "batch/content_hash.h"
 #include "batch/output_record.h"
 #include "batch/tar_names.h"
@@ -45,6 +46,7 @@ uint64_t byteCountOf(const JobResult& result) {
 TarStream::TarStream(const std::vector<Job>& tars, const MeshSettings& settings, const JobRecords& records,
                      Monitor& monitor, const BatchOptions& batch, const std::stop_token& stop)
     : tars_(tars), settings_(settings), batch_(batch), records_(records), monitor_(monitor) {
+  (void)archiveLibrary();  // Throws before the first tar.
   TarFeedOptions options{.paths = {}, .copiesMembers = batch.keepsMembers};
   constexpr size_t kItemsPerJob = 4;  // With members that are copied, a mesh has several items.
   options.maxItems = std::max(options.maxItems, kItemsPerJob * std::max<size_t>(batch.jobCount, threadLimit()));

@@ -49,6 +49,7 @@ const std::map<std::string, Json>& untypedMembers() {
       {"ResultFacts.options", options},
       {"SkippedDocument.record", schemaReference("MeshRecord")},
       {"MeshRecord.error", orNull({{"type", "string"}})},
+      {"MeshRecord.key", orNull({{"type", "string"}})},
       {"MeshRecord.sdf", orNull(schemaReference("ValueRange"))},
       {"MeshRecord.thickness", orNull(schemaReference("RecordThicknessReport"))},
       {"MeshRecord.parts", orNull(schemaReference("RecordPartsReport"))},

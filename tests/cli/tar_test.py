@@ -308,16 +308,16 @@ class TarTest(unittest.TestCase):
         self.assertNotIn(b"skipped", run.stderr)
 
     def test_a_signal_ends_a_waiting_run(self) -> None:
-        process = subprocess.Popen([PROGRAM, "--tar", "-", "-o", "-", "--format", "npy", "--backend", "reference"],
-                                   stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
-        assert process.stdin is not None and process.stdout is not None
         content = tar_of([("a.off", box()), ("b.off", box())])
-        process.stdin.write(content[: 512 + -(-len(box()) // 512) * 512 + 600])
-        process.stdin.flush()
-        time.sleep(1)
-        process.send_signal(signal.SIGTERM)
-        output = process.stdout.read()
-        self.assertEqual(process.wait(timeout=20), 130)
+        with subprocess.Popen([PROGRAM, "--tar", "-", "-o", "-", "--format", "npy", "--backend", "reference", "--quiet"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:  # fmt: skip
+            assert process.stdin is not None and process.stdout is not None
+            process.stdin.write(content[: 512 + -(-len(box()) // 512) * 512 + 600])
+            process.stdin.flush()
+            time.sleep(1)
+            process.send_signal(signal.SIGTERM)
+            output = process.stdout.read()
+            self.assertEqual(process.wait(timeout=20), 130)
         self.assertEqual(list(members_of(output)), ["a.npy", "a.json"])
 
     def test_refusals(self) -> None:
