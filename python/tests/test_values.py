@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import json
 import re
 import subprocess
@@ -19,7 +20,7 @@ from asdf_vk import _core, _keywords, _report
 from shapes import cube, dumbbell, joined, sphere
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/support"))
-import kept_json  # noqa: E402
+kept_json = importlib.import_module("kept_json")
 
 
 def bits(values: NDArray[Any]) -> NDArray[Any]:
