@@ -28,8 +28,7 @@ def mypy(*arguments: str, folder: Path = _ROOT) -> str:
         command += ["--python-version", "3.10"]
     # mypy finds installed packages without MYPYPATH, and refuses their folder in MYPYPATH.
     installed = str(_PACKAGE.parent) in site.getsitepackages()
-    folders = [_ROOT / "tests/support", *([] if installed else [_PACKAGE.parent])]
-    environment = {**os.environ, "MYPYPATH": os.pathsep.join(map(str, folders))}
+    environment = dict(os.environ) if installed else {**os.environ, "MYPYPATH": str(_PACKAGE.parent)}
     finished = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
     return finished.stdout + finished.stderr
 
