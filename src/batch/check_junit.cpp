@@ -33,6 +33,12 @@ std::string outcomeOf(const MeshRecord& record, Counts& counts) {
   return element(hasFailure ? "failure" : "error", record.error, record.message, lines);
 }
 
+/// The path. A mesh may be in a list several times, each time with another key.
+std::string nameOf(const MeshRecord& record) {
+  const bool isNamed = record.key.empty() || record.input.find(record.key) != std::string::npos;
+  return isNamed ? record.input : fmt::format("{} ({})", record.input, record.key);
+}
+
 }  // namespace
 
 std::string junitOf(std::span<const MeshRecord> records) {
@@ -43,7 +49,7 @@ std::string junitOf(std::span<const MeshRecord> records) {
     seconds += record.totalSeconds;
     const std::string outcome = outcomeOf(record, counts);
     cases += fmt::format("    <testcase classname=\"asdf-vk\" name=\"{0}\" time=\"{1:.3f}\"{2}>\n",
-                         escapedForHtml(record.input), record.totalSeconds, outcome.empty() ? "/" : "");
+                         escapedForHtml(nameOf(record)), record.totalSeconds, outcome.empty() ? "/" : "");
     if (!outcome.empty()) cases += outcome + "    </testcase>\n";
   }
   // The schemas of Jenkins and Maven Surefire allow no further attributes.

@@ -135,8 +135,8 @@ void TarFeed::readTar(size_t index) {
   TarItem end{.kind = TarItem::Kind::End};
   try {
     TarReader reader(options_.paths[index], stop_.get_token());
-    Sample sample;
-    while (std::optional<TarMember> member = reader.next()) readMember(reader, index, std::move(*member), sample);
+    TakenNames taken;
+    while (std::optional<TarMember> member = reader.next()) readMember(reader, index, std::move(*member), taken);
     end.hash = reader.hash();
   } catch (...) {
     if (stop_.stop_requested()) throw;
@@ -145,7 +145,7 @@ void TarFeed::readTar(size_t index) {
   addPlain(std::move(end));
 }
 
-void TarFeed::readMember(TarReader& reader, size_t tar, TarMember member, Sample& sample) {
+void TarFeed::readMember(TarReader& reader, size_t tar, TarMember member, TakenNames& taken) {
   const bool isSafe = isSafeMember(member.name);
   const bool isMesh = isMeshMember(member.name) && member.kind != TarMember::Kind::Folder;
   const auto addFailed = [&](std::string stem, std::exception_ptr failure) {
@@ -164,11 +164,11 @@ void TarFeed::readMember(TarReader& reader, size_t tar, TarMember member, Sample
     if (options_.copiesMembers && member.kind != TarMember::Kind::Other) copyMember(reader, tar, member);
     return;
   }
-  if (std::string key = sampleKeyOf(member.name); key != sample.key) sample = {std::move(key), {}};
-  const bool isFirst = sample.meshes.empty();
-  if (!sample.meshes.insert(member.name).second)
+  if (!taken.names.insert(member.name).second)
     return addFailed("", memberFailure(ErrorCode::UnreadableInput, "its name occurs twice in the tar; rename one"));
-  const std::string stem = (isFirst ? sample.key : member.name) + (options_.copiesMembers ? ".asdf" : "");
+  const std::string key = sampleKeyOf(member.name);
+  const bool isFirst = taken.keys.insert(key).second;
+  const std::string stem = (isFirst ? key : member.name) + (options_.copiesMembers ? ".asdf" : "");
   if (const std::exception_ptr flaw = flawOfMesh(member, options_.maxMeshBytes)) {
     if (options_.copiesMembers && member.kind != TarMember::Kind::Other) copyMember(reader, tar, member);
     return addFailed(stem, flaw);

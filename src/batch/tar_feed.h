@@ -6,10 +6,10 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <unordered_set>
 #include <vector>
 
 #include "batch/tar_file.h"
@@ -31,7 +31,7 @@ struct TarItem {
   size_t tar = 0;  ///< Index in TarFeedOptions::paths.
   TarMember member = {};
   std::string bytes = {};
-  /// Common beginning of the names of the answers: the key of the sample. For a further mesh of the sample: the name of
+  /// Common beginning of the names of the answers: the key of the sample. For a further mesh with the key: the name of
   /// the member. ".asdf" is appended if members are copied, because their names are taken. Empty: no answer.
   std::string stem = {};
   std::exception_ptr failure = nullptr;
@@ -72,14 +72,14 @@ class TarFeed {
   [[nodiscard]] uint64_t greatestByteCount() const;
 
  private:
-  struct Sample {
-    std::string key;
-    std::set<std::string> meshes;
+  /// The names and keys of the meshes of a tar.
+  struct TakenNames {
+    std::unordered_set<std::string> names, keys;
   };
 
   void readAll();
   void readTar(size_t index);
-  void readMember(TarReader& reader, size_t tar, TarMember member, Sample& sample);
+  void readMember(TarReader& reader, size_t tar, TarMember member, TakenNames& taken);
   void copyMember(TarReader& reader, size_t tar, const TarMember& member);
   [[nodiscard]] static std::string bytesOf(TarReader& reader, uint64_t byteCount);
   /// Waits until the window has room for an item. Throws Error{Cancelled} after a stop request.

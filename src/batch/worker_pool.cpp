@@ -152,7 +152,7 @@ class WorkerPool {
     std::vector<pollfd> polled;
     for (const Worker& worker : workers_)
       if (worker.process) polled.push_back({worker.process->descriptor(), POLLIN, 0});
-    if (jobs_.descriptor >= 0 && !stopWatch_) polled.push_back({jobs_.descriptor, POLLIN, 0});
+    if (jobs_.descriptor >= 0 && !stopWatch_ && !isAlone_) polled.push_back({jobs_.descriptor, POLLIN, 0});
     double milliseconds = options_.memoryBytes > 0 ? kMemoryPollMilliseconds : kPollMilliseconds;
     if (std::isfinite(options_.timeoutSeconds))
       for (const Worker& worker : workers_)

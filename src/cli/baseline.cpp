@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "cli/member_files.h"
 #include "core/atomic_file.h"
 #include "core/shallow_json.h"
 #include "core/text.h"
@@ -64,7 +65,7 @@ std::vector<KnownPlace> failuresOf(const MeshRecord& record) {
 
 std::string pathBelow(const std::string& folder, const std::string& mesh) {
   if (mesh == "-") return mesh;
-  return fs::absolute(mesh).lexically_normal().lexically_relative(folder).generic_string();
+  return absolutePathOf(mesh).lexically_relative(folder).generic_string();
 }
 
 Json readObject(const std::string& path, const std::string& use) {

@@ -205,6 +205,10 @@ void completeBatch(CommandLine& line, const GivenOptions& given) {
     refuseOptions("standard output (-o -) holds one result; give -o a folder");
   if (batch.readsTars && writesPages(line.outputs))
     refuseOptions("a page is a file of its own, and no member of a tar; drop --tar, or --format html");
+  if (batch.readsTars && batch.skipsExisting && line.outputs.needsRecords())
+    refuseOptions(
+        "the record of a skipped tar has no verdicts of its meshes; drop --skip-existing, or --report-format "
+        "and --update-baseline");
   if (batch.readsTars && !line.outputs.picture.empty())
     refuseOptions("--picture draws meshes in files of their own; drop it, or --tar");
   if (!line.outputs.picture.empty() && !hasPictureFolder(line.outputs))

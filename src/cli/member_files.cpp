@@ -22,11 +22,23 @@ MeshSettings memberSettings(MeshSettings settings, const std::string& folder) {
   return settings;
 }
 
+namespace {
+
+fs::path& leftFolder() {
+  static fs::path folder;
+  return folder;
+}
+
+}  // namespace
+
 void enterMemberFolder(const std::string& folder) {
+  leftFolder() = fs::current_path();
   const fs::path own = fs::path(folder) / std::to_string(::getpid());
   fs::create_directory(own);
   fs::current_path(own);
 }
+
+fs::path absolutePathOf(const std::string& mesh) { return fs::absolute(leftFolder() / mesh).lexically_normal(); }
 
 void removeMemberFolder(const std::string& folder, int process) {
   std::error_code ignored;

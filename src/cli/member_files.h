@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,8 @@ namespace asdfvk {
 
 /// Makes the current folder of a worker process a new folder below `folder`. Results of members have relative paths.
 void enterMemberFolder(const std::string& folder);
+/// The path of a mesh, which may be relative to the folder that enterMemberFolder() left.
+[[nodiscard]] std::filesystem::path absolutePathOf(const std::string& mesh);
 /// Removes the folder of a worker process that was killed.
 void removeMemberFolder(const std::string& folder, int process);
 

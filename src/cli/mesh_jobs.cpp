@@ -103,12 +103,23 @@ MeshRecord JobRecords::begin(const Job& job) const {
   return record;
 }
 
+namespace {
+
+/// Removes the picture of an earlier run in which the mesh failed the check.
+void removeOldPicture(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+}
+
+}  // namespace
+
 JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
                              const std::optional<MeshRecord>& old) const {
   if (run.report) fillRecord(record, *run.report);
   if (run.hasResult && !job.output.empty()) record.output = job.output;
   if (!run.picture.empty()) record.picture = run.picture;
   if (run.failure) fillRecord(record, *run.failure);
+  if (!record.picture && record.status != MeshStatus::Dropped) removeOldPicture(job.picture);
   if (settings_.isOfBatch && !job.content && run.hasResult) {
     try {
       writeOutputRecord(record, job.output);

@@ -151,13 +151,6 @@ class MeshFiles {
                        [](const Failure& failure) { return failure.code == ExitCode::OverLimit; });
   }
 
-  /// Removes the picture of an earlier run in which the mesh failed the check.
-  void removeOldPicture() const {
-    std::error_code ignored;
-    if (settings_.drawsFailedOnly && fs::is_regular_file(settings_.outputs.picture, ignored))
-      fs::remove(settings_.outputs.picture, ignored);
-  }
-
   /// Writes a picture of the field, or of the thin places if `field` is null. Precondition: result.scene is set.
   void writePicture(AtomicFiles& files, const Result& result, const Field* field) const {
     const Outputs& outputs = settings_.outputs;
@@ -263,10 +256,7 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     }
     files.writePoints(written, fields);
     seconds[Stage::Write] = watch.seconds();
-    if (hasPicture)
-      files.writePicture(written, result, pictureField);
-    else
-      files.removeOldPicture();
+    if (hasPicture) files.writePicture(written, result, pictureField);
     written.commit();
     run.picture = outputs.picture;
     if (ownPage && settings.outputs.opensPage) openInBrowser(output);

@@ -59,7 +59,11 @@ TarStream::TarStream(const std::vector<Job>& tars, const MeshSettings& settings,
     }
     if (finished) {
       std::string report = jsonSkipped(tars[i].input, *finished);
-      monitor.add(addedCount_++, {.record = std::move(*finished), .report = std::move(report)});
+      std::string message;
+      if (finished->code != 0)
+        message = oneLine(fmt::format("asdf-vk: {}: {}", tars[i].input, finished->message)) + "\n";
+      monitor.add(addedCount_++,
+                  {.record = std::move(*finished), .report = std::move(report), .messages = std::move(message)});
     } else {
       pending_.push_back(i);
       options.paths.push_back(tars[i].input);
@@ -133,7 +137,7 @@ void TarStream::write(Entry& entry) {
       record_ = beginTar(tar);
       code_ = {};
       memberCount_ = failedCount_ = 0;
-      if (!tar.output.empty()) writer_.emplace(tar.output);
+      if (!tar.output.empty() && !isInterrupted_) writer_.emplace(tar.output);
       break;
     }
     case TarItem::Kind::Copy:
@@ -159,6 +163,7 @@ void TarStream::writeAnswer(const TarItem& item, JobResult result) {
   ++memberCount_;
   if (!hasResult(static_cast<ExitCode>(record.code))) ++failedCount_;
   code_.add(static_cast<ExitCode>(record.code));
+  isInterrupted_ = isInterrupted_ || record.status == MeshStatus::Dropped;
   if (writer_ && !item.stem.empty() && record.status != MeshStatus::Dropped) {
     for (const auto& [name, bytes] : result.files) addMember(*writer_, name, bytes, item.member.time);
     addMember(*writer_, item.stem + ".json", toJsonLine(record) + "\n", item.member.time);
@@ -167,6 +172,7 @@ void TarStream::writeAnswer(const TarItem& item, JobResult result) {
 }
 
 void TarStream::endTar(const TarItem& item) {
+  if (isInterrupted_) return;  // finish() ends the output.
   const Job& tar = tars_[pending_[item.tar]];
   ++endedCount_;
   if (item.failure) {
@@ -186,7 +192,7 @@ void TarStream::endTar(const TarItem& item) {
   record_.output = tar.output;
   record_.inputHash = item.hash;
   record_.code = static_cast<int>(code_.code());
-  record_.message = fmt::format("{} of {} failed", groupDigits(failedCount_), counted(memberCount_, "mesh"));
+  record_.message = fmt::format("{} of {} failed", groupDigits(failedCount_), counted(memberCount_, "mesh", "meshes"));
   writeOutputRecord(record_, tar.output);
 }
 

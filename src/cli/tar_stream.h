@@ -64,6 +64,7 @@ class TarStream final : public JobStream {
   MeshRecord record_;  ///< The record of the current tar.
   SharedExitCode code_;
   size_t memberCount_ = 0, failedCount_ = 0;
+  bool isInterrupted_ = false;  ///< Whether a mesh was dropped. This tar and the next ones are not complete.
 };
 
 }  // namespace asdfvk

@@ -26,7 +26,7 @@ struct Obstacle {
   Vec3d centre;                      ///< The centre of a ball.
   double radius = 0;
   double distances[kGameColumns] = {};  ///< From the corners of the box.
-  Vec3d spread;                         ///< How much the distance may change along each axis of the box, about.
+  Vec3d spread;                         ///< About how much the distance changes along each axis of the box.
 
   /// From the nearest point of the obstacle to p. triangle: that of a face.
   [[nodiscard]] Vec3d wayTo(const Vec3d& p, const PlaneTriangle& triangle) const {
@@ -82,14 +82,13 @@ class Search {
   /// stopOnly: for cancellation.
   GreatestSection run(const Box3d& box, std::span<const uint32_t> faces, const SectionSearch& search, uint32_t maxBoxes,
                       const RunControl& stopOnly) {
-    const uint32_t maxBoxCount =
-        maxBoxes + search.boxesPerFace * static_cast<uint32_t>(std::min<size_t>(faces.size(), 1u << 24));
+    const size_t maxBoxCount = std::min<size_t>(maxBoxes + search.boxesPerFace * faces.size(), kMaxBoxCount);
     for (size_t i = 0; i < std::min(kRayCount, faces.size()); ++i)
       offerMiddle(faces[i * faces.size() / std::min(kRayCount, faces.size())]);
     Node root;
     root.box = {box.centre(), box.halfSize()};
     add(root);
-    for (uint32_t count = 0; !nodes_.isEmpty() && nodes_.bound() > target(); ++count) {
+    for (size_t count = 0; !nodes_.isEmpty() && nodes_.bound() > target(); ++count) {
       if (count % 256 == 0) stopOnly.checkpoint(0);
       const bool isDecided = 2 * radius_ >= search.enough || 2 * nodes_.bound() < search.enough;
       if (count == maxBoxCount || (isDecided && std::isfinite(search.enough)))

@@ -60,14 +60,14 @@ bool SolidSurface::coversPlaneBelow(const CentredBox& box, uint32_t face, uint32
   const OrientedBox below = projectionOf(box, plane);
   if (contradiction != kNoFace && below.meets(triangle(contradiction))) return false;
   contradiction = kNoFace;
-  bool isFound = false;
+  bool coversCentre = false;
   forEachFaceIn(below, [&](uint32_t found, const PlaneTriangle& triangle) {
-    isFound = true;
     if (!liesIn(triangle, plane)) contradiction = found;
+    coversCentre = coversCentre || length(nearestPoint(triangle, below.centre) - below.centre) <= 2 * kFlat;
     return contradiction == kNoFace;
   });
-  // A closed surface continues in its next faces, which are not in the plane where it leaves the plane.
-  return isFound && contradiction == kNoFace;
+  // From the centre, the closed surface continues face by face, and it would meet the box where it leaves the plane.
+  return coversCentre && contradiction == kNoFace;
 }
 
 bool SolidSurface::leavesEmpty(const CentredBox& box) const {

@@ -116,6 +116,28 @@ TEST_CASE("a thin plate does not hide a thick one behind a narrow gap") {
   checkSection(solid.surface(), 3);
 }
 
+TEST_CASE("the plane of a concave floor does not limit the balls beside the floor") {
+  // A plate with a pocket that is an arrow from above: its fourth corner is the concave one.
+  const std::array<double, 4> plate{-12.502, 6.847, -4.783, 13.691};
+  const double top = 9.44, floor = 2.49;
+  Mesh mesh;
+  for (const double z : {0.0, top})
+    for (const auto& [x, y] : {std::array{1, 3}, std::array{0, 3}, std::array{0, 2}, std::array{1, 2}})
+      mesh.vertices.push_back({plate[static_cast<size_t>(x)], plate[static_cast<size_t>(y)], z});
+  for (const double z : {top, floor})
+    for (const auto& [x, y] :
+         {std::array{3.67, 12.0}, std::array{-12.0, 12.0}, std::array{-12.0, -3.14}, std::array{-1.11, 0.27}})
+      mesh.vertices.push_back({x, y, z});
+  for (const Face& f :
+       {Face{5, 6, 10},   Face{1, 6, 5},   Face{7, 8, 11},  Face{1, 2, 6},    Face{7, 4, 8},    Face{0, 2, 1},
+        Face{6, 11, 10},  Face{6, 7, 11},  Face{5, 10, 9},  Face{4, 9, 8},    Face{4, 5, 9},    Face{12, 14, 15},
+        Face{12, 13, 14}, Face{15, 11, 8}, Face{15, 8, 12}, Face{14, 10, 11}, Face{14, 11, 15}, Face{13, 9, 10},
+        Face{13, 10, 14}, Face{12, 8, 9},  Face{12, 9, 13}, Face{3, 4, 7},    Face{3, 0, 4},    Face{2, 7, 6},
+        Face{2, 3, 7},    Face{0, 5, 4},   Face{0, 1, 5},   Face{0, 3, 2}})
+    mesh.faces.push_back(f);
+  CHECK(sectionOf(mesh) >= 7.957);
+}
+
 TEST_CASE("a turned solid has the same section") {
   for (const double angle : {0.3, 0.785, 1.1}) {
     const double c = std::cos(angle), s = std::sin(angle);
