@@ -161,6 +161,11 @@ TEST_CASE("a folder of pictures has the parts that fail, and a part that passes 
     parts.folder.write("in/thin.off", Parts::boxOff(1, true));
     CHECK_EQ(runAsdf(arguments).exitCode, 7);
     CHECK_FALSE(std::filesystem::exists(thin));
+    parts.folder.write("in/thin.off", Parts::boxOff(0.5, true));
+    CHECK_EQ(run(), StatusCounts{{"failed", 2}, {"skipped", 2}});
+    parts.folder.write("in/thin.off", "OFF\n");
+    CHECK_EQ(runAsdf(arguments).exitCode, 7);
+    CHECK_FALSE(std::filesystem::exists(thin));
   }
 }
 

@@ -171,7 +171,7 @@ class TarTest(unittest.TestCase):
         for line in log.read_text().splitlines():
             record = json.loads(line)
             records.setdefault(record["input"], []).append(record["message"] or record["status"])
-        self.assertEqual(records["s.off"], ["done", "its name occurs twice in the tar; rename one", "done"])
+        self.assertEqual(records["s.off"], ["done"] + 2 * ["its name occurs twice in the tar; rename one"])
         for name in ("../out.off", "/abs.off", "a/../b.off"):
             self.assertIn("leads out of the folder", records[name][0])
         self.assertIn("is a link to s.off", records["soft.off"][0])
@@ -184,7 +184,7 @@ class TarTest(unittest.TestCase):
         with tarfile.open(fileobj=io.BytesIO(run.stdout), mode="r|") as tar:
             names = [info.name for info in tar]
         self.assertEqual(names, ["s.json", "s.stl.json", "./dot.json", "soft.json", "hard.json", "fifo.json",
-                                 "n" * 300 + ".json", "Ä ö\n.json", "up.json", "gz.json", "empty.json", "s.json"])  # fmt: skip
+                                 "n" * 300 + ".json", "Ä ö\n.json", "up.json", "gz.json", "empty.json"])  # fmt: skip
 
     def test_compression(self) -> None:
         content = tar_of([(f"{i}.off", box()) for i in range(20)])
@@ -320,6 +320,44 @@ class TarTest(unittest.TestCase):
             self.assertEqual(process.wait(timeout=20), 130)
         self.assertEqual(list(members_of(output)), ["a.npy", "a.json"])
 
+    def test_an_interrupted_tar_is_not_complete(self) -> None:
+        # The whole tar has been read when the signal comes.
+        side = range(101)
+        vertices = [f"{x} {y} {x * y % 7}" for x in side for y in side]
+        squares = [101 * x + y for x in side[:-1] for y in side[:-1]]
+        faces = [f"3 {i + 101 * j} {i + 101} {i + 1 - j}" for i in squares for j in (0, 1)]
+        slow = "\n".join(["OFF", f"{len(vertices)} {len(faces)} 0", *vertices, *faces, ""]).encode()
+        tar = self.write("t.tar", tar_of([("a.off", box()), ("slow.off", slow)]))
+        call = [PROGRAM, "--tar", tar, "--backend", "reference", "--rays", "900", "--seeds", "all", "--json"]
+        with subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
+            assert process.stdout is not None
+            process.stdout.readline()  # The report of a.off.
+            process.send_signal(signal.SIGTERM)
+            process.stdout.read()
+            self.assertEqual(process.wait(timeout=20), 130)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["t.tar", "tmp"])
+
+    def test_rules_and_baselines_apply_to_members_with_and_without_results(self) -> None:
+        tar = self.write("t.tar", tar_of([("p/a.off", box())]))
+        limits = self.write("limits.json", b'{"limits": [{"files": "t.tar/p/*.off", "fail-if-thinner": 2}]}')
+        known = self.folder / "known.json"
+        for results in ([], ["--format", "npy"]):
+            for check in (["--limits", limits], ["--fail-if-thinner", "2"]):
+                call = [PROGRAM, "--tar", tar.name, "-o", "o.tar", "--backend", "reference", *check, *results]
+                self.assertEqual(subprocess.run(call, cwd=self.folder, capture_output=True, check=False).returncode, 6)
+            update = [*call, "--baseline", known, "--update-baseline"]
+            self.assertEqual(subprocess.run(update, cwd=self.folder, capture_output=True, check=False).returncode, 0)
+            call += ["--baseline", known]
+            self.assertEqual(subprocess.run(call, cwd=self.folder, capture_output=True, check=False).returncode, 0)
+
+    def test_a_key_that_occurs_again_later(self) -> None:
+        members = [("a.off", box()), ("b.off", box()), ("a.v2.off", box()), ("b.off", box())]
+        run = self.run_asdf("-", "-o", "-", "--format", "npy", content=tar_of(members))
+        self.assertEqual(run.returncode, 7, run.stderr)
+        self.assertIn(b"b.off: its name occurs twice", run.stderr)
+        self.assertEqual(list(members_of(run.stdout)),
+                         ["a.npy", "a.json", "b.npy", "b.json", "a.v2.off.npy", "a.v2.off.json"])  # fmt: skip
+
     def test_refusals(self) -> None:
         for arguments, reason in [
             (["a.tar", "-o", "x.ply"], b"--tar writes a tar"),
@@ -328,6 +366,8 @@ class TarTest(unittest.TestCase):
             (["a.tar", "-o", "-", "--json"], b"both write to standard output"),
             (["a.tar", "--format", "html"], b"no member of a tar"),
             (["a.tar", "--picture", "x.png"], b"--picture"),
+            (["a.tar", "-o", "o/", "--skip-existing", "--fail-if-thinner", "1", "--report-format", "junit"],
+             b"drop --skip-existing"),
             (["-", "--format", "npy"], b"has no file name"),
         ]:
             run = self.run_asdf(*arguments)
