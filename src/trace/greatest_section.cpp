@@ -228,8 +228,13 @@ class Search {
   /// Adds what limits the ball around a point of the box. Returns false if this is no further obstacle.
   bool addObstacle(Node& node, const Vec3d& point, const GameSolution& game) {
     const double reach = node.box.reachFrom(point);
-    const SurfacePoint foot = surface_.nearest(point, target() - reach, knownDistance(node, point));
+    const double enough = target() - reach;
+    const SurfacePoint foot = surface_.nearest(point, enough, knownDistance(node, point));
     if (foot.face == kNoFace) return false;
+    if (foot.distance < enough) {  // It need not be the nearest point.
+      node.bound = std::min(node.bound, foot.distance + reach);
+      return false;
+    }
     Obstacle added;
     added.face = foot.face;
     if (foot.side < 0) {
