@@ -10,6 +10,7 @@
 #include "core/stopwatch.h"
 #include "pipeline/backend.h"
 #include "pipeline/seed_choice.h"
+#include "process/temporary_folder.h"
 #include "seeds/random_permutation.h"
 #include "seeds/samplers.h"
 #include "support/computation.h"

@@ -14,8 +14,8 @@
 #include "asdf_vk/files.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "process/temporary_folder.h"
 #include "support/measurement.h"
-#include "support/process.h"
 #include "support/program.h"
 
 namespace {

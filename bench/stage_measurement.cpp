@@ -1,5 +1,7 @@
 #include "stage_measurement.h"
 
+#include "process/temporary_folder.h"
+
 namespace asdfvk::bench {
 namespace {
 

@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "generate/creatures.h"
 #include "generate/generated_shape.h"
+#include "process/temporary_folder.h"
 #include "stage_measurement.h"
 #include "support/process.h"
 #include "support/program.h"

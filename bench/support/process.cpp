@@ -107,17 +107,4 @@ std::string outputOf(const std::string& program, const std::vector<std::string>&
   return text;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "asdfvk-bench-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw Error(ErrorCode::OutputNotWritable,
-                fmt::format("cannot make the temporary folder {}: {}", name, std::strerror(errno)));
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 }  // namespace asdfvk::bench

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,19 +14,5 @@ struct ProcessUsage {
 /// Returns the standard output. Throws Error{Cancelled} for kCancelledExitCode, std::runtime_error for other failures.
 [[nodiscard]] std::string outputOf(const std::string& program, const std::vector<std::string>& arguments,
                                    ProcessUsage* usage = nullptr);
-
-/// A new folder under $TMPDIR (default /tmp); the destructor removes it with its contents. Throws Error{Output}.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace asdfvk::bench

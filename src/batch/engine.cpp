@@ -152,9 +152,9 @@ class Engine {
     const WorkerPoolClient client{
         .request =
             [&](size_t i, uint32_t attempt) {
-              Job job = jobAt(i);
-              job.attemptCount = attempt;
-              return encode(job);
+              Json request = jobAt(i);
+              request["attemptCount"] = attempt;
+              return encode(request);
             },
         .ready = [&](const std::string& answer) -> uint32_t {
           const Json json = decode(answer);
@@ -168,9 +168,7 @@ class Engine {
         },
         .finished =
             [&](const JobOutcome& outcome) {
-              Job job = jobAt(outcome.job);
-              job.attemptCount = outcome.attempt;
-              auto [result, isSpent] = resultOf(job, outcome);
+              auto [result, isSpent] = resultOf(jobAt(outcome.job), outcome);
               add(outcome.job, std::move(result));
               return !isSpent;
             },
@@ -206,6 +204,7 @@ class Engine {
     }
     if (isDropped) outcome.end = isStopping(stop_) ? JobEnd::Dropped : JobEnd::Terminated;
     JobResult result = client_.fail(job, outcome);
+    result.record.attemptCount = outcome.attempt;
     result.record.totalSeconds = outcome.seconds;
     result.record.peakMemoryBytes = outcome.peakBytes;
     return {std::move(result), true};

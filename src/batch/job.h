@@ -19,7 +19,7 @@ struct Job {
                           ///< read such a file.
   std::string key;        ///< InputFile::key
   std::string picture;    ///< Path of the picture; empty: none.
-  uint32_t attemptCount = 1;           ///< With this attempt.
+  uint32_t attemptCount = 1;           ///< Number of attempts, with this one.
   std::optional<std::string> content;  ///< The bytes of the mesh if it is a member of a tar; then `output` is a name.
 };
 

@@ -23,7 +23,6 @@
 #include "cli/outputs.h"
 #include "cli/report_json.h"
 #include "cli/tar_stream.h"
-#include "cli/temporary_folder.h"
 #include "core/abandoned_files.h"
 #include "core/atomic_file.h"
 #include "core/parallel.h"
@@ -31,6 +30,7 @@
 #include "pipeline/backend_choice.h"
 #include "pipeline/device_sharing.h"
 #include "process/interrupt.h"
+#include "process/temporary_folder.h"
 #include "process/terminal.h"
 
 namespace asdfvk {
@@ -203,7 +203,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   std::optional<TemporaryFolder> memberFolder;
   if (batch.readsTars && outputs.writesResult && !outputs.writesRecordsOnly) memberFolder.emplace();
   const MeshSettings settings =
-      batch.readsTars ? memberSettings(given, memberFolder ? memberFolder->path() : "") : given;
+      batch.readsTars ? memberSettings(given, memberFolder ? memberFolder->path().string() : "") : given;
   if (batch.readsTars) requireWritableTars(jobs, given.makesFolders);
   if (!outputs.reportFormat.empty()) requireWritablePlace(outputs.report);
   if (hasPictureFolder(outputs)) {
@@ -227,7 +227,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
                    .printsReports = outputs.json,
                    .showsProgress = batch.isBatch(),
                    .keepsRecords = outputs.needsRecords(),
-                   .isCheck = settings.computation.isCheck() || !outputs.limits.empty(),
+                   .isCheck = isCheck(settings.computation, outputs),
                    .isQuiet = outputs.quiet},
                   batch.readsTars ? noJobs : jobs);
   const JobRecords records(settings);
@@ -252,7 +252,7 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
                           },
                       .fail =
                           [&](const Job& job, const JobOutcome& outcome) {
-                            if (memberFolder) removeMemberFolder(memberFolder->path(), outcome.worker);
+                            if (memberFolder) removeMemberFolder(memberFolder->path().string(), outcome.worker);
                             return records.fail(job, failureOf(outcome, batch));
                           },
                       .workerArguments = {"asdf-vk", kWorkerArgument},

@@ -153,7 +153,7 @@ void completeLimits(CommandLine& line, const GivenOptions& given) {
 void completeResult(CommandLine& line, const GivenOptions& given) {
   constexpr std::array kAboutResult{"format", "fields", "open", "ascii", "colour-of", "vertex-colours"};
   line.outputs.writesRecordsOnly =
-      (line.computation.isCheck() || !line.outputs.limits.empty()) &&
+      isCheck(line.computation, line.outputs) &&
       std::none_of(kAboutResult.begin(), kAboutResult.end(), [&](const char* name) { return given.has(name); });
   line.outputs.writesResult = !line.outputs.writesRecordsOnly || given.has("output") || given.has("keep-members");
   if (!line.outputs.writesResult && line.batch.skipsExisting)

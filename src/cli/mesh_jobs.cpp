@@ -157,8 +157,7 @@ std::optional<JobResult> JobRecords::findFinished(const Job& job) const {
 bool JobRecords::lacksPicture(const Job& job, const MeshRecord& finished) const {
   std::error_code ignored;
   if (!hasPictureFolder(settings_.outputs) || std::filesystem::exists(job.picture, ignored)) return false;
-  const bool isCheck = settings_.computation.isCheck() || !settings_.outputs.limits.empty();
-  return !isCheck || finished.code == static_cast<int>(ExitCode::OverLimit);
+  return !isCheck(settings_.computation, settings_.outputs) || finished.code == static_cast<int>(ExitCode::OverLimit);
 }
 
 JobResult JobRecords::fail(const Job& job, const Failure& failure) const {

@@ -145,7 +145,7 @@ class MeshFiles {
   /// Whether a picture is asked for, and the mesh is one to draw.
   [[nodiscard]] bool hasPicture(const ComputationSettings& computation, const Report& report) const {
     if (settings_.outputs.picture.empty() || !settings_.drawsFailedOnly) return !settings_.outputs.picture.empty();
-    if (!settings_.computation.isCheck() && settings_.outputs.limits.empty()) return true;
+    if (!isCheck(settings_.computation, settings_.outputs)) return true;
     const std::vector<Failure> failures = failedChecks(computation, report);
     return std::any_of(failures.begin(), failures.end(),
                        [](const Failure& failure) { return failure.code == ExitCode::OverLimit; });

@@ -134,6 +134,10 @@ bool writesOnePage(const Outputs& outputs) {
   return writesPages(outputs) && (isPageName(outputs.path) || outputs.path == "-") && !isFolder(outputs.path);
 }
 
+bool isCheck(const ComputationSettings& computation, const Outputs& outputs) {
+  return computation.isCheck() || !outputs.limits.empty();
+}
+
 bool hasPictureFolder(const Outputs& outputs) { return outputs.picture.ends_with('/'); }
 
 std::string pictureFileOf(const InputFile& input, const Outputs& outputs) {

@@ -10,6 +10,7 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/options.h"
 #include "batch/input_list.h"
+#include "describe/computation_options.h"
 #include "render/camera.h"
 
 namespace asdfvk {
@@ -78,6 +79,9 @@ inline constexpr const char* kPageFormat = "html";
 [[nodiscard]] bool writesPages(const Outputs& outputs);
 
 [[nodiscard]] bool writesOnePage(const Outputs& outputs);
+
+/// Whether meshes are compared with limits: those of options, or of a file of limits.
+[[nodiscard]] bool isCheck(const ComputationSettings& computation, const Outputs& outputs);
 
 /// Whether Outputs::picture is a folder, for a picture of each mesh that fails the check, or of each mesh without
 /// check.

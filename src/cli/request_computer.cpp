@@ -16,11 +16,11 @@
 #include "cli/mesh_settings.h"
 #include "cli/one_mesh.h"
 #include "cli/request_mesh.h"
-#include "cli/temporary_folder.h"
 #include "core/parallel.h"
 #include "describe/report_text.h"
 #include "io/base64_text.h"
 #include "process/interrupt.h"
+#include "process/temporary_folder.h"
 
 namespace asdfvk {
 namespace {
@@ -104,7 +104,7 @@ MeshAnswer MeshRequestComputer::computeWithin(const MeshRequest& request, const 
   std::optional<TemporaryFolder> folder;
   if (isInline(request.output) || isInline(request.picture)) folder.emplace();
   const CommandLine line =
-      commandLineOf(request, settings_.session, settings_.files, folder ? folder->path() : std::string());
+      commandLineOf(request, settings_.session, settings_.files, folder ? folder->path().string() : std::string());
   MeshSettings settings = meshSettingsOf(line);
   settings.timeoutSeconds = timeoutSeconds;
   const std::string path = request.mesh.empty() ? "" : inputPath(request.mesh, settings_.files);

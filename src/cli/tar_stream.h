@@ -30,7 +30,7 @@ class TarStream final : public JobStream {
   [[nodiscard]] Job take(size_t index) override;
   void add(size_t index, JobResult result) override;
 
-  /// Ends outputs that are not complete. The tars that have no record yet.
+  /// Ends the outputs that are not complete. Returns the tars that have no record yet.
   [[nodiscard]] std::vector<Job> finish();
 
  private:
@@ -57,9 +57,9 @@ class TarStream final : public JobStream {
   size_t endedCount_ = 0;        ///< Number of tars of pending_ that have ended.
   std::optional<TarFeed> feed_;
   std::deque<Entry> entries_;         ///< In the order of the output.
-  std::deque<Entry*> waiting_;        ///< Meshes that are not taken.
-  std::map<size_t, Entry*> current_;  ///< Meshes that are taken, by job.
-  size_t addedCount_ = 0;             ///< Results of the monitor.
+  std::deque<Entry*> waiting_;        ///< Meshes that take() has not returned yet.
+  std::map<size_t, Entry*> current_;  ///< Meshes that workers compute, by job.
+  size_t addedCount_ = 0;             ///< Number of results that the monitor has.
   std::optional<TarWriter> writer_;
   MeshRecord record_;  ///< The record of the current tar.
   SharedExitCode code_;

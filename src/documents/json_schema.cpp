@@ -93,7 +93,7 @@ void addRecordPart(const std::string& name, Json& all) {
     Json schema = property;
     const bool isNullable = schema.contains("anyOf");
     Json& value = isNullable ? schema["anyOf"][0] : schema;
-    const std::string target = value.contains("$ref") ? value["$ref"].get<std::string>().substr(8) : "";
+    const std::string target = value.contains("$ref") ? referencedPart(value) : "";
     if (!isKeptInRecord(key) && (value.value("type", Json()) == "array" || target == "Point")) continue;
     if (!target.empty() && all.at(target).contains(kProperties)) {
       addRecordPart(target, all);

@@ -21,10 +21,14 @@ const Json& schemaDefinitions() {
 
 Json schemaReference(std::string_view name) { return {{"$ref", std::string(kPartsPrefix) + std::string(name)}}; }
 
+std::string referencedPart(const Json& schema) {
+  return schema.at("$ref").get_ref<const std::string&>().substr(kPartsPrefix.size());
+}
+
 void addReferencedParts(const Json& schema, Json& parts) {
   for (const auto& [key, value] : schema.items()) {
     if (key == "$ref" && value.is_string()) {
-      const std::string name = value.get<std::string>().substr(kPartsPrefix.size());
+      const std::string name = referencedPart(schema);
       if (parts.contains(name)) continue;
       const Json& part = parts[name] = schemaDefinitions().at(name);
       addReferencedParts(Json(part), parts);

@@ -37,8 +37,10 @@ inline constexpr const char* kAllDocuments = "all";
 
 /// Reference to a part of schemaDefinitions().
 [[nodiscard]] Json schemaReference(std::string_view name);
+/// The part to which a schema with the key $ref refers.
+[[nodiscard]] std::string referencedPart(const Json& schema);
 
-/// Adds the parts to which `schema` refers, directly or not, to `parts`.
+/// Adds to `parts` all parts that `schema` needs: those to which it refers, and those to which these parts refer.
 void addReferencedParts(const Json& schema, Json& parts);
 
 /// The schema of one document with the parts that it needs. name: one of schemaNames().

@@ -47,8 +47,7 @@ const Json& schemaOf(std::string_view argument) {
 /// The schema without references and texts. depth: objects that are nested deeper have no properties, because clients
 /// send the list of the tools to a model.
 Json briefSchema(const Json& schema, int depth) {
-  if (schema.contains("$ref"))
-    return briefSchema(schemaDefinitions().at(schema["$ref"].get<std::string>().substr(8)), depth);
+  if (schema.contains("$ref")) return briefSchema(schemaDefinitions().at(referencedPart(schema)), depth);
   Json brief = Json::object();
   for (const char* const key : {"type", "enum"})
     if (schema.contains(key)) brief[key] = schema[key];

@@ -1,10 +1,10 @@
-#include "cli/temporary_folder.h"
+#include "process/temporary_folder.h"
 
 #include <fmt/core.h>
 
 #include <cerrno>
 #include <cstdlib>
-#include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 
