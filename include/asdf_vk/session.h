@@ -56,6 +56,8 @@ struct ThinSurface {
 /// - "error", with an error estimate: the expected error in the unit of the mesh; 0 at seeds that keep their value.
 /// - "normalized", with Options::postprocesses(): 0 to 1.
 /// - "segment", with Options::segmentation: labels, ascending by the mean value of the segment.
+/// - "boundary_stability", with Segmentation::Parts: the least PartBoundary::stability of the boundaries at the face;
+/// NaN for a face that is at no boundary.
 /// - "thickness" and "least_thickness", with Options::measuresThickness(): the wall thickness at the barycentre, and
 ///   the least one over all points of the face, in the unit of the mesh. A polygon has the least value of its
 ///   triangles.

@@ -89,6 +89,20 @@ class PostprocessReport:
 
 
 @dataclass(frozen=True)
+class PartBoundary:
+    """Two adjacent parts, first < second."""
+
+    first: int
+    second: int
+    """Labels of the field "segment"."""
+    stability: float
+    """How often the boundary remains, from 0 to 1: the parts are found with five numbers of patches and with thresholds
+    from 1 / e to e times the threshold of the options. The number is the share of these variants that separate the
+    parts, as a mean over pairs of patches. Near 0.5 a small change of the mesh may remove the boundary.
+    """
+
+
+@dataclass(frozen=True)
 class PartsReport:
     """Sizes and stability of the parts."""
 
@@ -99,14 +113,16 @@ class PartsReport:
     """
     agreement: float | None
     """The segmentation merges patches, which are small regions, to parts. `agreement` compares the parts with the parts
-    from other numbers of patches: the number is the mean of the area-weighted Rand indices. The parts are compared
-    before small parts are merged and boundaries are cut. 1 means equal parts; below about 0.9 the parts depend on the
-    number of patches. Unset with the warning onlySmallComponents.
+    from each of five numbers of patches: the number is the mean of the area-weighted Rand indices. The parts are
+    compared before small parts are merged and boundaries are cut. 1 means equal parts; below about 0.9 the parts depend
+    on the number of patches, and people disagree more, too. Unset with the warning onlySmallComponents.
     """
     thin_shell: bool
     """The shape is a thin wall around a cavity (warning thinShell)."""
     area_shares: tuple[float, ...]
     """Share of each part in the area of all faces; the sum is 1."""
+    boundaries: tuple[PartBoundary, ...]
+    """Ascending by `first` and `second`."""
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ namespace {
 
 bool postprocesses(const Options& options) { return options.postprocesses(); }
 bool segments(const Options& options) { return options.segmentation != Segmentation::None; }
+bool segmentsIntoParts(const Options& options) { return options.segmentation == Segmentation::Parts; }
 bool measuresThickness(const Options& options) { return options.measuresThickness(); }
 bool measuresGap(const Options& options) { return options.measuresGap(); }
 
@@ -48,6 +49,12 @@ constexpr std::array kFields{
              .isComputed = segments,
              .meaning = "number of the segment: segments are numbered from 0 by ascending mean value; 4294967295 for a "
                         "face with fewer than three corners"},
+    FieldRow{.name = "boundary_stability",
+             .label = "stability of boundaries",
+             .needs = "{segment=parts}",
+             .isComputed = segmentsIntoParts,
+             .meaning = "least stability, from 0 to 1, of the boundaries of parts at the face; NaN elsewhere "
+                        "([segmentation.md](segmentation.md#report-of-parts))"},
     FieldRow{.name = "thickness",
              .label = "wall thickness",
              .unit = "length",

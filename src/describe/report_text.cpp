@@ -133,7 +133,12 @@ std::string partRow(const PartsReport& parts) {
   for (size_t i = 0; i < std::min(parts.areaShares.size(), kMaxListedParts); ++i)
     text += fmt::format("{} {}", i == 0 ? "" : ",", twoDigits(parts.areaShares[i]));
   text += parts.areaShares.size() > kMaxListedParts ? ", ... %" : " %";
-  return parts.agreement ? text + fmt::format("; agreement {:.2g}", *parts.agreement) : text;
+  if (parts.agreement) text += fmt::format("; agreement {:.2g}", *parts.agreement);
+  if (parts.boundaries.empty()) return text;
+  const auto [least, greatest] =
+      std::minmax_element(parts.boundaries.begin(), parts.boundaries.end(),
+                          [](const PartBoundary& a, const PartBoundary& b) { return a.stability < b.stability; });
+  return text + fmt::format("; stability of boundaries {:.2g} to {:.2g}", least->stability, greatest->stability);
 }
 
 std::string deviceRow(const Report& report) {

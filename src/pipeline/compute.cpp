@@ -113,6 +113,8 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, FaceValues&& faces, Se
     fields.push_back(
         makeField("normalized", valuesOfInputFaces(prepared.mesh, std::move(segmented.normalized), areas)));
   if (!segmented.segments.empty()) fields.push_back(makeField("segment", std::move(segmented.segments)));
+  if (!segmented.boundaryStability.empty())
+    fields.push_back(makeField("boundary_stability", std::move(segmented.boundaryStability)));
   return fields;
 }
 

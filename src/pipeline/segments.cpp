@@ -7,6 +7,7 @@
 
 #include "describe/warnings.h"
 #include "pipeline/input_face_values.h"
+#include "pipeline/segment_boundaries.h"
 #include "segment/assembly_parts.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
@@ -66,8 +67,14 @@ void segmentByParts(const PreparedMesh& prepared, std::span<const double> values
   result.segments = segmentsOfInputFaces(prepared.mesh, parts.partOf, parts.areas);
   const uint32_t count = countSegments(result.segments);
   report.segmentCount = count;
-  report.parts = PartsReport{parts.fewest, parts.most, parts.agreement, parts.isThinShell,
-                             areaSharesOf(prepared.mesh, parts.areas, result.segments, count)};
+  SegmentBoundaries boundaries = boundariesOfInputFaces(prepared, parts, result.segments);
+  result.boundaryStability = std::move(boundaries.stability);
+  report.parts = PartsReport{parts.fewest,
+                             parts.most,
+                             parts.agreement,
+                             parts.isThinShell,
+                             areaSharesOf(prepared.mesh, parts.areas, result.segments, count),
+                             std::move(boundaries.list)};
   warnAboutParts(prepared, values, parts, options, report);
 }
 

@@ -16,6 +16,8 @@ namespace asdfvk {
 struct SegmentedValues {
   std::vector<double> normalized;  ///< #F
   std::vector<uint32_t> segments;  ///< #I, see segmentsOfInputFaces().
+  /// #I, Segmentation::Parts only: see SegmentBoundaries::stability.
+  std::vector<double> boundaryStability;
 };
 
 /// Post-processes the values of the triangles (#F, NaN for no value), segments the mesh by them, and adds the results

@@ -66,6 +66,8 @@ Parts segmentAssembly(const PartsInput& input, const PartsOptions& options, cons
     const Parts parts =
         isDivided ? partsOfComponent(input, faces, options, sight, control.withoutProgress()) : onePart(faces.size());
     for (size_t i = 0; i < faces.size(); ++i) all.partOf[faces[i]] = all.partCount + parts.partOf[i];
+    for (const auto& [a, b, stability] : parts.boundaries)
+      all.boundaries.push_back({all.partCount + a, all.partCount + b, stability});
     all.partCount += parts.partCount;
     all.fewest += parts.fewest;
     all.most += parts.most;

@@ -100,7 +100,7 @@ std::optional<double> PartMerging::nextCost() const {
 
 void PartMerging::merge(uint32_t border) {
   const uint32_t a = borders_[border].a, b = borders_[border].b;
-  costs_.push_back(borders_[border].cost);
+  merges_.push_back({a, b, borders_[border].cost});
   borders_[border].isAlive = false;
   Region &kept = regions_[a], &removed = regions_[b];
   kept.area += removed.area;
@@ -153,24 +153,6 @@ void PartMerging::mergeToCount(uint32_t count) {
     const uint32_t border = cheapestBorder();
     if (border == kNoBorder) return;
     merge(border);
-  }
-}
-
-void PartMerging::mergeSmallerThan(double area) {
-  for (;;) {
-    uint32_t smallest = kNoBorder, cheapest = kNoBorder;
-    for (uint32_t i = 0; i < regions_.size(); ++i) {
-      const Region& region = regions_[i];
-      if (!region.isAlive || region.area >= area) continue;
-      if (smallest != kNoBorder && region.area >= regions_[smallest].area) continue;
-      uint32_t border = kNoBorder;
-      for (const uint32_t other : region.borders) border = cheaperOf(border, other);
-      if (border == kNoBorder) continue;
-      smallest = i;
-      cheapest = border;
-    }
-    if (smallest == kNoBorder) return;
-    merge(cheapest);
   }
 }
 

@@ -55,12 +55,13 @@ class PartMerging {
   void mergeUpTo(double threshold);
   /// Merges until there are at most `count` regions, or until no two regions are adjacent.
   void mergeToCount(uint32_t count);
-  /// Merges regions that have neighbours and an area below `area`. The smallest of these regions is merged first, with
-  /// the neighbour of least cost.
-  void mergeSmallerThan(double area);
 
-  /// The costs are in the order of the merges.
-  [[nodiscard]] std::span<const double> costs() const { return costs_; }
+  /// A merge of two regions, each numbered by one of its patches; `kept` is then the number of the union.
+  struct Merge {
+    uint32_t kept, removed;
+    double cost;
+  };
+  [[nodiscard]] std::span<const Merge> merges() const { return merges_; }  ///< In their order.
   /// The region of each patch, numbered from 0 by the first patch.
   [[nodiscard]] std::vector<uint32_t> regionOfPatches() const;
 
@@ -103,7 +104,7 @@ class PartMerging {
   std::vector<Border> borders_;
   std::vector<PairSums> pairs_;
   std::vector<uint32_t> regionOf_;  ///< One region per patch.
-  std::vector<double> costs_;
+  std::vector<Merge> merges_;
   uint32_t regionCount_;
 };
 

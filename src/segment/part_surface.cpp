@@ -8,13 +8,15 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
-#include "mesh/arc_angles.h"
+#include "segment/normal_filter.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr double kMinShareOfMaximum = 1e-4;
 constexpr double kConcaveFactor = 3;
+/// A face that is folded back on its neighbour by more than this is no concave crease: decimation makes such faces.
+constexpr double kMaxConcaveRadians = 2.4;
 
 /// The logarithms of the values. A missing value is replaced by the value of the nearest face with a value.
 std::vector<float> fillLogValues(const DualGraph& graph, std::span<const double> values, double logUnit) {
@@ -63,6 +65,14 @@ uint32_t commonEdge(const Face& f, const Face& g, uint32_t number) {
   return last;
 }
 
+/// Angle between two unit normals in radians; positive on a concave edge. edge: along the common edge, in the direction
+/// of the face with normal p.
+double dihedralAngle(const Vec3d& p, const Vec3d& q, const Vec3d& edge) {
+  const Vec3d normal = cross(p, q);
+  const double angle = std::atan2(length(normal), dot(p, q) + 0.0);  // + 0.0: the angle of zero normals is 0, not pi.
+  return dot(normal, edge) > 0 || angle > kMaxConcaveRadians ? -angle : angle;
+}
+
 }  // namespace
 
 PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geometry, const DualGraph& graph,
@@ -88,6 +98,7 @@ PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geomet
     surface.areas[face] = static_cast<float>(areaOf(face) * unit * unit);
   });
 
+  const std::vector<Vec3d> normals = filterNormals(geometry.normals, surface.areas, graph);
   const size_t arcCount = graph.neighbours.size();
   surface.arcs.resize(arcCount);
   surface.creasedArcs.resize(arcCount);
@@ -103,7 +114,7 @@ PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geomet
                   to = box.toNormalized(mesh.vertices[mesh.faces[face][(corner + 1) % 3]]) * unit;
       const Vec3d middle = (from + to) * 0.5;
       const double path = length(surface.centres[face] - middle) + length(surface.centres[other] - middle);
-      const double angle = signedDihedralAngle(geometry, face, other);
+      const double angle = dihedralAngle(normals[face], normals[other], to - from);
       const double crease = kConcaveFactor * std::max(0.0, angle) +
                             std::abs(double{surface.logValues[face]} - double{surface.logValues[other]});
       surface.arcs[arc] = {other, static_cast<float>(path)};

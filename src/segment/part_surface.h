@@ -23,11 +23,12 @@ struct PartSurface {
   /// #arcs: the length of `arcs` plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
   std::vector<Arc> creasedArcs;
   std::vector<float> edgeLengths;  ///< #arcs
-  std::vector<float> angles;       ///< #arcs: dihedral angle in radians, positive on a concave edge.
-  std::vector<Vec3d> centres;      ///< #F; the origin for a face with a non-finite corner.
-  std::vector<float> areas;        ///< #F, sum 1; 0 for degenerate faces.
-  std::vector<float> logValues;    ///< #F, natural logarithm of the value in units of length.
-  double meshLength = 1;           ///< Unit of length, in the unit of the mesh.
+  /// #arcs: angle between the filtered normals (filterNormals()) in radians, positive on a concave edge.
+  std::vector<float> angles;
+  std::vector<Vec3d> centres;    ///< #F; the origin for a face with a non-finite corner.
+  std::vector<float> areas;      ///< #F, sum 1; 0 for degenerate faces.
+  std::vector<float> logValues;  ///< #F, natural logarithm of the value in units of length.
+  double meshLength = 1;         ///< Unit of length, in the unit of the mesh.
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(areas.size()); }
 };

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
+#include <set>
 #include <utility>
 
 #include "core/parallel.h"
 #include "segment/boundary_cut.h"
+#include "segment/part_consensus.h"
 #include "segment/part_merging.h"
 #include "segment/part_surface.h"
 #include "segment/patches.h"
@@ -29,6 +30,9 @@ constexpr double kMinWallShape = 0.36;
 /// Largest mean visibility of a thin shell. Plates are no thin shells: most pairs of their patches have a clear line of
 /// sight.
 constexpr double kMaxWallSight = 0.5;
+/// A boundary of parts is in at least this share of the variants (PartConsensus).
+constexpr double kMinStability = 0.5;
+constexpr double kLeastThreshold = 1e-12;  ///< Greater than 0, for its logarithm.
 /// If components below kMinPartArea have at most this share of the area together, they take neighbouring parts.
 constexpr double kMaxAbsorbedArea = 0.05;
 
@@ -107,13 +111,6 @@ std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& o
   return counts;
 }
 
-struct Division {
-  Patches patches;
-  PatchData data;
-  std::optional<PartMerging> merging;  ///< State before the first merge.
-  std::vector<uint32_t> labels;        ///< #F, 0 without a patch.
-};
-
 struct SightSums {
   double seen = 0, all = 0;
 };
@@ -148,52 +145,73 @@ SightMatrix findSight(const PartsInput& input, const PartSurface& surface, const
   return matrix;
 }
 
-void mergeParts(PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
-  if (options.partCount)
-    merging.mergeToCount(*options.partCount);
-  else
-    merging.mergeUpTo(weights.threshold / options.detail);
+/// Returns a threshold between the costs of the merges so far and the next cost.
+double thresholdOf(const PartMerging& merging) {
+  double last = 0;
+  for (const PartMerging::Merge& merge : merging.merges()) last = std::max(last, merge.cost);
+  const double next = std::max(last, merging.nextCost().value_or(last));
+  return std::sqrt(last * next);
 }
 
-std::vector<uint32_t> labelsOf(const Patches& patches, const PartMerging& merging, uint32_t labelWithoutPatch) {
-  const std::vector<uint32_t> regions = merging.regionOfPatches();
+/// The divisions after merging, each for itself.
+std::vector<PartMerging> mergeEach(std::span<const Division> divisions, const PartsOptions& options,
+                                   const MergeWeights& weights) {
+  std::vector<PartMerging> results;
+  for (const Division& division : divisions) results.push_back(*division.merging);
+  forEachTask(results.size(), [&](size_t i) {
+    if (options.partCount)
+      results[i].mergeToCount(*options.partCount);
+    else
+      results[i].mergeUpTo(weights.threshold / options.detail);
+  });
+  return results;
+}
+
+/// The threshold of the options. For a requested number of parts, the mean threshold of the divisions at this number.
+double thresholdOf(std::span<const PartMerging> results, const PartsOptions& options, const MergeWeights& weights) {
+  if (!options.partCount) return weights.threshold / options.detail;
+  double sum = 0;
+  for (const PartMerging& result : results) sum += std::log(std::max(thresholdOf(result), kLeastThreshold));
+  return std::exp(sum / static_cast<double>(results.size()));
+}
+
+std::vector<uint32_t> labelsOf(const Patches& patches, std::span<const uint32_t> regions, uint32_t labelWithoutPatch) {
   std::vector<uint32_t> labels(patches.patchOf.size());
   for (size_t face = 0; face < labels.size(); ++face)
     labels[face] = patches.patchOf[face] == kNoPatch ? labelWithoutPatch : regions[patches.patchOf[face]];
   return labels;
 }
 
-/// Returns a threshold between the costs of the merges so far and the next cost.
-double thresholdOf(const PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
-  if (!options.partCount) return weights.threshold / options.detail;
-  double last = 0;
-  for (const double cost : merging.costs()) last = std::max(last, cost);
-  const double next = std::max(last, merging.nextCost().value_or(last));
-  return std::sqrt(last * next);
-}
-
-uint32_t countAt(const Division& division, double threshold, bool mergesSmall) {
-  PartMerging merging = *division.merging;
-  merging.mergeUpTo(threshold);
-  if (mergesSmall) merging.mergeSmallerThan(kMinPartArea);
-  return merging.regionCount();
-}
-
-/// Returns the index of the division with the largest sum of Rand indices with the other divisions, and the mean of
-/// these indices.
-std::pair<size_t, double> mostTypical(std::span<const Division> divisions, std::span<const float> areas) {
-  const size_t count = divisions.size();
-  std::vector<double> indices(count * count, 0);
-  forEachTask(count * count, [&](size_t k) {
-    const size_t i = k / count, j = k % count;
-    if (i < j)
-      indices[i * count + j] = indices[j * count + i] = randIndex(divisions[i].labels, divisions[j].labels, areas);
+/// Mean Rand index of the consensus with each division.
+double agreementOf(const PartConsensus& consensus, std::span<const Division> divisions,
+                   std::span<const PartMerging> results, std::span<const float> areas) {
+  const std::vector<uint32_t> labels =
+      labelsOf(divisions.back().patches, consensus.regionOfPatches(), consensus.regionCount());
+  std::vector<double> indices(divisions.size());
+  forEachTask(divisions.size(), [&](size_t i) {
+    indices[i] = randIndex(
+        labels, labelsOf(divisions[i].patches, results[i].regionOfPatches(), results[i].regionCount()), areas);
   });
-  std::vector<double> sums(count, 0);
-  for (size_t i = 0; i < count; ++i)
-    for (size_t j = 0; j < count; ++j) sums[i] += indices[i * count + j];
-  const auto best = static_cast<size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
-  return {best, sums[best] / static_cast<double>(count - 1)};
+  return std::accumulate(indices.begin(), indices.end(), 0.0) / static_cast<double>(indices.size());
+}
+
+uint32_t countAt(PartConsensus consensus, double stability, bool mergesSmall) {
+  consensus.mergeUpTo(stability);
+  if (mergesSmall) consensus.mergeSmallerThan(kMinPartArea);
+  return consensus.regionCount();
+}
+
+/// The boundaries between parts that are regions of the consensus. patchOf: for each part, one of its patches.
+std::vector<PartBoundary> boundariesOf(const PartSurface& surface, std::span<const uint32_t> partOf,
+                                       std::span<const uint32_t> patchOf, const PartConsensus& consensus) {
+  std::set<std::pair<uint32_t, uint32_t>> pairs;
+  for (uint32_t face = 0; face < surface.faceCount(); ++face)
+    for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc)
+      if (const uint32_t other = partOf[surface.arcs[arc].face]; partOf[face] < other && other < patchOf.size())
+        pairs.emplace(partOf[face], other);
+  std::vector<PartBoundary> boundaries;
+  for (const auto& [a, b] : pairs) boundaries.push_back({a, b, consensus.stability(patchOf[a], patchOf[b])});
+  return boundaries;
 }
 
 /// Labels the faces without a label. Components in `whole` get the labels from `labelCount` on. Other components get
@@ -258,6 +276,13 @@ void numberByValue(std::span<const double> values, Parts& parts) {
   std::stable_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return meanOf(i) < meanOf(j); });
   for (uint32_t i = 0; i < parts.partCount; ++i) rank[order[i]] = i;
   for (uint32_t& part : parts.partOf) part = rank[part];
+  for (PartBoundary& boundary : parts.boundaries) {
+    const auto [low, high] = std::minmax(rank[boundary.first], rank[boundary.second]);
+    boundary = {low, high, boundary.stability};
+  }
+  std::sort(parts.boundaries.begin(), parts.boundaries.end(), [](const PartBoundary& x, const PartBoundary& y) {
+    return std::pair(x.first, x.second) < std::pair(y.first, y.second);
+  });
 }
 
 Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
@@ -293,29 +318,31 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   parts.meanSight = sums.all > 0 ? sums.seen / sums.all : 1;
   parts.isThinShell = parts.meanSight < kMaxWallSight && isWall(input, surface);
   const MergeWeights& weights = parts.isThinShell ? kShapeWeights : kSightWeights;
-  forEachTask(divisions.size(), [&](size_t i) {
-    Division& division = divisions[i];
-    division.merging.emplace(division.data, matrices[i], weights);
-    PartMerging merging = *division.merging;
-    mergeParts(merging, dividing, weights);
-    division.labels = labelsOf(division.patches, merging, merging.regionCount());
-  });
-  const auto [chosen, agreement] = mostTypical(divisions, surface.areas);
-  parts.agreement = agreement;
-
-  const Division& division = divisions[chosen];
-  PartMerging merging = *division.merging;
-  mergeParts(merging, dividing, weights);
+  forEachTask(divisions.size(),
+              [&](size_t i) { divisions[i].merging.emplace(divisions[i].data, matrices[i], weights); });
+  const std::vector<PartMerging> results = mergeEach(divisions, dividing, weights);
+  const PartConsensus patchConsensus(surface, divisions, thresholdOf(results, dividing, weights));
+  PartConsensus consensus = patchConsensus;
+  if (dividing.partCount)
+    consensus.mergeToCount(*dividing.partCount);
+  else
+    consensus.mergeUpTo(kMinStability);
+  parts.agreement = agreementOf(consensus, divisions, results, surface.areas);
   const bool mergesSmall = !options.partCount;
-  if (mergesSmall) merging.mergeSmallerThan(kMinPartArea);
-  const uint32_t regionCount = merging.regionCount();
+  if (mergesSmall) consensus.mergeSmallerThan(kMinPartArea);
+  const uint32_t regionCount = consensus.regionCount();
   parts.partCount = regionCount + wholeCount;
-  const double threshold = thresholdOf(merging, dividing, weights);
-  parts.fewest = wholeCount + std::min(regionCount, countAt(division, threshold * kPartStabilityFactor, mergesSmall));
-  parts.most = wholeCount + std::max(regionCount, countAt(division, threshold / kPartStabilityFactor, mergesSmall));
+  const double step = std::log(kPartStabilityFactor) / 2;  // Stability is linear in half the logarithm of thresholds.
+  parts.fewest = wholeCount + std::min(regionCount, countAt(patchConsensus, kMinStability + step, mergesSmall));
+  parts.most = wholeCount + std::max(regionCount, countAt(patchConsensus, kMinStability - step, mergesSmall));
   control.checkpoint(0.8);
-  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), regionCount, control);
+  const Division& division = divisions.back();
+  const std::vector<uint32_t> regions = consensus.regionOfPatches();
+  std::vector<uint32_t> patchOf(regionCount);  // A patch of each region.
+  for (uint32_t patch = 0; patch < regions.size(); ++patch) patchOf[regions[patch]] = patch;
+  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, regions, kNoLabel), regionCount, control);
   labelSmallComponents(input, surface, division, roles.whole, regionCount, parts.partOf);
+  parts.boundaries = boundariesOf(surface, parts.partOf, patchOf, consensus);
   numberByValue(surface, parts);
   return parts;
 }

@@ -17,7 +17,7 @@
 
 /// Segmentation into parts; the number of parts need not be given. Steps: division into patches, lines of sight between
 /// patches, merging of pairs in the order of costs, and a graph cut. The merging is done for several numbers of
-/// patches, and the most typical result is chosen. docs/segmentation.md has the definition and its sources.
+/// patches, and a consensus of the results is found. docs/segmentation.md has the definition and its sources.
 namespace asdfvk {
 
 /// Returns 1 for each segment (in the unit of the mesh) that no face intersects between the end points, else 0.
@@ -37,16 +37,18 @@ struct Parts {
   std::vector<double> areas;  ///< #F, shares of the area of the mesh.
   /// Numbers of parts with the threshold multiplied, and divided, by kPartStabilityFactor.
   uint32_t fewest = 0, most = 0;
-  /// Mean Rand index, weighted by area, of the chosen division with the divisions from other numbers of patches. The
-  /// index is computed before small parts are merged and boundaries are cut. Unset if no component has kMinPartArea,
-  /// because no divisions are compared.
+  std::vector<PartBoundary> boundaries;  ///< Ascending by the numbers of the parts.
+  /// Mean Rand index, weighted by area, of the consensus with the divisions from each number of patches. The index is
+  /// computed before small parts are merged and boundaries are cut. Unset if no component has kMinPartArea, because no
+  /// divisions are compared.
   std::optional<double> agreement;
   bool isThinShell = false;  ///< A closed thin wall around a cavity, divided without lines of sight.
   /// Mean visibility over pairs of patches of the same component, weighted by the product of their areas.
   double meanSight = 1;
 };
 
-/// Numbers the parts by the mean of their values, weighted by area; parts without a value are the last. values: #F.
+/// Numbers the parts, also in `boundaries`, by the mean of their values, weighted by area; parts without a value are
+/// the last. values: #F.
 void numberByValue(std::span<const double> values, Parts& parts);
 
 /// A share of the area of the mesh. Smaller components are not divided. Smaller parts are merged with a neighbour.

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace asdfvk;
@@ -73,8 +72,8 @@ TEST_CASE("a threshold stops before the largest step, a count exactly there") {
   PartMerging byCost = merging(data);
   byCost.mergeUpTo(0.1);
   CHECK(byCost.regionOfPatches() == Labels{0, 0, 0, 1, 1, 1});
-  CHECK(byCost.costs().size() == 4);
-  CHECK(*std::max_element(byCost.costs().begin(), byCost.costs().end()) <= 0.1);
+  CHECK(byCost.merges().size() == 4);
+  for (const PartMerging::Merge& merge : byCost.merges()) CHECK(merge.cost <= 0.1);
   CHECK(*byCost.nextCost() > 0.1);
   PartMerging byCount = merging(data);
   byCount.mergeToCount(2);
@@ -92,8 +91,6 @@ TEST_CASE("regions without a common border are never merged") {
   PartMerging regions = merging(data);
   regions.mergeToCount(1);
   CHECK(regions.regionOfPatches() == Labels{0, 0, 1, 1});
-  regions.mergeSmallerThan(1);
-  CHECK(regions.regionCount() == 2);
 }
 
 TEST_CASE("each level refines the next one") {
@@ -113,14 +110,6 @@ TEST_CASE("each level refines the next one") {
     finer = coarser;
   }
   CHECK(levels.regionCount() == 1);
-}
-
-TEST_CASE("small regions are merged with their cheapest neighbour, however high the cost") {
-  PartMerging regions = merging(chain({0.4, 0.005, 0.4}, {0, 3, 3.5}));
-  regions.mergeSmallerThan(0.01);
-  CHECK(regions.regionOfPatches() == Labels{0, 1, 1});
-  regions.mergeSmallerThan(0.01);
-  CHECK(regions.regionCount() == 2);
 }
 
 TEST_CASE("one patch, and patches without area or border length") {
