@@ -92,7 +92,7 @@ export class Glow {
   blur(from, to, step) {
     this.begin(to);
     const uniforms = this.use('blur', ['source', from]);
-    this.renderer.gl.uniform2fv(uniforms.step, step);
+    this.renderer.gl.uniform2fv(uniforms.stride, step);
     this.renderer.gl.uniform2fv(uniforms.size, to.size);
     this.fill();
   }
