@@ -22,8 +22,9 @@ function tabOf({ thin, layer }, { models }) {
 }
 
 export class Tabs {
+  /** makeMissing(name): computes what a tab shows, and selects the tab; null if the results are complete. */
   constructor(viewer) {
-    this.viewer = viewer;
+    Object.assign(this, { viewer, makeMissing: null });
     this.names = ['walls', 'diameter', 'parts'];
     for (const name of this.names) {
       byId(`tab-${name}`).addEventListener('click', () => this.select(name));
@@ -35,13 +36,15 @@ export class Tabs {
   }
 
   fill() {
-    for (const name of this.names) byId(`tab-${name}`).hidden = !tabState(name, this.viewer);
+    for (const name of this.names) byId(`tab-${name}`).hidden = !this.makeMissing && !tabState(name, this.viewer);
     this.show();
   }
 
   select(name) {
     this.open(false);
-    this.viewer.store.set(tabState(name, this.viewer));
+    const state = tabState(name, this.viewer);
+    if (state) this.viewer.store.set(state);
+    else this.makeMissing(name);
     this.show();
   }
 
