@@ -43,8 +43,9 @@ export function verdictOf(meshes, unit) {
     return { verdict, word: kWords[verdict], sentence, details: [names] };
   }
   if (compared.length) {
-    const [mesh] = compared;
-    return { verdict: mesh.thin.verdict, word: kWords[mesh.thin.verdict], sentence: comparedSentence(mesh, unit), details: [...comparedDetails(mesh), names] };
+    const [mesh] = compared, { verdict } = mesh.thin, unjudged = verdict === 'notJudged' ? summaryValue(mesh, 'Unjudged') : null;
+    const details = [...(unjudged ? [unjudged] : comparedDetails(mesh)), names];
+    return { verdict, word: kWords[verdict], sentence: comparedSentence(mesh, unit), details };
   }
   const of = meshes.length > 1 ? `${meshes.length} meshes` : names;
   if (meshes.length > 1) return { verdict: '', word: '', sentence: of, details: [names] };
