@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace asdfvk {
 namespace {
@@ -88,7 +89,8 @@ bool LightBlocks::interpolate(int left, int top, int side) {
     for (size_t i = 0; i < 4; ++i) sum += corners[i] * weights[i];
     return sum;
   };
-  for (const auto& [x, y] : {std::array{middle, middle}, {middle, 0}, {0, middle}})
+  const std::array<std::pair<int, int>, 3> tested{{{middle, middle}, {middle, 0}, {0, middle}}};
+  for (const auto& [x, y] : tested)
     if (std::abs(mixed(x, y) - lightAt(left + x, top + y)) > kMaxLightError) return false;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)

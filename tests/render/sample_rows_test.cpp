@@ -40,9 +40,10 @@ TEST_CASE("a sample has the nearest triangle") {
       for (uint32_t i = 0; i < triangles.size(); ++i) rows.draw(i, triangles[i]);
       for (int row = 8; row < 72; ++row)
         for (int column = 0; column < 80; ++column) {
-          const auto [index, depth] = nearestAt(triangles, rows.placeOf(column, row));
-          CHECK_EQ(rows.indexAt(column, row), index);
-          if (index != kNoSample) CHECK_EQ(rows.depthAt(column, row), doctest::Approx(depth).epsilon(1e-5));
+          const std::pair<uint32_t, double> nearest = nearestAt(triangles, rows.placeOf(column, row));
+          CHECK_EQ(rows.indexAt(column, row), nearest.first);
+          if (nearest.first == kNoSample) continue;
+          CHECK_EQ(rows.depthAt(column, row), doctest::Approx(nearest.second).epsilon(1e-5));
         }
     }
 }

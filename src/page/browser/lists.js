@@ -48,7 +48,7 @@ function partList(mesh, index, hasOthers, visits) {
     const swatch = made('i', {});
     swatch.style.background = cssColour(colourOfPart(part.label));
     return made('li', { className: 'row' }, link({ id: `part-${index}-${i}`, className: 'place' }, visits && (() => visits.part(index, part)), swatch,
-      made('strong', {}, String(part.label)), made('small', {}, `${formatShare(part.area / total)} of the surface${part.median === null ? '' : ` · diameter ${formatValue(part.median)}`}`)));
+      made('strong', {}, String(part.label)), made('small', {}, `${formatShare(part.area / total)}${part.median === null ? ' of the surface' : ` · diameter ${formatValue(part.median)}`}`)));
   });
   return rows.length ? [...heading(mesh, hasOthers), ...shortened(rows, 50, made('ol', { className: 'rows' }), 'parts')] : [];
 }
