@@ -44,6 +44,7 @@ void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fiel
                const RunControl& control) {
   if (std::optional<ShownPlaces> shown = shownPlaces(result.report))
     texts.thin = {.shown = *std::move(shown), .surface = result.thinSurface};
+  texts.least = leastPlace(result.report);
   texts.up = view.up ? nameOf(kUps, *view.up) : "auto";
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;
