@@ -23,7 +23,7 @@
 // with an Error: message is the sentence of the program, with a remedy if there is one; code is the code of a failure in
 // docs/formats.md, for example 'unreadableInput'.
 
-import { bytesOfBase64 } from './decode.js';
+import { bytesOfBase64 } from '../../page/browser/decode.js';
 
 async function unpackedElement(id) {
   const packed = bytesOfBase64(document.getElementById(id).textContent);
