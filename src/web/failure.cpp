@@ -32,10 +32,11 @@ PageFailure currentPageFailure() {
       if (code == error.code()) message += fmt::format("; {}", remedy);
     return {nameOf(error.code()), oneLine(message)};
   } catch (const std::bad_alloc&) {
-    return {nameOf(ErrorCode::InputTooLarge),
-            fmt::format("not enough memory for this mesh; meshes of at most {} usually fit; use the program asdf-vk, or "
-                        "a coarser mesh",
-                        counted(kMaxPageTriangleCount, "triangle"))};
+    return {
+        nameOf(ErrorCode::InputTooLarge),
+        fmt::format("not enough memory for this mesh; meshes of at most {} usually fit; use the program asdf-vk, or "
+                    "a coarser mesh",
+                    counted(kMaxPageTriangleCount, "triangle"))};
   } catch (const std::exception& error) {
     return {"internal", oneLine(fmt::format("internal error: {}; please report it", error.what()))};
   } catch (...) {

@@ -129,8 +129,7 @@ Page PageSession::page() const {
   PageTexts texts{.name = mesh.name,
                   .label = labelInPage(mesh.name, settings, result.report),
                   .report = reportTexts(result.report, true, kSpelling)};
-  addResult(page, std::move(texts), result, shownFields(result, settings.options),
-            viewOf({}, mesh.name, result, true));
+  addResult(page, std::move(texts), result, shownFields(result, settings.options), viewOf({}, mesh.name, result, true));
   return page;
 }
 

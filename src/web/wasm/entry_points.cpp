@@ -46,7 +46,8 @@ const char* answerOf(const Work& work) {
 Json results() {
   Module& all = module();
   all.page.emplace(all.session.page());
-  return {{"report", all.session.report()}, {"data", all.page->data()}, {"arrayCount", all.page->arrays().all().size()}};
+  return {
+      {"report", all.session.report()}, {"data", all.page->data()}, {"arrayCount", all.page->arrays().all().size()}};
 }
 
 }  // namespace
