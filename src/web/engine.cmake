@@ -2,7 +2,7 @@
 # function makeModule(). The module has up to 4 GB of memory. If it is used up, operator new throws as in the program.
 add_executable(asdfvk-engine web/wasm/entry_points.cpp)
 target_link_libraries(asdfvk-engine PRIVATE asdfvk-web)
-target_link_options(asdfvk-engine PRIVATE --no-entry -O3 --profiling-funcs -sENVIRONMENT=worker -sMODULARIZE -sEXPORT_NAME=makeModule
+target_link_options(asdfvk-engine PRIVATE --no-entry -O3 -sENVIRONMENT=worker -sMODULARIZE -sEXPORT_NAME=makeModule
                     -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB -sABORTING_MALLOC=0 -sSTACK_SIZE=8MB -sWASM_BIGINT
                     -sDYNAMIC_EXECUTION=0 -sFORCE_FILESYSTEM
                     -sEXPORTED_FUNCTIONS=_malloc,_free

@@ -25,8 +25,6 @@
 namespace asdfvk {
 namespace {
 
-constexpr OptionSpelling kSpelling = OptionSpelling::CamelCase;
-
 ComputationSettings settingsOf(const Json& options) {
   SettingsWithRows all;
   complete(all.computation, setOptions({&all.ofComputation, 1}, options));
@@ -115,7 +113,7 @@ Json PageSession::report() const {
   const Opened& mesh = opened();
   const Result result = mesh.result();
   Report report = result.report;
-  for (Warning& warning : report.warnings) warning.message = textWarning(warning, kSpelling);
+  for (Warning& warning : report.warnings) warning.message = textWarning(warning, OptionSpelling::Flag);
   Json json{{"mesh", mesh.name}};
   json.update(resultJson(report, result.fields, mesh.settings(), settings_));
   return json;
@@ -128,7 +126,7 @@ Page PageSession::page() const {
   Page page = emptyPage();
   PageTexts texts{.name = mesh.name,
                   .label = labelInPage(mesh.name, settings, result.report),
-                  .report = reportTexts(result.report, true, kSpelling)};
+                  .report = reportTexts(result.report, true, OptionSpelling::Flag)};
   addResult(page, std::move(texts), result, shownFields(result, settings.options), viewOf({}, mesh.name, result, true));
   return page;
 }

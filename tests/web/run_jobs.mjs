@@ -1,6 +1,6 @@
 // Runs jobs with the engine:  node run_jobs.mjs BUILD_FOLDER < jobs.json
 // jobs.json: a list of { files, unit, check, compute, save }. files: paths, the mesh first. check, compute: options; a call
-// without options is left out. save: paths of results. Prints one line of JSON per job: { mesh, reports, seconds } or
+// without options is left out. save: paths of results. Prints one line of JSON per job: { mesh, seconds } or
 // { error, code }.
 
 import { readFile, writeFile } from 'node:fs/promises';
@@ -19,11 +19,10 @@ async function runJob(engine, { files, unit, check, compute, save = [] }) {
   };
   const read = await Promise.all(files.map(async (path) => ({ name: basename(path), bytes: await readFile(path) })));
   const mesh = await timed('open', () => engine.open(read, { unit }));
-  const reports = {};
-  if (check) reports.check = (await timed('check', () => engine.check(check))).report;
-  if (compute) reports.compute = (await timed('compute', () => engine.compute(compute))).report;
+  if (check) await timed('check', () => engine.check(check));
+  if (compute) await timed('compute', () => engine.compute(compute));
   for (const path of save) await writeFile(path, await engine.save(extname(path).slice(1)));
-  return { mesh, reports, seconds };
+  return { mesh, seconds };
 }
 
 const engine = await startNodeEngine(process.argv[2]);
