@@ -4,33 +4,18 @@
 
 #include <exception>
 #include <new>
-#include <string_view>
-#include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "describe/remedies.h"
 #include "web/mesh_limit.h"
 
 namespace asdfvk {
-namespace {
-
-/// Remedies in a page, which has no options of the command line.
-constexpr std::pair<ErrorCode, std::string_view> kPageRemedies[]{
-    {ErrorCode::NoValues, "the faces may be turned inside out; export the mesh again with outward faces"},
-    {ErrorCode::MeshTooLarge, "split the mesh"},
-    {ErrorCode::TooManyFaces, "the program asdf-vk has the option --max-faces"},
-};
-
-}  // namespace
-
 PageFailure currentPageFailure() {
   try {
     throw;
   } catch (const Error& error) {
-    std::string message = error.what();
-    for (const auto& [code, remedy] : kPageRemedies)
-      if (code == error.code()) message += fmt::format("; {}", remedy);
-    return {nameOf(error.code()), oneLine(message)};
+    return {nameOf(error.code()), oneLine(messageWithRemedy(error))};
   } catch (const std::bad_alloc&) {
     return {
         nameOf(ErrorCode::InputTooLarge),

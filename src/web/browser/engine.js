@@ -72,7 +72,9 @@ class Engine {
   }
 
   compute(options = {}, onProgress = null) {
-    return this.#call('compute', [options], onProgress);
+    const { segment, ...others } = options;
+    if (segment) others.segment = segment === true ? 'parts' : segment;
+    return this.#call('compute', [others], onProgress);
   }
 
   save(format) {
