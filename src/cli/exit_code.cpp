@@ -63,7 +63,8 @@ Failure currentFailure(bool requiresGpu, const std::string& valueOptions) {
   try {
     throw;
   } catch (const Error& error) {
-    return {exitCodeOf(error.kind()), oneLine(messageWithRemedy(error, requiresGpu, valueOptions)), nameOf(error.code())};
+    return {exitCodeOf(error.kind()), oneLine(messageWithRemedy(error, requiresGpu, valueOptions)),
+            nameOf(error.code())};
   } catch (const std::bad_alloc&) {
     return {ExitCode::Input, "not enough memory for this mesh; use a machine with more memory or a coarser mesh",
             nameOf(ErrorCode::InputTooLarge)};

@@ -11,6 +11,7 @@
 #include "web/mesh_limit.h"
 
 namespace asdfvk {
+
 PageFailure currentPageFailure() {
   try {
     throw;
