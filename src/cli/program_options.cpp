@@ -129,8 +129,8 @@ OptionRows outputRows(Outputs& outputs) {
                 .defaultText = "30,18 (for thin places the view that shows them best)"},
       OptionRow{.name = "picture-up",
                 .member = memberAs<AutoChoiceCodec<kUps>>(&outputs.pictureView.up),
-                .text = "Up axis of the picture. auto: z for STL and 3MF; for other formats y, or another axis if only "
-                        "on that axis the mesh stands stably",
+                .text = "Up axis of the picture. auto: z for STL and 3MF, usually y for GLB, OBJ and OFF, and z "
+                        "for other formats; another axis if only on that axis the mesh stands stably",
                 .needs = "picture"},
   });
 }

@@ -42,7 +42,7 @@ constexpr std::array kFields{
              .isComputed = postprocesses,
              .meaning = "post-processed value, from 0 to 1 ([segmentation.md](segmentation.md))"},
     FieldRow{.name = "segment",
-             .label = "segments",
+             .label = "parts",
              .type = FieldType::Label,
              .needs = "{segment}",
              .isComputed = segments,

@@ -48,4 +48,27 @@ std::optional<ShownPlaces> shownPlaces(const Report& report) {
   return shown;
 }
 
+std::optional<LeastPlace> leastPlace(const Report& report) {
+  std::optional<LeastPlace> least;
+  bool hasFailed = false;
+  for (const std::optional<ThicknessReport>* const measured : {&report.thickness, &report.gap}) {
+    if (!*measured || !(*measured)->minFace || !(*measured)->minPlace || !(*measured)->minOpposite) continue;
+    const ThicknessReport& thickness = **measured;
+    const bool fails = thickness.verdict == ThicknessVerdict::Failed;
+    if (least && (hasFailed || !fails)) continue;
+    hasFailed = fails;
+    const auto region = std::find_if(thickness.regions.begin(), thickness.regions.end(), [&](const ThinRegion& each) {
+      return each.minFace == *thickness.minFace && each.min == thickness.min;
+    });
+    least = {.kind = region != thickness.regions.end() ? nameOf(region->kind)
+                     : thickness.isOfGaps              ? "gap"
+                                                       : "wall",
+             .value = thickness.min,
+             .face = *thickness.minFace,
+             .place = *thickness.minPlace,
+             .opposite = *thickness.minOpposite};
+  }
+  return least;
+}
+
 }  // namespace asdfvk

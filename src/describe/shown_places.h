@@ -25,4 +25,15 @@ struct ShownPlaces {
 /// Empty if nothing was compared with a limit.
 [[nodiscard]] std::optional<ShownPlaces> shownPlaces(const Report& report);
 
+/// The place of ThicknessReport::min.
+struct LeastPlace {
+  const char* kind = "";  ///< The kind as a word: "wall", "gap", "detail" or "edge".
+  double value = 0;
+  uint64_t face = 0;
+  Vec3d place, opposite;
+};
+
+/// The least place of the comparison that failed, else that of the thickness, else that of gaps.
+[[nodiscard]] std::optional<LeastPlace> leastPlace(const Report& report);
+
 }  // namespace asdfvk

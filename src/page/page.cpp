@@ -59,6 +59,12 @@ Json describe(const PageTexts& texts) {
   json["errorSentence"] = texts.report.errorSentence;
   json["warnings"] = texts.report.warnings;
   json["defects"] = texts.report.defects;
+  if (const std::optional<LeastPlace>& least = texts.least)
+    json["least"] = {{"kind", least->kind},
+                     {"value", number(least->value)},
+                     {"face", least->face},
+                     {"place", arrayOf(least->place)},
+                     {"opposite", arrayOf(least->opposite)}};
   json["segments"] = Json::array();
   for (const PageSegment& segment : texts.segments)
     json["segments"].push_back({{"label", segment.label},

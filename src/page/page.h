@@ -38,6 +38,7 @@ struct PageTexts {
   std::string up = "y";                               ///< Upright axis of the first view: x, y, z, -x, -y or -z.
   double azimuthDegrees = 30, elevationDegrees = 18;  ///< Direction of the first view.
   std::optional<PageThinPlaces> thin;                 ///< Unset without a limit.
+  std::optional<LeastPlace> least;                    ///< Unset if no wall or gap was found.
   std::vector<PageSegment> segments;
   std::vector<char> picture;  ///< PNG file for browsers without WebGL 2; may be empty.
 };

@@ -42,6 +42,7 @@ void writePage(AtomicFiles& files, const std::filesystem::path& path, const Page
 void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view) {
   if (std::optional<ShownPlaces> shown = shownPlaces(result.report))
     texts.thin = {.shown = *std::move(shown), .surface = result.thinSurface};
+  texts.least = leastPlace(result.report);
   texts.up = view.up ? nameOf(kUps, *view.up) : "auto";
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;

@@ -93,14 +93,15 @@ double standingShare(std::span<const Vec3d> points, Up up) {
   return stands ? share : -share;
 }
 
-Up guessUp(std::span<const Vec3d> points) {
+Up guessUp(std::span<const Vec3d> points, Up usual) {
   // Likely directions come first, because some shapes are even more stable upside down, for example a table.
-  constexpr std::array<Up, 5> kOthers{Up::Z, Up::MinusY, Up::MinusZ, Up::X, Up::MinusX};
+  std::array<Up, 5> others{Up::Z, Up::MinusY, Up::MinusZ, Up::X, Up::MinusX};
+  if (usual == Up::Z) others = {Up::Y, Up::MinusZ, Up::MinusY, Up::X, Up::MinusX};
   constexpr double kBad = 0.05, kGood = 0.2;
-  if (standingShare(points, Up::Y) > kBad) return Up::Y;
+  if (standingShare(points, usual) > kBad) return usual;
   const auto* found =
-      std::find_if(kOthers.begin(), kOthers.end(), [&](Up other) { return standingShare(points, other) > kGood; });
-  return found == kOthers.end() ? Up::Y : *found;
+      std::find_if(others.begin(), others.end(), [&](Up other) { return standingShare(points, other) > kGood; });
+  return found == others.end() ? usual : *found;
 }
 
 Camera frameCamera(std::span<const Vec3d> points, const View& view, const PixelArea& area) {

@@ -28,10 +28,10 @@ struct View {
 /// outside of the hull.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// A direction in which the points are stable: Y is tested first, then Z, then the others. Returns Y if no direction is
-/// stable. Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of
-/// Man-Made Objects).
-[[nodiscard]] Up guessUp(std::span<const Vec3d> points);
+/// A direction in which the points are stable: `usual`, Y or Z, is tested first, then the other one of these, then the
+/// others. Returns `usual` if no direction is stable. Static stability is the simplest criterion of Fu, Cohen-Or, Dror
+/// and Sheffer 2008 (Upright Orientation of Man-Made Objects).
+[[nodiscard]] Up guessUp(std::span<const Vec3d> points, Up usual = Up::Y);
 
 /// A part of the picture, in pixels from its top left corner.
 struct PixelArea {

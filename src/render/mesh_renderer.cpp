@@ -8,15 +8,16 @@
 #include "core/point2.h"
 #include "core/vec3.h"
 #include "render/corner_normals.h"
+#include "render/light_blocks.h"
 #include "render/sample_rows.h"
 #include "render/sky_light.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr int kSamples = 4;         ///< Samples per side of a pixel.
-constexpr int kBandRows = 256;      ///< Rows of samples in a band. Every band reads all faces.
-constexpr size_t kBandsAtOnce = 4;  ///< Bands between two checkpoints.
+constexpr int kSamples = 4;          ///< Samples per side of a pixel.
+constexpr int kBandRows = 64;        ///< Rows of samples in a band, so few that they stay in the cache.
+constexpr size_t kBandsAtOnce = 16;  ///< Bands between two checkpoints.
 /// Share of the alarm colour in the colour of faces that hide alarming triangles.
 constexpr double kThroughShare = 0.45;
 static_assert(kBandRows % kSamples == 0);
@@ -41,21 +42,28 @@ class MeshRenderer {
     faces_.drawOn(mesh);
     std::optional<SampleRows> alarming;
     if (!alarming_.empty()) drawSurface(alarming.emplace(width, top, bottom, kSamples), alarming_);
+    LightBlocks lights(light_, image_.width(), bottom / kSamples - top / kSamples, grid_.camera.pixelSize);
     for (int y = top / kSamples; y < bottom / kSamples; ++y)
-      for (int x = 0; x < image_.width(); ++x) drawPixel(x, y, mesh, alarming);
+      for (int x = 0; x < image_.width(); ++x) {
+        const int column = kSamples * x + kSamples / 2, row = kSamples * y + kSamples / 2;
+        if (const uint32_t face = mesh.indexAt(column, row); face != kNoSample)
+          lights.set(x, y - top / kSamples, pointAt(face, mesh.placeOf(column, row)));
+      }
+    lights.fill();
+    for (int y = top / kSamples; y < bottom / kSamples; ++y)
+      for (int x = 0; x < image_.width(); ++x) drawPixel(x, y, mesh, alarming, lights.at(x, y - top / kSamples));
   }
   [[nodiscard]] int rowCount() const { return kSamples * image_.height(); }
 
  private:
-  struct LitPoint {
-    Vec3d position, normal;
-    double light = 0;
-  };
-
-  void drawPixel(int x, int y, const SampleRows& mesh, const std::optional<SampleRows>& alarming) const {
+  /// lit: the point at a sample of the pixel; null if this sample has no face.
+  void drawPixel(int x, int y, const SampleRows& mesh, const std::optional<SampleRows>& alarming,
+                 const LitPoint* lit) const {
+    if (drawWholePixel(x, y, mesh, alarming, lit)) return;
     const Vec3d behind = toLinear(image_.at(x, y)), alarm = toLinear(kAlarm);
-    std::array<LitPoint, kSamples * kSamples> points;
+    std::array<LitPoint, kSamples * kSamples + 1> points;
     size_t pointCount = 0;
+    if (lit != nullptr) points[pointCount++] = *lit;
     bool isEmpty = true;
     Vec3d sum;
     for (int row = kSamples * y; row < kSamples * (y + 1); ++row)
@@ -75,6 +83,18 @@ class MeshRenderer {
     if (!isEmpty) image_.at(x, y) = toRgb(sum / double{kSamples * kSamples});
   }
 
+  /// Draws a pixel that shows only one face, or none. Returns false for other pixels.
+  bool drawWholePixel(int x, int y, const SampleRows& mesh, const std::optional<SampleRows>& alarming,
+                      const LitPoint* lit) const {
+    const uint32_t face = mesh.indexAt(kSamples * x, kSamples * y);
+    for (int row = kSamples * y; row < kSamples * (y + 1); ++row)
+      for (int column = kSamples * x; column < kSamples * (x + 1); ++column)
+        if (mesh.indexAt(column, row) != face || (alarming && alarming->indexAt(column, row) != kNoSample))
+          return false;
+    if (face != kNoSample) image_.at(x, y) = toRgb(toLinear(faceColours_[face]) * lit->light);
+    return true;
+  }
+
   [[nodiscard]] LitPoint pointAt(uint32_t face, const Point2& place) const {
     const std::array<Projected, 3> corners = faces_.cornersOf(face);
     const std::array<double, 3> shares = cornerShares(corners, place);
@@ -91,7 +111,7 @@ class MeshRenderer {
   }
 
   /// The light at a sample. Samples that are near each other on a smooth surface share the light of the first of them.
-  [[nodiscard]] double lightOf(LitPoint point, std::array<LitPoint, kSamples * kSamples>& points,
+  [[nodiscard]] double lightOf(LitPoint point, std::array<LitPoint, kSamples * kSamples + 1>& points,
                                size_t& pointCount) const {
     constexpr double kMinCosine = 0.995, kMaxDistance = 3;  // In pixels.
     for (size_t i = 0; i < pointCount; ++i)

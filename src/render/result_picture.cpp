@@ -78,9 +78,10 @@ View viewOf(const View& requested, const std::string& input, const Result& resul
   const TraceScene& scene = result.scene->scene;
   if (!view.up) {
     const FileFormat* const format = formatOfExtension(meshExtension(input));
-    view.up = format != nullptr && (format->name == "stl" || format->name == "3mf")
-                  ? Up::Z
-                  : guessUp(verticesOfHitFaces(scene));
+    const std::string_view name = format != nullptr ? format->name : "";
+    const bool isOfPrinters = name == "stl" || name == "3mf",
+               isOfModels = name == "glb" || name == "obj" || name == "off";
+    view.up = isOfPrinters ? Up::Z : guessUp(verticesOfHitFaces(scene), isOfModels ? Up::Y : Up::Z);
   }
   const ThinSurface& surface = result.thinSurface;
   return findsThin && comparesThickness(result) ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;

@@ -26,8 +26,8 @@ inline constexpr PictureStyle kSmallPicture{.width = 480, .height = 360, .textSc
 [[nodiscard]] const Field* shownField(const Result& result);
 
 /// The requested view with an up direction. If the requested view has no up direction, the direction is z for an
-/// `input` in STL or 3MF, and guessUp() for other formats. If findsThin, bestViewOf() chooses the angles for the thin
-/// places. Precondition: result.scene is set.
+/// `input` in STL or 3MF, and that of guessUp() for other formats: usually y for GLB, OBJ and OFF, else z. If
+/// findsThin, bestViewOf() chooses the angles for the thin places. Precondition: result.scene is set.
 [[nodiscard]] View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin);
 
 /// Renders the mesh of a result, coloured by a field per input face with one component, or with its thin places if

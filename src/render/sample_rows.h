@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -42,13 +43,20 @@ struct SampleGrid {
 
 inline constexpr uint32_t kNoSample = 0xffffffff;
 
+/// A rectangle of samples, in units of samples, and the depth of its nearest point.
+struct SampleBox {
+  double left = 0, top = 0, right = 0, bottom = 0, nearest = 0;
+};
+
 /// The samples of the rows [top, bottom). For each sample, stores the nearest of the drawn triangles and the depth of
-/// this triangle. Each sample has a square of its pixel. With one sample per pixel, the sample is at the centre of its
+/// this triangle. Triangles behind the samples of whole tiles cost little, so the nearest triangles should be drawn
+/// first. Each sample has a square of its pixel. With one sample per pixel, the sample is at the centre of its
 /// square. With several samples per pixel, the samples are on a rotated grid, so that all of them differ in x and in y.
 /// This smooths edges that are nearly vertical or horizontal.
 class SampleRows {
  public:
-  SampleRows(int width, int top, int bottom, int perSide = 1);
+  /// perSide: a power of two. keepsIndices: if false, only depths are stored.
+  SampleRows(int width, int top, int bottom, int perSide = 1, bool keepsIndices = true);
 
   [[nodiscard]] Point2 placeOf(int column, int row) const {
     const double middle = (perSide_ - 1) / 2.0;
@@ -56,6 +64,9 @@ class SampleRows {
   }
 
   void draw(uint32_t index, const std::array<Projected, 3>& corners);
+
+  /// Whether the box is outside of the rows, or behind all their samples. May be false for a box that is hidden.
+  [[nodiscard]] bool hides(const SampleBox& box);
 
   [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
   /// Depth of a sample; minus infinity if the sample has no triangle.
@@ -67,9 +78,29 @@ class SampleRows {
     return static_cast<size_t>(row - top_) * static_cast<size_t>(width_) + static_cast<size_t>(column);
   }
 
-  int width_, top_, bottom_, perSide_;
+  /// The depth of the farthest sample, or a lower bound of it after `writeCount` changes of samples.
+  struct Tile {
+    float farthest = -kInfinity;
+    int writeCount = 0;
+  };
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+  /// Depth as a function of the column, within the depths of a triangle.
+  struct DepthLine {
+    double atZero, perColumn, farthest, nearest;
+  };
+
+  [[nodiscard]] bool isHidden(int tileColumn, int tileRow, float nearest);
+  /// Draws every perSide_-th sample of the columns from first to second. Returns the number of changed samples.
+  int drawRow(uint32_t index, int row, std::pair<int, int> columns, const DepthLine& line);
+  [[nodiscard]] size_t tileAt(int tileColumn, int tileRow) const {
+    return static_cast<size_t>(tileRow) * static_cast<size_t>(tileColumns_) + static_cast<size_t>(tileColumn);
+  }
+
+  int width_, top_, bottom_, perSide_, tileColumns_;
   std::vector<float> depths_;
   std::vector<uint32_t> indices_;
+  std::vector<Tile> tiles_;
 };
 
 /// Whether `surface` has a sample that is not behind that of `mesh`, up to rounding.
@@ -98,12 +129,14 @@ class ProjectedFaces {
     const auto& [a, b, c] = scene_.mesh.faces[face];
     return {vertices_[a], vertices_[b], vertices_[c]};
   }
-  void drawOn(SampleRows& rows) const {
-    for (const uint32_t face : scene_.bvh.primitiveFaces) rows.draw(face, cornersOf(face));
-  }
+  /// Draws the faces, roughly the nearest first, and leaves out those in hidden nodes of the hierarchy.
+  void drawOn(SampleRows& rows) const;
 
  private:
+  [[nodiscard]] SampleBox boxOf(const BvhNode& node) const;
+
   const TraceScene& scene_;
+  SampleGrid grid_;
   std::vector<Projected> vertices_;
 };
 

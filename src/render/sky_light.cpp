@@ -21,7 +21,8 @@ constexpr double kSkyReach = 0.9;      ///< Surfaces farther away cast no shadow
 constexpr int kMinSkyCount = 16, kMaxSkyCount = 96, kSkyPerLamp = 4;
 /// Limit on the number of faces drawn into all depth maps of the sky, divided by the side of a map in texels.
 constexpr size_t kFacesPerTexel = 48'000;
-constexpr int kMaxMapSide = 512;  ///< Greatest side of a depth map, in texels.
+constexpr double kMaxDepth = 65500;  ///< Greatest number of Source::depths, less a margin for rounding.
+constexpr int kMaxMapSide = 512;     ///< Greatest side of a depth map, in texels.
 /// Distance in texels by which points are lifted from their surface, so that no plane shadows itself. The distance is
 /// above sqrt(2), because a point is compared with texels at distances of up to sqrt(2).
 constexpr double kLift = 1.6;
@@ -40,6 +41,8 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
   const BvhNode& root = scene.bvh.nodes[0];
   const Box3d box{Vec3d(root.min), Vec3d(root.max)};
   texelSize_ = box.diagonal() / (mapSide_ - 6);
+  leastDepth_ = -box.diagonal() / 2;
+  depthStep_ = box.diagonal() / kMaxDepth;
   const auto addSource = [&](const Vec3d& direction, double radiance, double reach) {
     const ConeFrame frame = coneFrame(direction);
     const Camera view{.right = frame.tangent,
@@ -73,9 +76,13 @@ SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSid
     control.checkpoint(static_cast<double>(begin) / static_cast<double>(sources_.size()));
     forEachTask(std::min(kMapsAtOnce, sources_.size() - begin), [&](size_t i) {
       Source& source = sources_[begin + i];
-      SampleRows map(mapSide_, 0, mapSide_);
+      SampleRows map(mapSide_, 0, mapSide_, 1, false);
       ProjectedFaces(scene, source.grid).drawOn(map);
-      source.depths = std::move(map).takeDepths();
+      const std::vector<float> depths = std::move(map).takeDepths();
+      source.depths.resize(depths.size());
+      const auto scale = static_cast<float>(1 / depthStep_), offset = static_cast<float>(1 - leastDepth_ / depthStep_);
+      for (size_t texel = 0; texel < depths.size(); ++texel)
+        source.depths[texel] = static_cast<uint16_t>(static_cast<int>(std::max(0.0F, depths[texel] * scale + offset)));
     });
   }
 }
@@ -84,8 +91,9 @@ double SkyLight::litShare(const Source& source, const Vec3d& point) const {
   const Projected p = source.grid.project(point);
   const double left = std::floor(p.x - 0.5), top = std::floor(p.y - 0.5);
   const auto column = static_cast<size_t>(left), row = static_cast<size_t>(top);
+  const double depth = p.depth - leastDepth_ + depthStep_;
   const auto shareAt = [&](size_t x, size_t y) {
-    const double before = double(source.depths[y * static_cast<size_t>(mapSide_) + x]) - p.depth;
+    const double before = source.depths[y * static_cast<size_t>(mapSide_) + x] * depthStep_ - depth;
     return before <= 0 ? 1.0 : std::min(1.0, before / source.reach);
   };
   const double x = p.x - 0.5 - left, y = p.y - 0.5 - top;

@@ -24,8 +24,8 @@ class SkyLight {
   struct Source {
     SampleGrid grid;
     double radiance = 0;
-    double reach = 0;           ///< The shadow of a surface fades over this distance and ends there.
-    std::vector<float> depths;  ///< For each texel, the depth of the surface that is nearest to the light.
+    double reach = 0;              ///< The shadow of a surface fades over this distance and ends there.
+    std::vector<uint16_t> depths;  ///< For each texel, the depth of the surface that is nearest to the light.
   };
 
   /// Share of the light that reaches the point, interpolated bilinearly between texels. The share is below 1 if the
@@ -35,6 +35,7 @@ class SkyLight {
   Vec3d toViewer_;
   int mapSide_;  ///< In texels.
   double texelSize_ = 0;
+  double depthStep_ = 0, leastDepth_ = 0;  ///< Unit of Source::depths, and the depth of the number 1; 0 is no surface.
   std::vector<Source> sources_;
 };
 

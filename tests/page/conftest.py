@@ -76,10 +76,22 @@ def cavities(files):
     files.run("cavities.stl", "-o", "cavities.html", "--thinner-than", 0.8)
     files.run("cavities.stl", "-o", "thick.html", "--thinner-than", 0.4)
     files.run("cavities.stl", "-o", "voids.html", "--closer-than", 0.4)
+    # A plate of 0.5 on a block, and a wedge.
+    write_stl(files.folder / "wall.stl", [((0, 0, 0), (20, 10, 6)), ((6, 3, 0.5), (14, 7, 5))])
+    files.run("wall.stl", "-o", "wall.html", "--thinner-than", 0.8)
+    write_ply(files.folder / "wedge.ply", numpy.array([[0, 0, 0], [20, 0, 0], [20, 0, 18], [0, 20, 0], [20, 20, 0], [20, 20, 18]], "f4"),
+              numpy.array([[0, 1, 2], [3, 5, 4], [0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2], [0, 2, 5], [0, 5, 3]], "i4"))
+    files.run("wedge.ply", "-o", "wedge.html", "--thinner-than", 0.8)
     write_ply(files.folder / "plate.ply", numpy.array([[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0], [4, 4, 0.5]], "f4"),
               numpy.array([[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], "i4"))
     files.run("cavities.stl", "plate.ply", "-o", "two.html", "--thinner-than", 0.8)
-    return {name: files.address(f"{name}.html") for name in ("cavities", "thick", "voids", "two")}
+    return {name: files.address(f"{name}.html") for name in ("cavities", "thick", "voids", "wall", "wedge", "two")}
+
+
+@pytest.fixture(scope="session")
+def parts(files):
+    files.run("animal.ply", "-o", "parts.html", "--segment", "--seeds", "10%")
+    return files.address("parts.html")
 
 
 @pytest.fixture(scope="session")

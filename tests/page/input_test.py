@@ -88,9 +88,9 @@ def test_png(page, tmp_path):
     [path] = tmp_path.glob("*.png")
     assert path.name == "animal.png"
     picture = Image.open(path).convert("RGB")
-    assert picture.size == (view.size[0] + 168, view.size[1])
+    assert picture.size == (view.size[0], view.size[1] + 84)
     assert difference(picture.crop((0, 0, *view.size)), view) < 0.01
-    assert drawn_share(picture.crop((view.size[0], 0, *picture.size))) > 0.02
+    assert drawn_share(picture.crop((0, view.size[1], *picture.size))) > 0.02
 
 
 def test_address_keeps_the_state(page, open_page, animal):
@@ -117,6 +117,7 @@ def test_address_keeps_the_state(page, open_page, animal):
 
 
 def test_keyboard_reaches_everything(page):
+    page.js("document.getElementById('tab-more').click()")
     wanted = page.js("""[...document.querySelectorAll('button, input, select, summary, [tabindex]')]
         .filter((e) => e.checkVisibility() && !e.matches(':disabled')).map((e) => e.id || e.textContent)""")
     reached, unseen = [], []

@@ -98,10 +98,15 @@ TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
   ThinSurface& surface = texts.thin->surface;
   surface.triangles = {{p, q, r}, {q, p, (p + q) * 0.5 + (r - p) * 0.25}};
   surface.regions = {1, 0};
+  texts.least = {.kind = "wall", .value = 0.25, .face = 4, .place = {1, 2, 3}, .opposite = {1, 2, 3.25}};
   Page page("test");
   page.add(cube, {}, std::move(texts));
   const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
   const auto& mesh = decoded.json["meshes"][0];
+  CHECK_EQ(mesh["least"]["kind"], "wall");
+  CHECK_EQ(mesh["least"]["value"], 0.25);
+  CHECK_EQ(mesh["least"]["face"], 4);
+  CHECK_EQ(mesh["least"]["opposite"][2], 3.25);
   CHECK_EQ(mesh["thin"]["limit"], 0.5);
   CHECK_EQ(mesh["thin"]["verdict"], "failed");
   CHECK_EQ(mesh["thin"]["regions"][1]["face"], 7);

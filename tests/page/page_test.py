@@ -14,7 +14,7 @@ def test_first_frame(page, animal):
     assert 0.04 < drawn_share(picture) < 0.9
     assert page.js("document.querySelector('#summary-0 tbody').rows.length") > 3
     assert page.js("document.getElementById('fallback').hidden")
-    assert "animal.ply" in page.text("title")
+    assert "animal.ply" in page.text("details") and "animal.ply" in page.js("document.title")
     assert page.js("document.getElementById('view').getAttribute('aria-label')").startswith("3D view of animal.ply")
 
 
@@ -93,7 +93,7 @@ def test_lost_context(page):
 
 def test_one_face_without_value(open_page, one_face):
     page = open_page(one_face)
-    assert "onerror" in page.text("title") and page.js("document.querySelectorAll('main img').length") <= 1
+    assert "onerror" in page.text("details") and "onerror" in page.js("document.title") and page.js("document.querySelectorAll('main img').length") <= 1
     assert drawn_share(settled_view(page)) > 0.01
     assert "no face has a value" in page.js("document.querySelector('#legend canvas').getAttribute('aria-label')")
     left, top, width, height = box_of(page, "view")

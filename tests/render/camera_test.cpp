@@ -110,13 +110,17 @@ TEST_CASE("points are stable if their mean is above the hull of the lowest ones"
   CHECK_EQ(standingShare({}, Up::Y), 0);
 }
 
-TEST_CASE("the up direction is y unless the points are unstable") {
+TEST_CASE("the up direction is the usual one unless the points are unstable") {
   CHECK(guessUp(boxCorners({}, {1, 1, 1})) == Up::Y);
   CHECK(guessUp({}) == Up::Y);
   CHECK(guessUp(table(1, 1)) == Up::Y);
   CHECK(guessUp(table(2, 1)) == Up::Z);
   CHECK(guessUp(table(0, 1)) == Up::X);
   CHECK(guessUp(table(1, -1)) == Up::Y);  // Stable on its top.
+  CHECK(guessUp(boxCorners({}, {1, 1, 1}), Up::Z) == Up::Z);
+  CHECK(guessUp({}, Up::Z) == Up::Z);
+  CHECK(guessUp(table(2, 1), Up::Z) == Up::Z);
+  CHECK(guessUp(table(0, 1), Up::Z) == Up::X);
   // // Stable in no direction: a spear on its tip.
   CHECK(guessUp(std::vector<Vec3d>{{0, 0, 0}, {0.5, 3, 0}, {-0.2, 3.5, 0.4}, {0.7, 4, -0.4}}) == Up::Y);
 }

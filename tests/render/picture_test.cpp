@@ -92,6 +92,17 @@ TEST_CASE("edges are antialiased, against the background and between colours") {
   CHECK_GE(betweenRedAndPlain, 4);
 }
 
+TEST_CASE("hidden faces change no pixel") {
+  const Mesh outer = generateShape("sphere", 2000).mesh;
+  Mesh both = outer;
+  for (const double scale : {0.95, 0.7, 0.2}) {
+    const auto first = static_cast<uint32_t>(both.vertices.size());
+    for (const Vec3d& vertex : outer.vertices) both.vertices.push_back(vertex * scale);
+    for (const auto& [a, b, c] : outer.faces) both.faces.push_back({first + a, first + b, first + c});
+  }
+  CHECK(renderSmall(both) == renderSmall(outer));
+}
+
 TEST_CASE("light comes from the upper left") {
   const Mesh mesh = generateShape("sphere", 20000).mesh;
   const Image image = renderSmall(mesh);

@@ -23,9 +23,9 @@ export function packedColour(hex) {
 
 export const cssColour = (packed) => `rgb(${packed & 255},${packed >> 8 & 255},${packed >> 16 & 255})`;
 
-export const kAlarmColour = packedColour('d3231b'), kRestColour = packedColour('b9bcc2');
-/** Colour of thin faces behind a grey face of 45 % opacity. */
-export const kBehindColour = packedColour('c76866');
+export const kAlarmColour = packedColour('d3231b'), kRestColour = packedColour('c4c6ca');
+/** Colours of thin faces behind a grey face, and of thin faces that do not count. */
+export const kBehindColour = packedColour('cb8986'), kUncountedColour = (packedColour('e0912b') & 0x80ffffff) >>> 0;  // Half as bright a glow.
 /** Colours of parts by number, as in files and pictures: twelve colours, then darker copies. */
 const kPartColours = [1, 0.75, 0.75 ** 2, 0.75 ** 3].flatMap((light) => stopsOf(kLabelStops).map((colour) => {
   const darker = (shift) => Math.round(light * (colour >> shift & 255)) << shift;

@@ -1,23 +1,13 @@
 // The form. Each element with data-key shows and sets a part of the state.
+import { byId, made } from './elements.js';
 import { formatCount, formatShare, formatValue } from './format.js';
 import { classTitle } from './legend.js';
 import { givenLimit } from './thin_places.js';
 import { kViews } from './camera.js';
 
-const byId = (id) => document.getElementById(id);
-
-/** Makes an element. children: strings or elements. */
-export function made(tag, properties, ...children) {
-  const element = Object.assign(document.createElement(tag), properties);
-  element.append(...children);
-  return element;
-}
-
 export class Controls {
   constructor(viewer, navigation, visits, picture) {
     this.viewer = viewer;
-    this.given = givenLimit(viewer.models);
-    this.fillChoices();
     for (const element of document.querySelectorAll('[data-key]'))
       element.addEventListener(element.type === 'number' ? 'change' : 'input', () => this.read(element));
     const click = (id, action) => byId(id).addEventListener('click', action);
@@ -35,18 +25,22 @@ export class Controls {
       if (!visits.face(index, id, 0)) byId('picked').textContent = `There is no face ${id}.`;
     });
     viewer.store.listeners.push((keys) => this.show(keys));
-    this.show(null);
+    viewer.afterLoad.push(() => this.fill());
   }
 
-  fillChoices() {
+  /** Fills the choices for new models. */
+  fill() {
+    this.given = givenLimit(this.viewer.models);
+    this.shownFace = undefined;
     const { layers, models } = this.viewer;
-    byId('layer').append(...layers.fields.map(({ name, title }) => new Option(title, name)));
+    byId('layer').replaceChildren(...layers.fields.map(({ name, title }) => new Option(title, name)));
     const labels = models.map(({ description }) => description.label || description.name);
     const pairs = models.flatMap((_, a) => models.map((_, b) => [a, b]))
       .filter(([a, b]) => a > b && layers.areComparable(a, b));
-    byId('show').append(new Option('all side by side', 'all'), ...labels.map((label, i) => new Option(label, i)),
+    byId('show').replaceChildren(new Option('all side by side', 'all'), ...labels.map((label, i) => new Option(label, i)),
       ...pairs.map(([a, b]) => new Option(`${labels[a]} minus ${labels[b]}`, `${a}-${b}`)));
     byId('show-row').hidden = models.length < 2;
+    this.show(null);
   }
 
   read(element) {
@@ -72,6 +66,7 @@ export class Controls {
   /** Shows the state in the form. keys: the changed keys of the state; null: all. */
   show(keys) {
     const { viewer } = this, { state } = viewer;
+    if (!viewer.models.length) return;
     if (keys && ![...keys].some((key) => !['az', 'el', 'x', 'y', 'z', 'zoom'].includes(key))) return;
     const { look } = viewer, isNumber = look.kind === 'number' && Boolean(look.range);
     const shown = { ...state, none: `#${state.none}` };

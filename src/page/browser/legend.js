@@ -1,29 +1,18 @@
-// Draws the legend on a canvas of the page or of a saved picture.
-import { colourOfPart, cssColour, kAlarmColour, kBehindColour, kFlagColours, kRestColour, packedColour, tableIndex } from './colour_maps.js';
+// Draws the legend, a strip below the view, on a canvas of the page or of a saved picture.
+import { colourOfPart, cssColour, kAlarmColour, kBehindColour, kFlagColours, kRestColour, kUncountedColour, packedColour, tableIndex } from './colour_maps.js';
 import { formatShare, formatValue, ticksWithin } from './format.js';
 
-const kBarWidth = 18, kTop = 76, kBottom = 40, kLine = 16;
-/** Sizes of the legend. The narrow one has no histogram. */
-export const kWideLegend = { width: 168, barLeft: 58 }, kNarrowLegend = { width: 92, barLeft: 8 };
+export const kLegendHeight = 84;
+const kPadding = 16, kMostLength = 760, kBarTop = 44, kBarHeight = 14, kTitle = 14;
 const kFont = '13px system-ui, sans-serif';
 
-const textLines = (context, text, width) => {
-  const lines = [];
-  for (const word of text.split(' ')) {
-    const longer = lines.length ? `${lines.at(-1)} ${word}` : word;
-    if (lines.length && context.measureText(longer).width <= width) lines[lines.length - 1] = longer;
-    else lines.push(word);
-  }
-  return lines;
-};
-
 /** The colour bar of a legend, with the conversions between values and pixels. */
-export function barOf(axis, height, { barLeft }) {
-  const length = Math.max(height - kTop - kBottom, 40);
+export function barOf(axis, width) {
+  const length = Math.max(Math.min(width - 2 * kPadding, kMostLength), 40), span = axis.high - axis.low;
   return {
-    left: barLeft, width: kBarWidth, top: kTop, length,
-    yOf: (value) => kTop + length * (1 - (value - axis.low) / (axis.high - axis.low)),
-    valueAt: (y) => axis.low + (axis.high - axis.low) * (1 - (y - kTop) / length),
+    left: kPadding, length, top: kBarTop, height: kBarHeight,
+    xOf: (value) => kPadding + length * (value - axis.low) / span,
+    valueAt: (x) => axis.low + span * (x - kPadding) / length,
   };
 }
 
@@ -31,21 +20,21 @@ export const classTitle = (look, label) =>
   look.name === 'seed' ? ['interpolated', 'seed: rays were cast'][label]
     : look.kind === 'flag' ? `${look.title}: ${label ? 'yes' : 'no'}` : `part ${label}`;
 
-/** legend: {look, axis, histogram, thin, none}. size: kWideLegend or kNarrowLegend. ink: colour of the text. */
-export function drawLegend(context, legend, height, size, ink) {
+/** legend: {look, axis, histogram, thin, none}. ink: colour of the text. */
+export function drawLegend(context, legend, width, ink) {
   const { look, thin } = legend;
-  context.font = `600 ${kFont}`;
-  context.fillStyle = ink;
   context.textBaseline = 'middle';
   context.textAlign = 'left';
-  const title = textLines(context, thin ? thinTitle(thin) : look.title, size.width - 12).slice(0, 3);
-  title.forEach((line, i) => context.fillText(line, 8, 14 + i * kLine));
+  const hasNumbers = !thin && look.kind === 'number';
+  const title = thin ? thinTitle(thin) : `${look.title}${look.unit && look.unit !== 'mesh units' ? `, ${look.unit}` : ''}`;
+  context.font = `600 ${kFont}`;
+  context.fillStyle = ink;
+  context.fillText(title, kPadding, kTitle, width - 2 * kPadding);
+  const end = kPadding + context.measureText(title).width + 18;
   context.font = kFont;
-  if (thin) return drawThin(context, thin, 14 + title.length * kLine, size, ink);
-  if (look.unit) context.fillText(`[${look.unit}]`, 8, 14 + title.length * kLine, size.width - 8);
-  if (look.kind === 'number' && look.range) drawNumbers(context, legend, height, size, ink);
-  if (look.kind !== 'number') drawClasses(context, legend, height, size, ink);
-  if (look.noValueCount) drawSwatch(context, cssColour(packedColour(legend.none)), 'no value', height - 14, size, ink);
+  if (hasNumbers && look.range) drawNumbers(context, legend, width, ink, end);
+  else drawRows(context, thin ? thinRows(thin) : hasNumbers ? [] : classRows(look), width, ink);
+  if (!thin && look.noValueCount) drawSwatch(context, cssColour(packedColour(legend.none)), 'no value', width - kPadding - 76, kTitle, ink);
 }
 
 const thinTitle = (thin) => `${thin.share > 0 ? '' : 'nowhere '}${thin.title ?? `thinner than ${formatValue(thin.limit)}`}`;
@@ -53,59 +42,74 @@ const thinTitle = (thin) => `${thin.share > 0 ? '' : 'nowhere '}${thin.title ?? 
 /** Whether thin faces are visible through other faces. */
 const showsBehind = ({ share, rest }) => share > 0 && rest === 'glass';
 
-// Rows of the legend: thin faces with their share of the area, thin faces behind others, and other faces.
-function drawThin(context, thin, top, size, ink) {
-  const rows = [[kRestColour, 'other']];
-  if (showsBehind(thin)) rows.unshift([kBehindColour, 'thin, behind a wall']);
-  if (thin.share > 0) rows.unshift([kAlarmColour, `thin, ${formatShare(thin.share)}`]);
-  rows.forEach(([colour, text], i) => drawSwatch(context, cssColour(colour), text, top + 10 + 22 * i, size, ink));
+// Thin faces with their share of the area, thin faces behind others, thin faces that do not count, and other faces.
+function thinRows(thin) {
+  const rows = thin.share > 0 ? [[kRestColour, 'other faces']] : [];
+  if (thin.hasUncounted) rows.unshift([kUncountedColour, 'thin, not counted']);
+  if (showsBehind(thin)) rows.unshift([kBehindColour, 'behind a wall']);
+  if (thin.share > 0) rows.unshift([kAlarmColour, `thin, ${formatShare(thin.share)} of the surface`]);
+  return rows;
 }
 
-function drawNumbers(context, { look, axis, histogram }, height, size, ink) {
-  const bar = barOf(axis, height, size), { barLeft } = size;
-  const most = Math.max(...histogram.bins) || 1, binHeight = bar.length / histogram.bins.length;
-  for (let i = 0; i < histogram.bins.length && barLeft > 12; ++i) {
+const classRows = (look) => look.classes.map(({ label, share }) =>
+  [look.kind === 'flag' ? kFlagColours[label] : colourOfPart(label), `${classTitle(look, label)} · ${formatShare(share)}`]);
+
+function drawNumbers(context, { look, axis, histogram }, width, ink, titleEnd) {
+  const bar = barOf(axis, width);
+  const most = Math.max(...histogram.bins) || 1, step = bar.length / histogram.bins.length;
+  histogram.bins.forEach((area, i) => {
     const value = axis.low + (i + 0.5) / histogram.bins.length * (axis.high - axis.low);
-    const width = (barLeft - 12) * histogram.bins[i] / most;
+    const height = area > 0 ? Math.max(18 * area / most, 0.5) : 0;
     context.fillStyle = cssColour(look.table[tableIndex(value, look.low, look.high)]);
-    context.fillRect(barLeft - 6 - width, bar.yOf(value) - binHeight / 2, width, binHeight + 0.5);
-  }
-  for (let row = 0; row < bar.length; ++row) {
-    const value = bar.valueAt(bar.top + row + 0.5);
-    context.fillStyle = cssColour(look.table[tableIndex(value, look.low, look.high)]);
-    // The bar is narrower outside of the range of the colours.
-    const inset = value < look.low || value > look.high ? 6 : 0;
-    context.fillRect(bar.left + inset, bar.top + row, bar.width - 2 * inset, 1);
-  }
-  context.fillStyle = ink;
-  for (const tick of ticksWithin(axis.low, axis.high)) {
-    const y = bar.yOf(tick.value);
-    context.fillRect(bar.left + bar.width, y - 0.5, 5, 1);
-    context.fillText(tick.label, bar.left + bar.width + 20, y);
-  }
-  const outside = (area, name) => area > 0 ? [`${formatShare(area / histogram.total)} ${name}`] : [];
-  if (histogram.total > 0) {
-    outside(histogram.above, 'above').forEach((text) => context.fillText(text, 8, kTop - 14, size.width - 8));
-    outside(histogram.below, 'below').forEach((text) => context.fillText(text, 8, height - kBottom + 12, size.width - 8));
-  }
-}
-
-function drawSwatch(context, colour, text, y, size, ink) {
-  context.fillStyle = colour;
-  context.fillRect(8, y - 7, 14, 14);
-  context.fillStyle = ink;
-  context.fillText(text, 28, y, size.width - 32);
-}
-
-function drawClasses(context, { look }, height, size, ink) {
-  const rowCount = Math.max(1, Math.floor((height - kTop - kBottom) / 20));
-  const rows = look.classes.slice(0, look.classes.length > rowCount ? rowCount - 1 : rowCount);
-  rows.forEach(({ label, share }, i) => {
-    const colour = look.kind === 'flag' ? kFlagColours[label] : colourOfPart(label);
-    drawSwatch(context, cssColour(colour), `${classTitle(look, label)} · ${formatShare(share)}`, kTop + 20 * i, size, ink);
+    context.fillRect(bar.left + i * step, bar.top - 2 - height, step + 0.5, height);
   });
-  if (rows.length < look.classes.length)
-    context.fillText(`and ${look.classes.length - rows.length} more`, 28, kTop + 20 * rows.length);
+  for (let column = 0; column < bar.length; ++column) {
+    const value = bar.valueAt(bar.left + column + 0.5);
+    context.fillStyle = cssColour(look.table[tableIndex(value, look.low, look.high)]);
+    // The bar is lower outside of the range of the colours.
+    const inset = value < look.low || value > look.high ? 5 : 0;
+    context.fillRect(bar.left + column, bar.top + inset, 1, bar.height - 2 * inset);
+  }
+  context.fillStyle = ink;
+  context.textAlign = 'center';
+  for (const tick of ticksWithin(axis.low, axis.high)) {
+    const x = bar.xOf(tick.value), half = context.measureText(tick.label).width / 2;
+    context.fillRect(x - 0.5, bar.top + bar.height, 1, 4);
+    context.fillText(tick.label, Math.min(Math.max(x, half + 2), width - half - 2), bar.top + bar.height + 14);
+  }
+  context.textAlign = 'right';
+  const outside = ['below', 'above'].filter((side) => histogram[side] > 0);
+  const text = outside.map((side) => `${formatShare(histogram[side] / histogram.total)} ${side}`).join(', ');
+  const right = bar.left + bar.length;
+  if (titleEnd + context.measureText(text).width < right && !look.noValueCount) context.fillText(text, right, kTitle);
+  context.textAlign = 'left';
+}
+
+function drawSwatch(context, colour, text, x, y, ink) {
+  context.fillStyle = colour;
+  context.fillRect(x, y - 7, 14, 14);
+  context.fillStyle = ink;
+  context.fillText(text, x + 20, y);
+}
+
+// Swatches in two rows. The last one is a count if not all fit.
+function drawRows(context, rows, width, ink) {
+  let x = kPadding, y = 40;
+  for (let i = 0; i < rows.length; ++i) {
+    const [colour, text] = rows[i], needed = 20 + context.measureText(text).width;
+    const more = `and ${rows.length - i} more`, isLastRow = y > 40;
+    if (x > kPadding && x + needed + (isLastRow && i < rows.length - 1 ? 90 : 0) > width - kPadding) {
+      if (isLastRow) {
+        context.fillStyle = ink;
+        context.fillText(more, x, y);
+        return;
+      }
+      x = kPadding;
+      y += 24;
+    }
+    drawSwatch(context, cssColour(colour), text, x, y, ink);
+    x += needed + 18;
+  }
 }
 
 /** The legend as a sentence, for screen readers. */

@@ -1,7 +1,7 @@
 // The legend of the page. Mouse, touch and keys move the handles at the two ends of its colours.
 import { formatValue } from './format.js';
-import { barOf, drawLegend, kNarrowLegend, kWideLegend, legendSentence } from './legend.js';
-import { thinShare } from './thin_places.js';
+import { barOf, drawLegend, legendSentence } from './legend.js';
+import { hasUncounted, thinShare } from './thin_places.js';
 import { clamp } from './vectors.js';
 
 export class LegendPanel {
@@ -23,7 +23,7 @@ export class LegendPanel {
       this.dragged = end;
     });
     element.addEventListener('pointermove', (event) => {
-      if (this.dragged === end) this.set(end, this.bar.valueAt(event.clientY - this.folder.getBoundingClientRect().top));
+      if (this.dragged === end) this.set(end, this.bar.valueAt(event.clientX - this.folder.getBoundingClientRect().left));
     });
     for (const name of ['pointerup', 'pointercancel']) {
       element.addEventListener(name, () => {
@@ -59,13 +59,15 @@ export class LegendPanel {
   legend() {
     const { viewer, axis } = this, { look, state, thin } = viewer;
     return {
-      look, axis, thin: thin && { ...thin, share: thinShare(viewer), rest: state.rest }, histogram: this.histogram, none: state.none,
+      look, axis, thin: thin && { ...thin, share: thinShare(viewer), hasUncounted: thin.isGiven && hasUncounted(viewer), rest: state.rest }, histogram: this.histogram, none: state.none,
     };
   }
 
   update() {
-    const { viewer } = this, { look } = viewer;
-    const key = JSON.stringify([look.name, viewer.state.show, viewer.state.map, look.low, look.high, viewer.thin,
+    const { viewer } = this;
+    if (!viewer.models.length) return;
+    const { look } = viewer;
+    const key = JSON.stringify([viewer.generation, look.name, viewer.state.show, viewer.state.map, look.low, look.high, viewer.thin,
       viewer.state.rest, viewer.state.none, viewer.theme().ink]);
     if (this.drawn === key) return;
     this.drawn = key;
@@ -77,23 +79,22 @@ export class LegendPanel {
   }
 
   draw() {
-    const { viewer, canvas, axis } = this, { look, thin } = viewer, height = this.folder.clientHeight;
-    const size = this.folder.clientWidth < kWideLegend.width ? kNarrowLegend : kWideLegend, legend = this.legend();
+    const { viewer, canvas, axis } = this, { look, thin } = viewer, { clientWidth: width, clientHeight: height } = this.folder;
+    const legend = this.legend();
     const ratio = Math.min(devicePixelRatio, 2);
-    Object.assign(canvas, { width: size.width * ratio, height: Math.max(height * ratio, 1) });
+    Object.assign(canvas, { width: Math.max(width * ratio, 1), height: height * ratio });
     const context = canvas.getContext('2d');
     context.scale(ratio, ratio);
     const hasEnds = !thin && look.kind === 'number' && Boolean(look.range);
     for (const { element } of this.ends) element.hidden = !hasEnds;
     if (look.kind === 'none') return;
-    drawLegend(context, legend, height, size, viewer.theme().ink);
+    drawLegend(context, legend, width, viewer.theme().ink);
     canvas.setAttribute('aria-label', legendSentence(look, legend.thin));
     if (!hasEnds) return;
-    this.bar = barOf(axis, height, size);
+    this.bar = barOf(axis, width);
     for (const { end, element } of this.ends) {
       const value = look[end];
-      element.style.top = `${this.bar.yOf(value)}px`;
-      element.style.left = `${this.bar.left + this.bar.width}px`;
+      element.style.left = `${this.bar.xOf(value)}px`;
       element.setAttribute('aria-valuenow', value);
       element.setAttribute('aria-valuemin', look.range.min);
       element.setAttribute('aria-valuemax', look.range.max);

@@ -3,5 +3,5 @@
 float brightness(vec3 normal) {
   vec3 n = normalize(normal + vec3(0.0, 0.0, 1e-6));
   if (n.z < 0.0) n = -n;
-  return 0.5 + 0.34 * max(dot(n, vec3(-0.46, 0.62, 0.635)), 0.0) + 0.2 * n.z;
+  return 0.58 + 0.3 * max(dot(n, vec3(-0.46, 0.62, 0.635)), 0.0) + 0.2 * n.z;
 }

@@ -1,33 +1,17 @@
-import { Controls } from './controls.js';
-import { bytesOfBase64, decodeMesh } from './decode.js';
-import { LegendPanel } from './legend_ends.js';
-import { MeshModel } from './mesh_model.js';
-import { Navigation } from './navigation.js';
-import { Overlays } from './overlays.js';
-import { Picture } from './picture.js';
-import { Renderer } from './renderer.js';
-import { showReport } from './report.js';
-import { fragmentOf, kInitialState, stateOfFragment, Store } from './view_state.js';
-import { Viewer } from './viewer.js';
-import { Visits } from './visits.js';
+import { bytesOfBase64 } from './decode.js';
+import { byId } from './elements.js';
+import { finish, modelsOf, PageView, showTexts } from './page_view.js';
+import { fragmentOf, stateOfFragment } from './view_state.js';
 
 const kFragmentMilliseconds = 300;
 
-const arrayBytes = (number) => bytesOfBase64(document.getElementById(`array-${number}`).textContent);
+const arrayBytes = (number) => bytesOfBase64(byId(`array-${number}`).textContent);
 
-function finish(state, message) {
-  document.documentElement.dataset.state = state;
-  const element = document.getElementById('message');
-  element.textContent = message;
-  element.hidden = !message;
-  document.getElementById('fallback').hidden = state === 'ready';
-  document.getElementById('stage').dataset.view = state;
-  for (const form of document.querySelectorAll('.needs-view')) form.hidden = state !== 'ready';
-}
-
-// Writes the state to the fragment of the address, and reads it from an address that the user enters.
+// Reads the state from the fragment of the address, also if the user changes it, and writes the state to it.
 function followFragment(viewer) {
+  const read = () => viewer.store.set({ ...viewer.initial, ...viewer.validated(stateOfFragment(location.hash)) });
   let timer, written = location.hash;
+  read();
   viewer.store.listeners.push(() => {
     clearTimeout(timer);
     timer = setTimeout(() => {
@@ -38,7 +22,7 @@ function followFragment(viewer) {
   addEventListener('hashchange', () => {
     if (location.hash === written) return;
     viewer.flight = null;
-    viewer.store.set({ ...viewer.initial, ...viewer.validated(stateOfFragment(location.hash)) });
+    read();
   });
 }
 
@@ -51,44 +35,21 @@ async function reading(read) {
   }
 }
 
-async function modelsOf(page) {
-  const models = [];
-  for (const mesh of page.meshes) {
-    // The origin is close to the mesh, so that single precision resolves the positions.
-    const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
-    const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, arrayBytes, origin) : null;
-    models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, arrayBytes, origin), thinSurface));
-  }
-  // Removes the encoded arrays, which are large and no longer needed.
-  for (const array of document.querySelectorAll('[id^=array-]')) array.remove();
-  return models;
-}
-
 async function start() {
-  const page = await reading(() => JSON.parse(document.getElementById('asdf-vk-page').textContent));
-  document.getElementById('title').textContent = document.title;
-  document.getElementById('generator').textContent = page.generator;
-  showReport(page, null);
-  const canvas = document.getElementById('view'), renderer = Renderer.create(canvas);
-  if (!renderer) {
+  const { meshes, generator } = await reading(() => JSON.parse(byId('asdf-vk-page').textContent));
+  byId('generator').textContent = generator;
+  showTexts(meshes, null);
+  const view = PageView.create();
+  if (!view) {
     finish('nogl', 'This browser has no WebGL 2. The page shows the picture and the report without the 3D view.');
+    byId('more').hidden = false;
     return;
   }
-  const models = await reading(() => modelsOf(page));
-  finish('ready', '');
-  const viewer = new Viewer(canvas, renderer, models, new Store({ ...kInitialState }));
-  const visits = new Visits(viewer);
-  showReport(page, visits);
-  const legendPanel = new LegendPanel(viewer, document.getElementById('legend'));
-  new Overlays(viewer, document.getElementById('overlays'));
-  const navigation = new Navigation(viewer);
-  new Controls(viewer, navigation, visits, new Picture(viewer, legendPanel));
-  followFragment(viewer);
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => viewer.requestFrame());
-  canvas.addEventListener('webglcontextlost', () => finish('lost', 'The graphics card was lost; waiting for it.'));
-  canvas.addEventListener('webglcontextrestored', () => finish('ready', ''));
-  canvas.setAttribute('aria-label', `3D view of ${models.map(({ description }) => description.label).join(' and ')}`);
-  viewer.requestFrame();
+  const models = await reading(() => modelsOf(meshes, arrayBytes));
+  // Removes the encoded arrays, which are large and no longer needed.
+  for (const array of document.querySelectorAll('[id^=array-]')) array.remove();
+  view.show(models);
+  followFragment(view.viewer);
 }
 
 start().catch((error) => finish('error', `The page cannot show its mesh: ${error.message}`));

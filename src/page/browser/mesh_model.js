@@ -1,4 +1,5 @@
 // A decoded mesh: triangles and fields. Arrays per face are in the order of the page; faceIds: numbers in the file.
+import { isCounted } from './thin_places.js';
 import { Triangles } from './triangles.js';
 
 export class MeshModel extends Triangles {
@@ -12,6 +13,8 @@ export class MeshModel extends Triangles {
     if (!description.thin) return;
     const { positions = [], indices = [], fields } = thinSurface ?? {};
     this.thin = { ...description.thin, surface: new Triangles(positions, indices), regionOfTriangle: fields?.get('region') };
+    const { surface, regionOfTriangle, regions } = this.thin;
+    this.thin.area = surface.areas.reduce((sum, area, face) => sum + (isCounted(this.thin, regions[regionOfTriangle[face]] ?? {}) ? area : 0), 0);
   }
 
   faceOfId(id) {

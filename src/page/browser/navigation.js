@@ -106,7 +106,7 @@ export class Navigation {
     const actions = {
       ArrowLeft: () => move(1, 0), ArrowRight: () => move(-1, 0), ArrowUp: () => move(0, 1), ArrowDown: () => move(0, -1),
       '+': () => this.zoom(1.2), '=': () => this.zoom(1.2), '-': () => this.zoom(1 / 1.2), _: () => this.zoom(1 / 1.2),
-      0: () => this.resetView(), Home: () => this.resetView(), Escape: () => this.set({ face: null, part: null }),
+      0: () => this.resetView(), Home: () => this.resetView(), Escape: () => this.set({ face: null, part: null, place: null }),
       Enter: () => this.viewer.pickAt(clientWidth / 2, clientHeight / 2),
     };
     Object.keys(kViews).forEach((name, i) => actions[i + 1] = () => this.view(name));

@@ -1,8 +1,10 @@
-// Draws with WebGL 2: meshes with flat colours, highlighted faces in a grey or translucent mesh, edges, outlines.
+// Draws with WebGL 2: meshes with flat colours, highlighted faces in a grey mesh, edges, outlines.
+import { Glow } from './glow.js';
 
 const kSampleCount = 4, kCoarseFaceCount = 20000;
-const kRestGrey = [0.725, 0.737, 0.76];
-const kRestOpacities = { glass: 0.45, grey: 1, hidden: 0 };
+const kRestGrey = [0.8, 0.81, 0.825];
+const kCreaseCosine = 0.82;  // Cosine of the least angle between the normals of two faces at a crease, 35 degrees.
+const kMostCreasedFaces = 400000;
 const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
 
 export class Renderer {
@@ -22,6 +24,7 @@ export class Renderer {
     const { gl } = this;
     this.programs = new Map();
     this.target = null;
+    this.glow = new Glow(this);
     const provoking = gl.getExtension('WEBGL_provoking_vertex');
     this.isFirstProvoking = Boolean(provoking);
     const names = gl.getExtension('WEBGL_debug_renderer_info');
@@ -44,10 +47,10 @@ export class Renderer {
   addMesh(model) {
     const { gl } = this;
     const drawn = model.drawnVertices(this.isFirstProvoking);
-    const mesh = { model, indexCount: drawn.triangles.length, sources: drawn.sources, vao: gl.createVertexArray() };
+    const mesh = { model, indexCount: drawn.triangles.length, sources: drawn.sources, vao: gl.createVertexArray(), buffers: [] };
     gl.bindVertexArray(mesh.vao);
     const filled = (target, data) => {
-      const buffer = gl.createBuffer();
+      const buffer = this.buffer(mesh);
       gl.bindBuffer(target, buffer);
       gl.bufferData(target, data, gl.STATIC_DRAW);
       return buffer;
@@ -65,6 +68,19 @@ export class Renderer {
     return mesh;
   }
 
+  /** A new buffer, which release() deletes with the mesh. */
+  buffer(mesh) {
+    mesh.buffers.push(this.gl.createBuffer());
+    return mesh.buffers.at(-1);
+  }
+
+  release(mesh) {
+    const { gl } = this;
+    for (const buffer of mesh.buffers) gl.deleteBuffer(buffer);
+    for (const part of [mesh, mesh.edges, mesh.creases]) if (part?.vao) gl.deleteVertexArray(part.vao);
+    if (mesh.coarse) this.release(mesh.coarse);
+  }
+
   setColours(mesh, colours) {
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, mesh.colours);
@@ -78,7 +94,7 @@ export class Renderer {
     if (mesh.isSmooth) return;
     const { gl } = this;
     const bytes = new Int32Array(mesh.model.smoothNormals().buffer);
-    const buffer = gl.createBuffer();
+    const buffer = this.buffer(mesh);
     gl.bindVertexArray(mesh.vao);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.bufferData(gl.ARRAY_BUFFER, Int32Array.from(mesh.sources, (vertex) => bytes[vertex]), gl.STATIC_DRAW);
@@ -97,38 +113,57 @@ export class Renderer {
     return coarse;
   }
 
+  /** Lines between pairs of vertices of the mesh. */
+  lines(mesh) {
+    const { gl } = this, lines = { vao: gl.createVertexArray(), indices: this.buffer(mesh) };
+    if (!mesh.corners) {
+      mesh.corners = this.buffer(mesh);
+      gl.bindBuffer(gl.ARRAY_BUFFER, mesh.corners);
+      gl.bufferData(gl.ARRAY_BUFFER, mesh.model.positions, gl.STATIC_DRAW);
+    }
+    gl.bindVertexArray(lines.vao);
+    this.attribute(kPosition, mesh.corners, 3, gl.FLOAT, false);
+    return lines;
+  }
+
+  fillLines(lines, ends) {
+    const { gl } = this;
+    gl.bindVertexArray(lines.vao);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, lines.indices);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, ends, gl.STATIC_DRAW);
+    lines.count = ends.length;
+  }
+
   // The edges of all faces; with hidesRest, only the edges of highlighted faces.
   edgesOf(mesh, hidesRest) {
-    const { gl } = this, hasHidden = hidesRest && mesh.hasRest;
+    const hasHidden = hidesRest && mesh.hasRest;
     if (mesh.edgesOfColouring === (hasHidden ? mesh.colouring : true)) return mesh.edges;
     mesh.edgesOfColouring = hasHidden ? mesh.colouring : true;
-    if (!mesh.edges) {
-      mesh.edges = { vao: gl.createVertexArray(), positions: gl.createBuffer(), indices: gl.createBuffer() };
-      gl.bindVertexArray(mesh.edges.vao);
-      gl.bindBuffer(gl.ARRAY_BUFFER, mesh.edges.positions);
-      gl.bufferData(gl.ARRAY_BUFFER, mesh.model.positions, gl.STATIC_DRAW);
-      this.attribute(kPosition, mesh.edges.positions, 3, gl.FLOAT, false);
-    }
+    mesh.edges ??= this.lines(mesh);
     const { ends, faces } = mesh.model.edges();
     const isSeen = (face) => face < mesh.colouring.length && mesh.colouring[face] >>> 24 !== 0;
-    const shown = hasHidden
-      ? ends.filter((_, i) => isSeen(faces[i & ~1]) || isSeen(faces[i | 1])) : ends;
-    gl.bindVertexArray(mesh.edges.vao);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.edges.indices);
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, shown, gl.STATIC_DRAW);
-    mesh.edges.count = shown.length;
+    this.fillLines(mesh.edges, hasHidden ? ends.filter((_, i) => isSeen(faces[i & ~1]) || isSeen(faces[i | 1])) : ends);
     return mesh.edges;
   }
 
-  program(name, defines) {
+  /** The edges of sharp corners, and those of a boundary; null for large meshes. */
+  creasesOf(mesh) {
+    if (mesh.creases !== undefined || mesh.model.faceCount > kMostCreasedFaces) return mesh.creases ?? null;
+    mesh.creases = this.lines(mesh);
+    this.fillLines(mesh.creases, mesh.model.creases(kCreaseCosine));
+    return mesh.creases;
+  }
+
+  /** vertex: name of the vertex shader, if several programs share it. */
+  program(name, defines, vertex = name) {
     const key = [name, ...defines].join();
     if (this.programs.has(key)) return this.programs.get(key);
     const { gl } = this;
     const head = `#version 300 es\nprecision highp float;\n${defines.map((word) => `#define ${word}\n`).join('')}`;
     const program = gl.createProgram();
-    for (const [type, stage] of [[gl.VERTEX_SHADER, 'vertex'], [gl.FRAGMENT_SHADER, 'fragment']]) {
+    for (const [type, stage] of [[gl.VERTEX_SHADER, `${vertex}_vertex`], [gl.FRAGMENT_SHADER, `${name}_fragment`]]) {
       const shader = gl.createShader(type);
-      gl.shaderSource(shader, `${head}${shaders.light}\n${shaders[`${name}_${stage}`]}`);
+      gl.shaderSource(shader, `${head}${shaders.light}\n${shaders[stage]}`);
       gl.compileShader(shader);
       gl.attachShader(program, shader);
     }
@@ -152,62 +187,64 @@ export class Renderer {
     if (program.uniforms.plane) gl.uniform4fv(program.uniforms.plane, pane.plane ?? [0, 0, 0, 1]);
   }
 
-  // frame: {width, height, background, isSampled, isCoarse, shading, back, edges, rest, lineColour, panes}. A pane is
-  // {mesh, surface, camera, plane, viewport, outline}. viewport: in pixels from the lower left corner of the canvas. If
-  // `surface` is not null, it is highlighted instead of faces of the mesh.
+  // frame: {width, height, background, isSampled, isCoarse, shading, back, edges, creases, rest, lineColour, glows, panes}.
+  // A pane is {mesh, surface, camera, plane, viewport, outline, background}. viewport: in pixels from the lower left
+  // corner of the canvas. If `surface` is not null, it is highlighted instead of faces of the mesh. glows: highlighted
+  // faces have a halo and are not shaded.
   draw(frame) {
     const { gl } = this;
+    const panes = frame.panes.map((shown) => {
+      const mesh = frame.isCoarse ? this.coarse(shown.mesh) : shown.mesh;
+      // The surface is not shown with the coarse copy, because the two do not fit each other.
+      const surface = mesh === shown.mesh ? shown.surface : null;
+      return { ...shown, mesh, surface, highlighted: surface ?? (mesh.hasRest && !mesh.isAllRest ? mesh : null) };
+    });
     const target = frame.isSampled ? this.sampledTarget(frame.width, frame.height) : null;
+    const shining = frame.rest === 'glass' ? panes.filter(({ highlighted }) => highlighted) : [];
+    if (shining.length) this.glow.prepare(frame, shining);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.disable(gl.SCISSOR_TEST);
     gl.clearColor(...frame.background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    for (const shown of frame.panes) {
-      const mesh = frame.isCoarse ? this.coarse(shown.mesh) : shown.mesh;
-      // The surface is not shown with the coarse copy, because the two do not fit each other.
-      const pane = { ...shown, mesh, surface: mesh === shown.mesh ? shown.surface : null };
+    gl.enable(gl.SCISSOR_TEST);
+    for (const pane of panes) {
       gl.viewport(...pane.viewport);
       gl.scissor(...pane.viewport);
-      gl.enable(gl.SCISSOR_TEST);
-      if (pane.surface || mesh.hasRest) this.drawHighlighted(pane, frame);
-      else this.drawFaces(mesh, pane, frame);
-      if (frame.edges) {
-        const edges = this.edgesOf(mesh, frame.rest === 'hidden');
-        this.drawLines(pane, frame.lineColour, edges.vao, () => gl.drawElements(gl.LINES, edges.count, gl.UNSIGNED_INT, 0));
+      if (pane.background) {
+        gl.clearColor(...pane.background, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
       }
-      if (pane.outline) this.drawOutline(pane);
+      this.drawPane(pane, frame, shining.includes(pane));
     }
-    if (!target) return;
     gl.disable(gl.SCISSOR_TEST);
+    if (!target) return;
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, target);
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
     const area = [0, 0, frame.width, frame.height];
     gl.blitFramebuffer(...area, ...area, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
-  // Draws the highlighted faces, and the rest with the opacity that frame.rest selects. Only the nearest face of the
-  // rest covers highlighted faces, so that the result does not depend on the order of the faces.
-  drawHighlighted(pane, frame) {
-    const { gl } = this, highlighted = pane.surface ?? (pane.mesh.isAllRest ? null : pane.mesh);
-    const opacity = highlighted ? kRestOpacities[frame.rest] : 1;
-    if (opacity > 0) {
-      if (opacity < 1) this.drawFaces(highlighted, pane, { ...frame, shading: 'plain' });
-      gl.clear(gl.DEPTH_BUFFER_BIT);
-      gl.colorMask(false, false, false, false);
-      this.drawFaces(pane.mesh, pane, frame, 1);
-      gl.colorMask(true, true, true, true);
-      gl.enable(gl.BLEND);
-      gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
-      this.drawFaces(pane.mesh, pane, frame, opacity);
-      gl.disable(gl.BLEND);
+  // Draws the rest in grey, then what shines through it, then the highlighted faces.
+  drawPane(pane, frame, shines) {
+    const { gl } = this, { mesh, highlighted } = pane, hasRest = Boolean(pane.surface) || mesh.hasRest;
+    if (hasRest && (frame.rest !== 'hidden' || !highlighted)) this.drawFaces(mesh, pane, frame, 1);
+    const creases = frame.creases && !frame.edges && (!hasRest || frame.rest !== 'hidden') ? this.creasesOf(mesh) : null;
+    const lines = (shown) => this.drawLines(pane, frame.lineColour, shown.vao, () => gl.drawElements(gl.LINES, shown.count, gl.UNSIGNED_INT, 0));
+    if (hasRest && creases) lines(creases);
+    if (shines) this.glow.draw(frame);
+    if (highlighted) {
+      // Draws the highlighted faces slightly nearer than the mesh. Without this offset, rounding of the coordinates
+      // could hide the highlighted faces.
+      gl.enable(gl.POLYGON_OFFSET_FILL);
+      gl.polygonOffset(-1, -1024);
+      this.drawFaces(highlighted, pane, frame.glows ? { ...frame, shading: 'plain' } : frame);
+      gl.disable(gl.POLYGON_OFFSET_FILL);
+    } else if (!hasRest) {
+      this.drawFaces(mesh, pane, frame);
+      if (creases) lines(creases);
     }
-    if (!highlighted) return;
-    // Draws the highlighted faces slightly nearer than the mesh. Without this offset, rounding of the coordinates could
-    // hide the highlighted faces.
-    gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(-1, -1024);
-    this.drawFaces(highlighted, pane, frame);
-    gl.disable(gl.POLYGON_OFFSET_FILL);
+    if (frame.edges) lines(this.edgesOf(mesh, frame.rest === 'hidden'));
+    if (pane.outline) this.drawOutline(pane);
   }
 
   // With an opacity, draws the whole mesh in the colour of the rest. With null, draws the highlighted faces in their

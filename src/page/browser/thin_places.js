@@ -1,7 +1,7 @@
 // Comparison with a limit of the thickness: the faces that are shown as thin, and the best view of a thin region.
 import { formatValue } from './format.js';
 import { countHits } from './picking.js';
-import { add, cross, dot, scaled, subtract, unit } from './vectors.js';
+import { add, dot, scaled, subtract } from './vectors.js';
 
 const kMarkerCount = 8;
 
@@ -23,21 +23,42 @@ export function thinShown(state, look, layers) {
   return { limit: state.thinAt ?? look.low, isGiven: false, name };
 }
 
-/** Thin share of the area of the visible meshes. */
+/** Share of the area of the visible meshes that is thin and counts. */
 export function thinShare({ thin, look, layers, models }) {
   if (!thin.isGiven) {
     const { area, total } = layers.below(look, thin.name, thin.limit);
     return total > 0 ? area / total : 0;
   }
   const sum = (measure) => look.panes.reduce((total, { index }) => total + measure(models[index]), 0);
-  return sum((model) => model.thin?.surface.totalArea ?? 0) / (sum((model) => model.totalArea) || 1);
+  return sum((model) => model.thin?.area ?? 0) / (sum((model) => model.totalArea) || 1);
 }
+
+/** Whether a thin region counts for the verdict. */
+export const isCounted = ({ countsDetails, countsEdges }, { kind }) =>
+  kind === 'detail' ? countsDetails : kind === 'edge' ? countsEdges : true;
+
+/** Whether a visible mesh has thin regions that do not count. */
+export const hasUncounted = ({ look, models }) =>
+  look.panes.some(({ index }) => models[index].thin?.regions.some((region) => !isCounted(models[index].thin, region)));
+
+// The numbered places of a model: the regions that count, thinnest first. If nothing is too thin, the first place is
+// the least wall. A place is {region, index}; the least wall has the index -1.
+export function placesOf(model) {
+  const { thin, description: { least } } = model;
+  const places = (thin?.regions ?? []).map((region, index) => ({ region, index })).filter(({ region }) => isCounted(thin, region));
+  const isThin = places.some(({ region }) => region.kind !== 'void');
+  return isThin || !least ? places : [{ region: least, index: -1 }, ...places];
+}
+
+/** The place with an index of placesOf(); undefined if there is none. */
+export const placeAt = (model, index) => index < 0 ? placesOf(model).find((place) => place.index < 0)
+  : model.thin?.regions[index] && { region: model.thin.regions[index], index };
 
 /** The least thickness of a region as a text; walls and gaps have no word. */
 export const regionValue = (region, limit) => `${region.kind === 'wall' || region.kind === 'gap' ? '' : `${region.kind} `}${formatValue(region.value, limit)}`;
 
-/** The regions whose thinnest places are marked in the view. */
-export const markedRegions = (model) => model.thin?.regions.slice(0, kMarkerCount) ?? [];
+/** The places that are marked in the view, with their numbers. */
+export const markedPlaces = (model) => placesOf(model).slice(0, kMarkerCount);
 
 /** Greatest distance of a corner of the region from a point. regions: region of each triangle. */
 export function regionRadius(surface, regions, region, point) {
@@ -50,16 +71,24 @@ export function regionRadius(surface, regions, region, point) {
   return radius;
 }
 
-// Direction to the viewer from which the fewest faces hide one end of a wall. ends: the two points of the region.
-// outward: unit vector from the second end to the first. All candidates are oblique, so that the thickness of the wall
-// is visible. Among equal candidates, the one closest to `preferred` is chosen. least: hits at a smaller distance are
-// ignored.
-export function directionOfLeastCover(model, ends, outward, preferred, least) {
-  const side = unit(cross(outward, Math.abs(outward[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]), [0, 0, 1]);
-  const other = cross(outward, side);
-  const candidates = [[ends[0], outward], [ends[1], scaled(outward, -1)]].flatMap(([end, towards]) =>
-    [side, other].flatMap((tilt) => [0.7, -0.7].map((share) => ({ end, direction: unit(add(towards, scaled(tilt, share)), towards) }))));
-  const scored = candidates.map(({ end, direction }) =>
-    ({ direction, score: countHits(model, end, direction, least) - 0.4 * dot(direction, preferred) }));
-  return scored.reduce((best, one) => one.score < best.score ? one : best).direction;
+// Direction to the viewer from which the fewest faces hide one end of a wall, close to the present direction. ends: the
+// two points of the region. outward: unit vector from the second end to the first. axes: those of the view, of which the
+// upright one stays upright. All candidates are oblique to the wall, so that its thickness is visible, if possible.
+// least: hits at a smaller distance are ignored.
+export function directionOfLeastCover(model, ends, outward, axes, least) {
+  const { toViewer, upright: [side, up, front] } = axes, candidates = [toViewer];
+  for (const [height, count] of [[0.45, 8], [-0.3, 4], [0.85, 4]]) {
+    for (let i = 0; i < count; ++i) {
+      const angle = 2 * Math.PI * (i + 0.4) / count, level = add(scaled(front, Math.cos(angle)), scaled(side, Math.sin(angle)));
+      candidates.push(add(scaled(level, Math.sqrt(1 - height * height)), scaled(up, height)));
+    }
+  }
+  let best = { score: Infinity };
+  for (const direction of candidates) {
+    const along = dot(direction, outward), oblique = Math.max(Math.abs(along) - 0.85, 0.25 - Math.abs(along), 0);
+    const hits = countHits(model, ends[along < 0 ? 1 : 0], direction, least);
+    const score = hits + 3 * oblique - 0.7 * dot(direction, toViewer) - 0.2 * dot(direction, up);
+    if (score < best.score) best = { score, direction };
+  }
+  return best.direction;
 }

@@ -122,6 +122,14 @@ export class Triangles {
     return this.cachedEdges = { ends: ends.slice(0, 2 * count), faces: faces.slice(0, 2 * count) };
   }
 
+  /** Two vertices per edge whose faces have normals with a smaller cosine than `most`, or that has only one face. */
+  creases(most) {
+    const { ends, faces } = this.edges(), { normals } = this, least = most * 127 * 127;
+    const isCrease = (a, b) => b === kNoFace
+      || normals[4 * a] * normals[4 * b] + normals[4 * a + 1] * normals[4 * b + 1] + normals[4 * a + 2] * normals[4 * b + 2] < least;
+    return ends.filter((_, i) => isCrease(faces[i & ~1], faces[i | 1]));
+  }
+
   // A copy with about `count` triangles, by vertex clustering (Rossignac and Borrel 1993): the vertices in a cell of a
   // grid become one vertex, and triangles with two corners in one cell vanish. sourceFaces: the original faces.
   reduced(count) {

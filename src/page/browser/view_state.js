@@ -17,6 +17,7 @@ const kParts = {
   shading: choice('flat', 'smooth', 'plain'), edges: flag, back: choice('same', 'grey', 'hidden'),
   clip: choice('off', 'x', 'y', 'z', 'view'), clipAt: number(0.5), clipFlip: flag,
   face: text(null, /^\d+:\d+$/), part: text(null, /^\d+:\d+$/),  // Numbers MESH:FACE and MESH:PART.
+  place: text(null, /^\d+:-?\d+$/),         // MESH:INDEX, as in placesOf().
   up: choice('auto', 'y', 'z', 'x', '-y', '-z', '-x'),  // auto: the upright axis of each mesh.
   az: number(30), el: number(18), zoom: number(null), x: number(0), y: number(0), z: number(0),
 };

@@ -1,13 +1,18 @@
 // The view. Computes colours and cameras of the panes from the state, draws frames and selects faces.
+import { columnWidth } from './callouts.js';
 import { boxCorners, framesOf, kViews, PaneCamera, viewAxes } from './camera.js';
-import { kAlarmColour } from './colour_maps.js';
+import { kAlarmColour, kUncountedColour } from './colour_maps.js';
 import { colourFaces } from './face_colours.js';
+import { formatValue } from './format.js';
+import { insetOf, needsInset } from './inset.js';
 import { Layers } from './layers.js';
+import { classTitle } from './legend.js';
 import { pickFace } from './picking.js';
-import { givenLimit, thinShown } from './thin_places.js';
+import { givenLimit, isCounted, placeAt, thinShown } from './thin_places.js';
 import { kInitialState, stateOfFragment } from './view_state.js';
 import { add, clamp, dot, scaled } from './vectors.js';
 
+const kMeasured = /^(least_)?(thickness|gap)/;  // Names of the fields of walls and gaps.
 const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thinAt', 'part'];
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
 const kRestMilliseconds = 180;  // Time without motion before a frame in full quality.
@@ -17,14 +22,9 @@ const kLevels = [[1, false], [1, true], [0.7, true], [0.5, true], [0.35, true]];
 const kFlightMilliseconds = 350;
 
 export class Viewer {
-  constructor(canvas, renderer, models, store) {
-    Object.assign(this, { canvas, renderer, models, store, afterFrame: [], level: Number(renderer.isSoftware), slowCount: 0, frameMilliseconds: 0 });
-    this.layers = new Layers(models);
-    this.frames = framesOf(models);
-    this.restore();
-    this.reset();
-    store.set(this.validated(stateOfFragment(location.hash)));
-    this.isStale = true;
+  constructor(canvas, renderer, store) {
+    Object.assign(this, { canvas, renderer, store, models: [], meshes: [], surfaces: [], afterFrame: [], afterLoad: [], generation: 0 });
+    Object.assign(this, { level: Number(renderer.isSoftware), slowCount: 0, frameMilliseconds: 0 });
     store.listeners.push((keys) => this.changed(keys));
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
@@ -46,19 +46,36 @@ export class Viewer {
     return this.store.state;
   }
 
+  /** Replaces the models. keepsView: the camera and the upright axis stay. */
+  load(models, keepsView = false) {
+    for (const mesh of [...this.meshes, ...this.surfaces]) if (mesh) this.renderer.release(mesh);
+    const { az, el, zoom, x, y, z, up } = this.state;
+    this.models = models;
+    this.layers = new Layers(models);
+    this.frames = framesOf(models);
+    this.isStale = true;
+    ++this.generation;
+    this.restore();
+    this.reset();
+    if (keepsView) this.store.set({ az, el, zoom, x, y, z, up });
+    for (const listener of this.afterLoad) listener();
+    this.requestFrame();
+  }
+
   restore() {
     this.meshes = this.models.map((model) => this.renderer.addMesh(model));
     this.surfaces = this.models.map(({ thin }) => {
       if (!thin?.surface.faceCount) return null;
-      const surface = this.renderer.addMesh(thin.surface);
-      this.renderer.setColours(surface, new Uint32Array(thin.surface.faceCount).fill(kAlarmColour));
+      const surface = this.renderer.addMesh(thin.surface), { regionOfTriangle: regions } = thin;
+      this.renderer.setColours(surface, Uint32Array.from({ length: thin.surface.faceCount },
+        (_, face) => isCounted(thin, thin.regions[regions[face]] ?? {}) ? kAlarmColour : kUncountedColour));
       return surface;
     });
   }
 
-  /** Restores the initial state. If a result has a limit, this state shows its thin places. */
+  /** Restores the initial state: the thin places if a result has a limit, else the first field. */
   reset() {
-    const first = this.layers.fields.find((field) => field.kind === 'number') ?? this.layers.fields[0];
+    const [first] = this.layers.fields;
     const thin = givenLimit(this.models) !== null;
     const layer = thin && this.layers.has('least_thickness') ? 'least_thickness' : first?.name ?? null;
     const [az, el] = this.models[0].description.view ?? kViews.corner, view = { ...kInitialState, az, el };
@@ -77,12 +94,13 @@ export class Viewer {
   fitted(state) {
     const indices = this.layers.shown(state), [pane] = this.rectangles(indices.length);
     const shadows = ['right', 'up'].map((axis) => this.shadow(indices, axis, state));
-    const sides = [pane.width, pane.height], short = Math.min(...sides);
+    const short = Math.min(pane.width, pane.height), hasPlaces = indices.some((index) => this.models[index].thin || this.models[index].description.least);
+    const sides = [pane.width - (hasPlaces ? 2 * columnWidth(pane) : 0), pane.height - 40];
     const zooms = shadows.map(([low, high], i) => 2 * sides[i] / short / (high - low));
     const middles = shadows.map(([low, high]) => (low + high) / 2);
     const axes = this.axesOf(indices[0], state), middle = add(scaled(axes.right, middles[0]), scaled(axes.up, middles[1]));
     const [x, y, z] = axes.upright.map((axis) => dot(middle, axis));
-    return { x, y, z, zoom: clamp(0.9 * Math.min(...zooms), 0.5, 20) };
+    return { x, y, z, zoom: clamp(0.92 * Math.min(...zooms), 0.3, 20) };
   }
 
   // Extent [low, high] of the meshes along right or up, in radii of their frames. Large meshes are sampled.
@@ -107,7 +125,7 @@ export class Viewer {
     if (state.layer !== undefined && this.layers.fieldNamed(state.layer)?.name !== state.layer) delete state.layer;
     if (state.show && state.show !== 'all' && !state.show.split('-').every(isMesh)) delete state.show;
     if (state.show?.includes('-') && !this.layers.areComparable(...state.show.split('-').map(Number))) delete state.show;
-    for (const key of ['face', 'part']) if (state[key] && !isMesh(state[key].split(':')[0])) delete state[key];
+    for (const key of ['face', 'part', 'place']) if (state[key] && !isMesh(state[key].split(':')[0])) delete state[key];
     if (state.zoom === null) delete state.zoom;
     if (state.zoom !== undefined) state.zoom = clamp(state.zoom, 0.05, 1e4);
     if (state.el !== undefined) state.el = clamp(state.el, -90, 90);
@@ -168,6 +186,37 @@ export class Viewer {
     });
   }
 
+  /** Whether the view shows walls or gaps, so that their places have callouts. */
+  showsPlaces() {
+    return this.thin ? this.thin.isGiven : kMeasured.test(this.look.name);
+  }
+
+  /** The selected place of mesh `index`, as in placesOf(). */
+  selectedPlace(index) {
+    const [mesh, place] = (this.state.place ?? '-1:0').split(':').map(Number);
+    return mesh === index ? placeAt(this.models[index], place) : undefined;
+  }
+
+  /** The value of the selected face in the layer of a pane, as a text. */
+  selectedValue({ index, values }) {
+    const selected = this.selected(), face = selected ? this.faceIn(index, selected) : -1, { look } = this;
+    if (face < 0 || !values) return '';
+    const [value] = this.thin ? this.layers.valuesOf(index, this.thin.name).subarray(face, face + 1) : [values[face]];
+    return Number.isNaN(value) ? 'no value' : this.thin || look.kind === 'number' ? `${formatValue(value)}${this.unit}` : classTitle(look, value);
+  }
+
+  /** The unit of lengths with a space before it; empty if the files have none. */
+  get unit() {
+    const [unit = ''] = this.layers.fields.map((field) => field.unit).filter((name) => /^(.m|m|in|ft)$/.test(name));
+    return unit && ` ${unit}`;
+  }
+
+  titleOf(index) {
+    const { name, label } = this.models[index].description;
+    const isUnique = this.models.filter((model) => model.description.name === name).length < 2;
+    return isUnique || !label ? name : label;
+  }
+
   clipPlane(frame, camera) {
     const { clip, clipAt, clipFlip } = this.state;
     if (clip === 'off') return null;
@@ -188,7 +237,7 @@ export class Viewer {
   }
 
   frame(time) {
-    if (this.isLost || !this.canvas.clientWidth) return;
+    if (this.isLost || !this.canvas.clientWidth || !this.models.length) return;
     this.fly(time);
     const isMoving = Boolean(this.hasMoved);
     this.hasMoved = false;
@@ -223,25 +272,29 @@ export class Viewer {
     const width = Math.max(Math.round(canvas.clientWidth * scale), 1);
     const height = Math.max(Math.round(canvas.clientHeight * scale), 1);
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const panes = this.panes(), selected = this.selected();
+    const { background, isDark, card } = this.theme(), shown = this.panes(), [first] = shown;
+    const hasInset = shown.length === 1 && needsInset(state.zoom, this.initial.zoom);
+    const panes = hasInset ? [first, insetOf(first, state, this.axesOf(first.index, state), card)] : shown, selected = this.selected();
+    this.insetHeight = hasInset ? panes[1].height : 0;
     for (const pane of panes) {
       pane.viewport = [pane.left, canvas.clientHeight - pane.top - pane.height, pane.width, pane.height]
         .map((value) => Math.round(value * scale));
-      const face = selected ? this.faceIn(pane.index, selected) : -1;
+      const face = selected && !pane.isInset ? this.faceIn(pane.index, selected) : -1;
       if (face >= 0) pane.outline = [0, 1, 2].map((corner) => this.models[pane.index].corner(face, corner));
     }
-    const { background, isDark } = this.theme();
     this.renderer.draw({
-      width, height, background, panes, isSampled: isStill && !isFirst, isCoarse, shading: state.shading, back: state.back, edges: state.edges, rest: state.rest,
-      lineColour: isDark ? [0, 0, 0, 0.5] : [0, 0, 0, 0.4],
+      width, height, scale, background, panes, glows: Boolean(this.thin), creases: isStill && !isFirst && state.shading !== 'plain',
+      isSampled: isStill && !isFirst, isCoarse, shading: state.shading, back: state.back, edges: state.edges, rest: state.rest,
+      lineColour: isDark ? [0, 0, 0, 0.5] : [0, 0, 0, 0.35],
     });
     for (const listener of this.afterFrame) listener(panes);
   }
 
   theme() {
     const style = getComputedStyle(this.canvas);
-    const bytes = style.backgroundColor.match(/[\d.]+/g).map(Number);
-    return { background: bytes.slice(0, 3).map((byte) => byte / 255), isDark: bytes[0] < 128, ink: style.color };
+    const numbers = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((byte) => byte / 255);
+    const background = numbers(style.backgroundColor), card = numbers(style.borderTopColor);
+    return { background, card, isDark: background[0] < 0.5, ink: style.color };
   }
 
   /** The selected face {index, face, id}, or null. */

@@ -1,7 +1,9 @@
-// Moves the camera smoothly ("flies") to faces, thin regions and parts.
+// Moves the camera smoothly ("flies") to faces, places and parts.
 import { anglesTowards, PaneCamera } from './camera.js';
-import { directionOfLeastCover, regionRadius } from './thin_places.js';
+import { directionOfLeastCover, givenLimit, placeAt, regionRadius } from './thin_places.js';
 import { add, clamp, dot, scaled, subtract, unit } from './vectors.js';
+
+const kPlaceShare = 10;  // Width of the view in sizes of the place.
 
 export class Visits {
   constructor(viewer) {
@@ -30,30 +32,34 @@ export class Visits {
     return true;
   }
 
-  /** Flies to the thinnest place of a thin region. Walls in front of that place become translucent. */
-  region(index, number) {
-    const model = this.viewer.models[index], { radius } = this.viewer.frames[index], { regions, surface, regionOfTriangle } = model.thin;
-    const { face: id, area, place, opposite } = regions[number], ends = [place, opposite].map((end) => subtract(end, model.origin));
-    const span = subtract(ends[0], ends[1]), thickness = Math.hypot(...span), face = model.faceOfId(id);
+  // Flies to a place of placesOf(). The place takes about a tenth of the view. Walls in front of it stay, and its colour
+  // shines through them.
+  place(index, number) {
+    const { viewer } = this, model = viewer.models[index], { radius } = viewer.frames[index];
+    const { region } = placeAt(model, number), ends = [region.place, region.opposite].map((end) => subtract(end, model.origin));
+    const span = subtract(ends[0], ends[1]), thickness = Math.hypot(...span), face = model.faceOfId(region.face);
     const normal = face < 0 ? [0, 0, 1] : Array.from(model.normals.subarray(4 * face, 4 * face + 3));
     const outward = thickness > 1e-6 * radius ? scaled(span, 1 / thickness) : unit(normal, [0, 0, 1]);
-    const { toViewer } = this.viewer.axesOf(index, this.viewer.state), point = scaled(add(...ends), 0.5);
-    const direction = directionOfLeastCover(model, ends, outward, toViewer, 1e-4 * radius);
-    const extent = (surface && regionRadius(surface, regionOfTriangle, number, point)) || Math.sqrt(area);
-    const seen = Math.max(1.3 * Math.min(extent, radius / 2), 8 * thickness, radius / 40);
-    this.fly(index, point, Math.max(radius / seen, this.viewer.initial.zoom), direction);
-    this.viewer.store.set({
-      face: `${index}:${id}`, show: this.showing(index), thin: true, thinAt: null, part: null,
-      rest: this.viewer.state.rest === 'grey' ? 'glass' : this.viewer.state.rest,
+    const axes = viewer.axesOf(index, viewer.state), point = scaled(add(...ends), 0.5);
+    const direction = directionOfLeastCover(model, ends, outward, axes, 1e-4 * radius);
+    const { surface, regionOfTriangle } = model.thin ?? {};
+    const extent = number >= 0 && surface ? 2 * regionRadius(surface, regionOfTriangle, number, point) : thickness;
+    const size = Math.max(thickness ? clamp(extent, thickness, 5 * thickness) : Math.min(extent, radius / 10), radius / 100);
+    const [{ width, height }] = viewer.rectangles(1), seen = kPlaceShare * size * Math.min(width, height) / width;
+    this.fly(index, point, Math.max(2 * radius / seen, viewer.initial.zoom), direction);
+    const hasLimit = givenLimit(viewer.models) !== null;
+    viewer.store.set({
+      place: `${index}:${number}`, face: null, part: null, show: this.showing(index), thin: hasLimit, thinAt: null,
+      rest: viewer.state.rest === 'grey' ? 'glass' : viewer.state.rest,
     });
   }
 
   part(index, part) {
     const model = this.viewer.models[index], { centre } = this.viewer.frames[index];
     const point = subtract(part.centre, model.origin), outwards = subtract(point, centre);
-    const length = Math.hypot(...outwards);
-    this.fly(index, point, this.zoomFor(index, part.area), length > 0 ? scaled(outwards, 1 / length) : null);
-    this.viewer.store.set({ part: `${index}:${part.label}`, thin: false, layer: this.viewer.layers.has('segment') ? 'segment' : this.viewer.state.layer, show: this.showing(index) });
+    const length = Math.hypot(...outwards), { toViewer } = this.viewer.axesOf(index, this.viewer.state);
+    this.fly(index, point, this.zoomFor(index, part.area), length > 0 ? unit(add(scaled(outwards, 1 / length), toViewer), toViewer) : null);
+    this.viewer.store.set({ part: `${index}:${part.label}`, place: null, face: null, thin: false, layer: this.viewer.layers.has('segment') ? 'segment' : this.viewer.state.layer, show: this.showing(index) });
   }
 
   // The value of `show` with which the mesh is visible.
