@@ -16,13 +16,11 @@ PageFailure currentPageFailure() {
   try {
     throw;
   } catch (const Error& error) {
-    return {nameOf(error.code()), oneLine(messageWithRemedy(error))};
+    std::string message = messageWithRemedy(error);
+    if (error.code() == ErrorCode::InputTooLarge) message += "; " + memoryRemedy();
+    return {nameOf(error.code()), oneLine(message)};
   } catch (const std::bad_alloc&) {
-    return {
-        nameOf(ErrorCode::InputTooLarge),
-        fmt::format("not enough memory for this mesh; meshes of at most {} usually fit; use the program asdf-vk, or "
-                    "a coarser mesh",
-                    counted(kMaxPageTriangleCount, "triangle"))};
+    return {nameOf(ErrorCode::InputTooLarge), "not enough memory for this mesh; " + memoryRemedy()};
   } catch (const std::exception& error) {
     return {"internal", oneLine(fmt::format("internal error: {}; please report it", error.what()))};
   } catch (...) {

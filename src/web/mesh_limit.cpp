@@ -2,21 +2,20 @@
 
 #include <fmt/core.h>
 
-#include <string>
-
 #include "asdf_vk/error.h"
 #include "core/text.h"
 
 namespace asdfvk {
 
-void requireMemory(const Mesh& mesh) {
+void requireMemory(const Mesh& mesh, const std::string& name) {
   if (mesh.faces.size() <= kMaxPageTriangleCount) return;
-  throw Error(
-      ErrorCode::InputTooLarge,
-      fmt::format("has {}; a page computes meshes of at most {}, because its memory is limited to 4 GB; use the "
-                  "program asdf-vk, or a coarser mesh",
-                  counted(mesh.faces.size(), "triangle"), counted(kMaxPageTriangleCount, "triangle")),
-      {{"limit", std::to_string(kMaxPageTriangleCount)}});
+  throw Error(ErrorCode::InputTooLarge, fmt::format("{}: has {}", name, counted(mesh.faces.size(), "triangle")),
+              {{"limit", std::to_string(kMaxPageTriangleCount)}});
+}
+
+std::string memoryRemedy() {
+  return fmt::format("this page computes at most {}; use the program asdf-vk, or a coarser mesh",
+                     counted(kMaxPageTriangleCount, "triangle"));
 }
 
 }  // namespace asdfvk

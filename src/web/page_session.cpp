@@ -81,7 +81,7 @@ Json PageSession::open(const std::filesystem::path& file, const std::optional<st
                        const RunControl& control) {
   opened_.reset();  // Its memory is needed.
   Mesh mesh = readMesh(file);
-  requireMemory(mesh);
+  requireMemory(mesh, file.filename().string());
   if (unit) mesh.unit = *unit;
   opened_ = std::make_unique<Opened>(session_, file.filename().string(), std::move(mesh), control);
   const Mesh& read = opened_->mesh;
