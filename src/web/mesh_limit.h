@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// The greatest number of triangles that a page computes. The memory of WebAssembly is limited to 4 GB; a check takes up
-/// to 1.5 kB per triangle if all faces are thin, and usually 0.6 kB.
+/// The greatest number of triangles that a page computes. The memory of WebAssembly is limited to 4 GB; a check takes
+/// up to 1.5 kB per triangle if all faces are thin, and usually 0.6 kB.
 inline constexpr uint64_t kMaxPageTriangleCount = 2'500'000;
 
 /// Throws Error{InputTooLarge} for a mesh with more triangles.
