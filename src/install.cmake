@@ -26,7 +26,7 @@ if(ASDF_VK_PROGRAM)
             RENAME ${program} COMPONENT program)
   endforeach()
 endif()
-if(TARGET asdf-vk-step)  # src/io/step_library.cpp searches the module there.
+if(TARGET asdf-vk-step)  # src/io/dl/step_library.cpp searches the module there.
   install(TARGETS asdf-vk-step LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/asdf-vk COMPONENT step)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/asdf_vk ${PROJECT_BINARY_DIR}/include/asdf_vk

@@ -200,8 +200,13 @@ void writePage(const std::filesystem::path& path, const py::object& mesh, const 
           const auto& [none, label, shown] = layers[i];
           setShown(result, std::move(fieldsOfLayers[i]), shown);
           const std::vector<std::reference_wrapper<const Field>> fields(result.fields.begin(), result.fields.end());
-          addResult(page, {.name = name, .label = label, .report = shown ? shown->texts : noReport}, result, fields,
-                    viewOf({}, "", result, true), control);
+          const View shownView = viewOf({}, "", result, true);
+          addResult(page,
+                    {.name = name,
+                     .label = label,
+                     .report = shown ? shown->texts : noReport,
+                     .picture = fallbackPicture(result, fields, shownView, control)},
+                    result, fields, shownView);
         }
         asdfvk::writePage(path, page);
       },

@@ -16,6 +16,7 @@
 #include "batch/output_record.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
+#include "describe/default_fields.h"
 #include "io/formats.h"
 
 namespace asdfvk {
@@ -109,14 +110,7 @@ class FileUses {
 }  // namespace
 
 std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options) {
-  if (!outputs.fields.empty()) return outputs.fields;
-  std::vector<std::string> names;
-  if (options.measuresThickness()) names.insert(names.end(), {"thickness", "least_thickness"});
-  if (options.measuresGap()) names.insert(names.end(), {"gap", "least_gap"});
-  if (options.measuresDiameter()) names.insert(names.end(), {"sdf", "seed"});
-  if (options.postprocesses()) names.emplace_back("normalized");
-  if (options.segmentation != Segmentation::None) names.emplace_back("segment");
-  return names;
+  return outputs.fields.empty() ? defaultFieldNames(options) : outputs.fields;
 }
 
 std::vector<std::string> outputFormats() {

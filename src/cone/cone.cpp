@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/random.h"
 #include "mesh/face_geometry.h"
 #include "shared/cone_rules.h"
@@ -31,7 +32,7 @@ struct Ray {
 // about square.
 void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
   const double runCount = std::ceil(static_cast<double>(rays.size()) / kRunLength);
-  const double squareSectorCount = 2 * std::numbers::pi * std::sin(halfAngle / 2) / halfAngle;
+  const double squareSectorCount = 2 * std::numbers::pi * sine(halfAngle / 2) / halfAngle;
   const auto rows = std::max<size_t>(1, static_cast<size_t>(std::lround(std::sqrt(runCount / squareSectorCount))));
   std::sort(rays.begin(), rays.end(), [](const Ray& a, const Ray& b) { return a.azimuth < b.azimuth; });
   if (rows == 1) return;
@@ -45,15 +46,15 @@ void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
 
 // Vogel 1979. Stores the versine 1 - cos t instead of the cosine, so that narrow cones lose no digits.
 std::vector<Ray> paperRays(uint32_t count, double halfAngle) {
-  const double maxVersine = 2 * std::pow(std::sin(halfAngle / 2), 2);
+  const double maxVersine = 2 * sine(halfAngle / 2) * sine(halfAngle / 2);
   std::vector<Ray> rays(count);
   for (size_t i = 0; i < rays.size(); ++i) {
     const double versine = (static_cast<double>(i) + 0.5) / count * maxVersine;
-    const double sine = std::sqrt(versine * (2 - versine));
+    const double radius = std::sqrt(versine * (2 - versine));
     const double phi = static_cast<double>(i) * kGoldenAngle;
     rays[i].azimuth = std::fmod(phi, 2 * std::numbers::pi);
-    rays[i].direction = {sine * std::cos(phi), sine * std::sin(phi), 1 - versine};
-    rays[i].angle = 2 * std::asin(std::sqrt(versine / 2));
+    rays[i].direction = {radius * cosine(phi), radius * sine(phi), 1 - versine};
+    rays[i].angle = angleOf(radius, 1 - versine);
     rays[i].weight = 1 / rays[i].angle;
   }
   return rays;
@@ -66,16 +67,16 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
   std::vector<Ray> rays(count);
   for (size_t i = 0; i < rays.size(); ++i) {
     const auto step = static_cast<double>(i);
-    const double radius = std::sin(halfAngle) * (step / count);
+    const double radius = sine(halfAngle) * (step / count);
     const double phi = step * kGoldenAngle;
-    const Vec3d direction{radius * std::cos(phi), radius * std::sin(phi), std::cos(halfAngle)};
+    const Vec3d direction{radius * cosine(phi), radius * sine(phi), cosine(halfAngle)};
     rays[i].azimuth = std::fmod(phi, 2 * std::numbers::pi);
     rays[i].direction = direction / length(direction);
-    rays[i].angle = std::atan(std::tan(halfAngle) * (step / count));
+    rays[i].angle = angleOf(radius, cosine(halfAngle));
     rays[i].weight = 1;
     // The density of rays per solid angle is proportional to 1 / (sin t cos^2 t).
-    const double t = std::atan(std::tan(halfAngle) * (std::max(step, kAxisRadius) / count));
-    rays[i].solidAngle = std::sin(t) * std::cos(t) * std::cos(t);
+    const double t = angleOf(sine(halfAngle) * (std::max(step, kAxisRadius) / count), cosine(halfAngle));
+    rays[i].solidAngle = sine(t) * cosine(t) * cosine(t);
   }
   return rays;
 }
@@ -93,11 +94,11 @@ Cone makeCone(const ConeOptions& options) {
   ASDFVK_CHECK(options.openingAngleDegrees > 0 && options.openingAngleDegrees < 180);
   Cone cone;
   cone.definition = options.definition;
-  cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
+  cone.falseHitCosine = cosine(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
   cone.outliers.deviations = options.outlierDeviations;
   cone.halfAngleRadians = options.openingAngleDegrees * std::numbers::pi / 360;
   cone.contactDistance =
-      std::clamp(kFloatPlaneError / std::cos(cone.halfAngleRadians), kContactDistance, kMaxContactDistance);
+      std::clamp(kFloatPlaneError / cosine(cone.halfAngleRadians), kContactDistance, kMaxContactDistance);
   cone.rotation = options.rotation;
   if (isCgal) {
     // The greatest negative normal number of float32. With this bound, an angle of 90 degrees is not acute.
@@ -153,8 +154,8 @@ ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key) {
   const ConeFrame frame = coneFrame(-normal);
   if (cone.rotation == ConeRotation::Fixed) return frame;
   const double angle = coneRotation(cone, key);
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent, frame.axis};
+  const double c = cosine(angle), s = sine(angle);
+  return {c * frame.tangent + s * frame.bitangent, c * frame.bitangent - s * frame.tangent, frame.axis};
 }
 
 }  // namespace asdfvk

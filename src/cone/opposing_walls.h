@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
 #include "asdf_vk/options.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
@@ -28,7 +28,7 @@ struct OpposingWalls {
 [[nodiscard]] inline OpposingWalls makeOpposingWalls(const ThicknessOptions& options) {
   const double angleDegrees = options.wallAngleDegrees;
   ASDFVK_CHECK(angleDegrees > 90 && angleDegrees <= 180);
-  return {std::cos(angleDegrees * std::numbers::pi / 180) + kOpposingWallSlack};
+  return {cosine(angleDegrees * std::numbers::pi / 180) + kOpposingWallSlack};
 }
 
 }  // namespace asdfvk

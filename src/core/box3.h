@@ -39,7 +39,7 @@ struct Box3 {
   [[nodiscard]] Vec3<T> centre() const { return isEmpty() ? Vec3<T>{} : min * T(0.5) + max * T(0.5); }
   [[nodiscard]] T diagonal() const {
     const Vec3<T> s = size();
-    return saturated(std::hypot(s.x, s.y, s.z));
+    return saturated(lengthInAnyUnit(s));
   }
   /// Precondition: areas neither overflow nor underflow, as in normalised units.
   [[nodiscard]] T halfArea() const {

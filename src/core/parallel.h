@@ -12,8 +12,8 @@
 #include "core/function_ref.h"
 #include "core/unset_vector.h"
 
-/// Parallel loops by TBB. Only parallel.cpp includes TBB, because the headers of TBB have 94,000 lines. Therefore
-/// parallel.cpp also defines BackgroundTask and ThreadLimit.
+/// Parallel loops by TBB; in a build without TBB, on one thread. Only tbb/parallel.cpp includes TBB, because the
+/// headers of TBB have 94,000 lines. Therefore tbb/parallel.cpp also defines BackgroundTask and ThreadLimit.
 namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;

@@ -51,6 +51,12 @@ template <typename T>
 T length(const Vec3<T>& a) {
   return std::sqrt(dot(a, a));
 }
+/// The length of a, also if squares overflow or underflow. Not std::hypot(), whose bits differ between libraries.
+template <typename T>
+T lengthInAnyUnit(const Vec3<T>& a) {
+  const T largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  return largest > 0 && std::isfinite(largest) ? largest * length(a / largest) : largest;
+}
 template <typename T>
 bool isFinite(const Vec3<T>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);

@@ -6,8 +6,10 @@
 #include <functional>
 #include <limits>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/percentiles.h"
+#include "core/vec3.h"
 #include "core/weighted_sample.h"
 
 namespace asdfvk {
@@ -47,7 +49,7 @@ double indicatorOf(std::span<const double> indicator, size_t node) { return indi
 double gainBySeeds(const EstimateInput& input) {
   const auto heldOutCount = static_cast<double>(input.seeds.heldOutWeights.size()),
              seedCount = static_cast<double>(input.seeds.size());
-  return std::pow(1 - heldOutCount / seedCount, input.predicts ? kGainExponent : kGainExponentWithoutPrediction);
+  return power(1 - heldOutCount / seedCount, input.predicts ? kGainExponent : kGainExponentWithoutPrediction);
 }
 
 struct Measurement {
@@ -158,7 +160,7 @@ void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measur
   const double medianShare = std::clamp(1 - 0.5 / interpolatedShare, 0.0, 1.0);
   const double deviation = interpolatedShare * std::sqrt(medianShare * (1 - medianShare) * squareSum) / weightSum;
   const double spread = (errors.quantile(std::min(1.0, 0.5 + deviation)) - errors.quantile(0.5 - deviation)) / 2;
-  estimate.relativeMedianStandardError = std::hypot(spread, (1 - gain) / gain * estimate.relativeMedian);
+  estimate.relativeMedianStandardError = lengthInAnyUnit(Vec3d{spread, (1 - gain) / gain * estimate.relativeMedian, 0});
 }
 
 }  // namespace
@@ -180,7 +182,10 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const FaceDomain& domai
   }
   const double ratio = errorSum / indicatorSum;
   double squareSum = 0;
-  for (const Measurement& m : measured) squareSum += std::pow(m.weight * (m.error / unit - ratio * m.indicator), 2);
+  for (const Measurement& m : measured) {
+    const double difference = m.weight * (m.error / unit - ratio * m.indicator);
+    squareSum += difference * difference;
+  }
   const auto sampleSize = static_cast<double>(representativeCount);
   const double ratioDeviation = std::sqrt(squareSum * sampleSize / (sampleSize - 1)) / indicatorSum;
   const double gain = gainBySeeds(input), gainDeviation = 1 - gain;
@@ -192,7 +197,8 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const FaceDomain& domai
   errors.average = sum / static_cast<double>(sums.count) * unit;
   estimateRelativeErrors(input, measured, gain, sums.interpolatedCount, errors.estimate);
   errors.estimate.average = sum * scale;
-  errors.estimate.standardError = gain * std::hypot(ratioDeviation, gainDeviation * ratio) * sums.indicator * scale;
+  errors.estimate.standardError =
+      gain * lengthInAnyUnit(Vec3d{ratioDeviation, gainDeviation * ratio, 0}) * sums.indicator * scale;
   errors.estimate.heldOutCount = measured.size();
   errors.estimate.worstFaces = worstOf(mesh, domain, measured, range);
   return errors;

@@ -95,7 +95,7 @@ class PlyAsciiSource {
   /// Returns the size of padding after the last row.
   uint64_t requireEnd() {
     const uint64_t size = text_.atEnd() ? 0 : text_.remaining();
-    if (!isPlyPadding({text_.position(), size})) text_.requireEnd("the last row");
+    if (!isPlyPadding({text_.position(), static_cast<size_t>(size)})) text_.requireEnd("the last row");
     return size;
   }
   uint64_t takePoints(const PlyElement&, std::vector<Vec3d>&) { return 0; }

@@ -7,6 +7,7 @@
 
 #include "core/bucket_sort.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/prefetch.h"
 
@@ -79,7 +80,7 @@ class AggregateGrower {
   const DualGraph& graph_;
   const FaceGeometry& geometry_;
   const AggregateLimits limits_;
-  const double minCosine_ = std::cos(inRadians(kMaxAngleDegrees));
+  const double minCosine_ = cosine(inRadians(kMaxAngleDegrees));
   Block& block_;
   std::span<uint32_t> aggregateOf_, members_;
   uint32_t memberEnd_;

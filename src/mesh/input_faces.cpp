@@ -11,6 +11,7 @@
 #include "core/free_memory.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "core/vec3.h"
 
 namespace asdfvk {
 namespace {
@@ -169,7 +170,8 @@ bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<con
 double PolygonTriangulator::turnAt(uint32_t corner) const {
   const Point2 a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
   const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
-  const double lengths = std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y);
+  const double lengths =
+      lengthInAnyUnit(Vec3d{b.x - a.x, b.y - a.y, 0}) * lengthInAnyUnit(Vec3d{c.x - b.x, c.y - b.y, 0});
   return lengths > 0 ? cross / lengths : 0;
 }
 

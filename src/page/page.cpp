@@ -126,12 +126,15 @@ void Page::writeTitle(AtomicFile& file) const {
   file.write(escapedForHtml(title));
 }
 
-void Page::writeData(AtomicFile& file) const {
+Json Page::data() const {
   Json meshes = Json::array();
   for (const auto& mesh : meshes_) meshes.push_back(*mesh);
-  const Json json{{"generator", generator_}, {"meshes", std::move(meshes)}};
+  return {{"generator", generator_}, {"meshes", std::move(meshes)}};
+}
+
+void Page::writeData(AtomicFile& file) const {
   file.write("<script type=\"application/json\" id=\"asdf-vk-page\">");
-  file.write(escapedForScript(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
+  file.write(escapedForScript(data().dump(-1, ' ', true, Json::error_handler_t::replace)));
   file.write("</script>\n");
   arrays_.write(file);
 }

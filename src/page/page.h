@@ -55,6 +55,10 @@ class Page {
   [[nodiscard]] bool isEmpty() const { return texts_.empty(); }
   void write(AtomicFile& file) const;
 
+  /// The JSON of the page (docs/page-format.md), and the arrays to which it refers.
+  [[nodiscard]] nlohmann::ordered_json data() const;
+  [[nodiscard]] const PageArrays& arrays() const { return arrays_; }
+
  private:
   void writeTitle(AtomicFile& file) const;
   void writeData(AtomicFile& file) const;

@@ -26,6 +26,8 @@ class PageArrays {
   /// Writes one HTML element per array, with the bytes in base64.
   void write(AtomicFile& file) const;
 
+  [[nodiscard]] std::span<const Bytes> all() const { return arrays_; }
+
  private:
   std::vector<Bytes> arrays_;
 };

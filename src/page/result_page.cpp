@@ -5,8 +5,7 @@
 
 #include "asdf_vk/version.h"
 #include "core/atomic_file.h"
-#include "render/png.h"
-#include "render/result_picture.h"
+#include "render/camera.h"
 #include "trace/scene_data.h"
 
 namespace asdfvk {
@@ -40,8 +39,7 @@ void writePage(AtomicFiles& files, const std::filesystem::path& path, const Page
   files.write(path, [&](AtomicFile& file) { page.write(file); });
 }
 
-void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
-               const RunControl& control) {
+void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view) {
   if (std::optional<ShownPlaces> shown = shownPlaces(result.report))
     texts.thin = {.shown = *std::move(shown), .surface = result.thinSurface};
   texts.least = leastPlace(result.report);
@@ -49,8 +47,6 @@ void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fiel
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;
   texts.segments = segmentsOf(result, fields);
-  const Field* const pictured = texts.thin ? nullptr : &fields.front().get();
-  texts.picture = encodePng(pictureOf(result, pictured, view, kSmallPicture, control));
   page.add(result.scene->scene.mesh, fields, std::move(texts));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
@@ -11,11 +12,14 @@ namespace asdfvk {
 class AtomicFiles;
 struct View;
 
-/// Adds a result with its thin places, segments, view and a small picture. texts: name, label and report. fields: the
-/// fields to show, beginning with the field of the picture. Preconditions: the result has a scene; there is a field.
-/// Throws Error{Cancelled}.
-void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view,
-               const RunControl& control);
+/// Adds a result with its thin places, segments and view. texts: name, label, report and picture. fields: the fields to
+/// show. Preconditions: the result has a scene; there is a field.
+void addResult(Page& page, PageTexts texts, const Result& result, FieldSpan fields, const View& view);
+
+/// PageTexts::picture: the thin places, else the first of the fields. Preconditions as for addResult(). Throws
+/// Error{Cancelled}.
+[[nodiscard]] std::vector<char> fallbackPicture(const Result& result, FieldSpan fields, const View& view,
+                                                const RunControl& control);
 
 /// A page without results, with the name and version of this program as generator.
 [[nodiscard]] Page emptyPage();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/elementary.h"
+
 namespace asdfvk {
 namespace {
 
@@ -25,7 +27,7 @@ double countForTarget(std::optional<double> maximum, double estimate, double sta
   const double perFace = bound / (1 - seedCount / candidateCount);
   double growth = kMinGrowth;
   while (growth < kMaxGrowth && growth * seedCount < candidateCount &&
-         (1 - growth * seedCount / candidateCount) * perFace * std::pow(growth, -kConvergence) > target)
+         (1 - growth * seedCount / candidateCount) * perFace * power(growth, -kConvergence) > target)
     growth *= kGrowthStep;
   return std::ceil((growth - 1) * seedCount);
 }

@@ -77,7 +77,7 @@ double distanceOf(const SurfacePoint& found, const Normalization& unit, const Ve
   constexpr double kFar = 1e100;
   if (found.distance < kFar) return unit.toMeshLength(found.distance);
   const Vec3d way = p - unit.centre;
-  return std::min(std::hypot(way.x, way.y, way.z), std::numeric_limits<double>::max());
+  return std::min(lengthInAnyUnit(way), std::numeric_limits<double>::max());
 }
 
 std::vector<double> valuesWith(const KeptTracer& tracer, const PreparedScene& scene, std::span<const double> points,

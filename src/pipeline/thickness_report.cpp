@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/weighted_sample.h"
 #include "pipeline/value_report.h"
 #include "trace/wall_rule.h"
@@ -145,8 +146,9 @@ class Description {
   /// Angle between the surfaces that the ball of a place touches.
   [[nodiscard]] double angleAt(const WallPlace& place) const {
     if (place.ball.wall == kNoFace) return 0;
-    const double cosine = -dot(prepared_.geometry.normals[place.face], prepared_.geometry.normals[place.ball.wall]);
-    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+    const double cosine = std::clamp(
+        -dot(prepared_.geometry.normals[place.face], prepared_.geometry.normals[place.ball.wall]), -1.0, 1.0);
+    return angleOf(std::sqrt((1 - cosine) * (1 + cosine)), cosine) * 180 / std::numbers::pi;
   }
 
   [[nodiscard]] double areaOf(const ThinPart& part) const {

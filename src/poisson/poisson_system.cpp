@@ -9,6 +9,7 @@
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
 #include "core/raise_flag.h"
+#include "core/vec3.h"
 
 namespace asdfvk {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 constexpr double kMinDistanceRatio = 1e-9;
 constexpr double kMinDistance = 1e-300;  // Least distance, for meshes whose diagonal is almost 0.
 constexpr double kMinWeight = std::numeric_limits<double>::min();  // Least weight, for distances that overflow.
-
-// Unlike the root of a sum of squares, std::hypot neither overflows nor underflows in any unit.
-double lengthOf(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
 
 double featureWeight(double dihedralAngleRadians) {
   const double degrees = dihedralAngleRadians * (180 / std::numbers::pi);
@@ -97,12 +95,12 @@ UnsetVector<double> featureWeights(std::span<const float> arcAngles) {
 UnsetVector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   UnsetVector<double> weights(graph.neighbours.size());
-  const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
+  const double minDistance = std::max(kMinDistanceRatio * lengthInAnyUnit(geometry.bounds.size()), kMinDistance);
   forEachInParallel(graph.faceCount(), [&](uint32_t face) {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
       // The difference of the halves does not overflow.
       const Vec3d half = geometry.barycentres[graph.neighbours[arc]] * 0.5 - geometry.barycentres[face] * 0.5;
-      weights[arc] = std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
+      weights[arc] = std::max(1 / std::max(2 * lengthInAnyUnit(half), minDistance), kMinWeight);
     }
   });
   return weights;

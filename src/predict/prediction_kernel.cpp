@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.h"
+
 namespace asdfvk {
 namespace {
 
@@ -254,9 +256,9 @@ PredictionKernel::Rules PredictionKernel::rulesOf(const Cone& cone) {
   const double minAngle = cone.definition == Definition::Paper
                               ? 1 / *std::max_element(cone.weights.begin(), cone.weights.end())
                               : *std::min_element(cone.solidAngles.begin(), cone.solidAngles.end());
-  rules.minCosine = static_cast<float>(std::cos(cone.halfAngleRadians) - kCosineSlack);
+  rules.minCosine = static_cast<float>(cosine(cone.halfAngleRadians) - kCosineSlack);
   rules.maxNormalCosine = static_cast<float>(cone.falseHitCosine);
-  rules.minVersine = static_cast<float>(2 * std::pow(std::sin(minAngle / 2), 2));
+  rules.minVersine = static_cast<float>(2 * sine(minAngle / 2) * sine(minAngle / 2));
   rules.outlierDeviations = static_cast<float>(cone.outliers.deviations);
   rules.outlierSlack = static_cast<float>(cone.outliers.slack);
   rules.definition = cone.definition;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "mesh/face_geometry.h"
 
 namespace asdfvk {
@@ -18,7 +18,7 @@ inline constexpr double kThinReach = 1.0 / 3;
 inline constexpr double kTaperReach = 3.0 / 8, kTaperShare = 7.0 / 8;
 /// The surface around a point has normals that differ by less than 107 degrees from the normal at the point. It
 /// contains the surface behind a right angle, but not the other side of a wall.
-inline const double kSameSideCosine = std::cos(107 * std::numbers::pi / 180);
+inline const double kSameSideCosine = cosine(107 * std::numbers::pi / 180);
 /// Details have limits of at least this share of L.
 inline constexpr double kLeastDetailShare = 1.0 / 16;
 /// A thickness of at most this number is 0, because float32 does not resolve it (normalised). Thus the thickness at a

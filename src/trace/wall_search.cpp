@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <tuple>
 
 #include "trace/nearest_point.h"
 
@@ -108,23 +109,29 @@ void WallSearch::forEachPoint(std::span<const uint32_t> pieces, double floor, Fu
   cells_.clear();
   contradictions_.clear();
   pointCount_ = 0;
-  // Parts of equal thickness: long ones first.
+  // Parts of equal thickness: long ones first, then those that were found first. A total order, because libraries
+  // differ in the order of equal elements.
   const auto isLater = [](const Part& a, const Part& b) {
-    return std::pair(a.least, -a.size) > std::pair(b.least, -b.size);
+    return std::tuple(a.least, -a.size, a.number) > std::tuple(b.least, -b.size, b.number);
   };
   std::priority_queue<Part, std::vector<Part>, decltype(isLater)> queue(isLater);
+  uint32_t partCount = 0;
+  const auto add = [&](Part part) {
+    part.number = partCount++;
+    queue.push(part);
+  };
   for (const uint32_t i : pieces) {
     const ThinPiece& piece = pieces_[i];
     if (piece.least.ball.diameter < kThinShare * scale_)
-      queue.push({piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter,
-                  longestSideOf(piece.corners).second, piece.face});
+      add({piece.corners, pieces_.ballAtMiddle(i), piece.least.ball.diameter, longestSideOf(piece.corners).second,
+           piece.face});
   }
   std::vector<Part> longParts;
   while (true) {
     if (longParts.size() == kPartsPerQuery || queue.empty() || isDone(queue.top().least)) {
       if (longParts.empty() || isDone(longParts.front().least)) break;
       for (const Part& half : measuredHalvesOf(longParts))
-        if (half.least < kThinShare * scale_) queue.push(half);
+        if (half.least < kThinShare * scale_) add(half);
       longParts.clear();
       continue;
     }
@@ -169,7 +176,7 @@ std::vector<WallSearch::Part> WallSearch::measuredHalvesOf(std::span<const Part>
   for (const BallQuery& query : queries) {
     const std::array<Vec3d, 3>& corners = query.triangle.corners;
     halves.push_back({corners, query.atPoint, query.least.ball.diameter, longestSideOf(corners).second,
-                      parts[halves.size() / 2].face});
+                      parts[halves.size() / 2].face, 0});
   }
   return halves;
 }

@@ -53,6 +53,7 @@ class WallSearch {
     InscribedBall atMiddle;
     double least = 0, size = 0;
     uint32_t face = kNoFace;
+    uint32_t number = 0;  ///< Ascending in the order of the queue.
   };
 
   void forEachPoint(std::span<const uint32_t> pieces, double floor, FunctionRef<bool(double)> isDone,

@@ -8,6 +8,7 @@
 
 #include "bvh/leaf_faces.h"
 #include "core/random.h"
+#include "core/vec3.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
@@ -46,7 +47,7 @@ Passage passageOf(const RayFrame& ray, const std::array<Vec3d, 3>& corners) {
   for (size_t k = 0; k < 3; ++k) {
     const Vec3d &from = p[k], &to = p[(k + 1) % 3];
     sides[k] = from.x * to.y - from.y * to.x;
-    lengths[k] = std::hypot(to.x - from.x, to.y - from.y);
+    lengths[k] = lengthInAnyUnit(Vec3d{to.x - from.x, to.y - from.y, 0});
   }
   double least = kNoHit, greatest = -kNoHit;  // Distances from the edges.
   for (size_t k = 0; k < 3; ++k) {

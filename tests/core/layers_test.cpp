@@ -91,8 +91,7 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
   if ((top == "Eigen" || top == "unsupported") && layer != "poisson" && layer != "segment")
     return "Eigen belongs in poisson and segment";
   if ((target == "volk.h" || top == "vulkan" || top == "volk") && !isVulkan) return "Vulkan belongs in folders vk/";
-  if (top == "tbb" && !(layer == "core" && file.filename() == "parallel.cpp"))
-    return "TBB belongs in core/parallel.cpp";
+  if (top == "tbb" && !isIn("tbb", file)) return "TBB belongs in the folders tbb/";
   if (target.ends_with(".hxx") && !isIn("opencascade", file)) return "Open CASCADE belongs in the folders opencascade/";
   if (top == "draco" && !isIn("draco", file)) return "Draco belongs in folders draco/";
   if (target == "meshoptimizer.h" && !isIn("meshoptimizer", file))
