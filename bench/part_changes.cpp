@@ -99,11 +99,18 @@ void printTable(const std::vector<Change>& changes, const std::vector<Row>& rows
   writeOutput(text + fmt::format("| none | | | {:.1f} |\n", originalCount));
 }
 
-void run(const std::vector<std::string>& paths, bool comparesTwo, bool listsMeshes, const RunControl& control) {
+struct Arguments {
+  std::vector<std::string> paths;
+  uint32_t every = 1;
+  bool comparesTwo = false, listsMeshes = false;
+};
+
+void run(const Arguments& arguments, const RunControl& control) {
+  const std::vector<std::string>& paths = arguments.paths;
   Session session({.backend = BackendChoice::Cpu});
   const std::vector<Change> changes = allChanges();
   const Change none{"none", nullptr};
-  if (comparesTwo) {
+  if (arguments.comparesTwo) {
     const SegmentedMesh a(session, readMesh(paths.at(0)), none, control),
         b(session, readMesh(paths.at(1)), none, control);
     writeOutput(fmt::format("{} and {} parts, dissimilarity {:.3f} and {:.3f}\n", a.partCount, b.partCount,
@@ -112,7 +119,9 @@ void run(const std::vector<std::string>& paths, bool comparesTwo, bool listsMesh
   }
   std::vector<Row> rows(changes.size());
   double originalCount = 0;
-  for (const std::string& path : paths) {
+  uint32_t meshCount = 0;
+  for (size_t at = arguments.every / 2; at < paths.size(); at += arguments.every, ++meshCount) {
+    const std::string& path = paths[at];
     const Mesh mesh = readMesh(path);
     const SegmentedMesh original(session, mesh, none, control);
     originalCount += original.partCount;
@@ -124,9 +133,10 @@ void run(const std::vector<std::string>& paths, bool comparesTwo, bool listsMesh
       rows[i].partCount += segmented.partCount;
       line += fmt::format(" {} {:.3f} ({})", changes[i].name, rows[i].dissimilarities.back(), segmented.partCount);
     }
-    if (listsMeshes) writeOutput(line + "\n");
+    if (arguments.listsMeshes) writeOutput(line + "\n");
   }
-  printTable(changes, rows, originalCount / static_cast<double>(paths.size()));
+  if (meshCount == 0) throw Error(ErrorCode::EmptyMesh, "there are fewer meshes than --every needs");
+  printTable(changes, rows, originalCount / std::max(meshCount, 1u));
 }
 
 }  // namespace
@@ -134,10 +144,10 @@ void run(const std::vector<std::string>& paths, bool comparesTwo, bool listsMesh
 int main(int argc, char** argv) {
   Program program("asdfvk-bench-part-changes",
                   "Change of --segment parts by changes of the mesh that people do not see.");
-  std::vector<std::string> paths;
-  bool comparesTwo = false, listsMeshes = false;
-  program.addMeshes(paths);
-  program.add("--two", comparesTwo, "Compare the parts of two meshes of one shape instead");
-  program.add("--meshes", listsMeshes, "Also print a line per mesh");
-  return program.run(argc, argv, [&](const RunControl& control) { run(paths, comparesTwo, listsMeshes, control); });
+  Arguments arguments;
+  program.addMeshes(arguments.paths);
+  program.add("--every", arguments.every, "Use each n-th mesh only, from the (n / 2)-th on", {1, 1000});
+  program.add("--two", arguments.comparesTwo, "Compare the parts of two meshes of one shape instead");
+  program.add("--meshes", arguments.listsMeshes, "Also print a line per mesh");
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

@@ -140,7 +140,9 @@ ThinRegion regionOf(const Json& s) {
 Json stateOf(const std::optional<ThicknessReport>& report) {
   if (!report || !report->thinnerThan) return nullptr;
   Json least;  // NaN is no number of JSON.
-  if (report->minFace) least = {report->min, *report->minFace, jsonOf(*report->minPlace)};
+  if (report->minFace)
+    least = {report->min, *report->minFace, jsonOf(*report->minPlace),
+             report->minOpposite ? jsonOf(*report->minOpposite) : Json()};
   Json regions = Json::array();
   for (const ThinRegion& region : report->regions) regions.push_back(stateOf(region));
   return {report->isOfGaps,    *report->thinnerThan, *report->verdict,  report->countsDetails,
@@ -159,6 +161,7 @@ std::optional<ThicknessReport> thicknessOf(const Json& s) {
     report.min = s[5][0];
     report.minFace = s[5][1].get<uint64_t>();
     report.minPlace = pointOf(s[5][2]);
+    if (!s[5][3].is_null()) report.minOpposite = pointOf(s[5][3]);
   }
   for (const Json& region : s[6]) report.regions.push_back(regionOf(region));
   return report;

@@ -48,7 +48,8 @@ def test_a_page_shows_several_results(tmp_path: Path, reference: asdf_vk.Session
     asdf_vk.write(page, mesh, info, {"height": height, "axis": np.zeros((len(height), 3))}, labels=["coarse <", "own"])
     first, second = meshes_of(page)
     assert (first["label"], second["label"], first["name"]) == ("coarse <", "own", "bell")
-    assert [field["name"] for field in first["fields"]] == ["segment", "sdf", "seed", "error"]
+    names = ["segment", "sdf", "seed", "error", "boundary_stability"]
+    assert [field["name"] for field in first["fields"]] == names
     assert first["fields"][1]["title"] == "shape diameter" and first["fields"][1]["unit"] == "mesh units"
     assert [field["name"] for field in second["fields"]] == ["height"]
     assert len(first["segments"]) == info.segment_count and first["errorSentence"]
