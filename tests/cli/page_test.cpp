@@ -50,7 +50,7 @@ TEST_CASE("a page has all fields of one component, the summary and the fallback 
   CHECK_EQ(data.at("name"), "sphere.off");
   CHECK_EQ(data.at("label"), "sphere.off, balanced, seeds 10 %");
   CHECK_EQ(data.at("faceCount"), 528);
-  CHECK(fieldsOf(data) == std::vector<std::string>{"segment", "sdf", "seed", "error"});
+  CHECK(fieldsOf(data) == std::vector<std::string>{"segment", "sdf", "seed", "error", "boundary_stability"});
   CHECK_EQ(data.at("summary")[0].at("title"), "Mesh");
   CHECK(data.at("summary")[0].at("value").get<std::string>().starts_with("528 faces, 266 vertices"));
   CHECK(data.at("errorSentence").get<std::string>().find("held out") != std::string::npos);
