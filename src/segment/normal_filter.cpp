@@ -14,6 +14,8 @@ constexpr uint32_t kFilterRoundCount = 5;
 /// The width of the filter is this factor times the square of the noise: curvature and uneven faces look like little
 /// noise, and must remain.
 constexpr double kWidthOverSquaredNoise = 10;
+/// With fewer faces, most faces are at edges of the shape, which look like noise.
+constexpr size_t kMinFilteredFaceCount = 1000;
 /// Below this noise the filter would change no normal by more than a fraction of a degree.
 constexpr double kMinNoise = 0.02;
 
@@ -37,6 +39,7 @@ double noiseOf(std::span<const Vec3d> normals, std::span<const float> areas, con
 std::vector<Vec3d> filterNormals(std::span<const Vec3d> normals, std::span<const float> areas, const DualGraph& graph) {
   ASDFVK_CHECK_OP(normals.size(), ==, areas.size());
   std::vector<Vec3d> filtered(normals.begin(), normals.end());
+  if (normals.size() < kMinFilteredFaceCount) return filtered;
   const double noise = noiseOf(normals, areas, graph);
   if (noise < kMinNoise) return filtered;
   const double width = kWidthOverSquaredNoise * noise * noise;
