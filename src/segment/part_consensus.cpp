@@ -120,7 +120,7 @@ const PartConsensus::Border* PartConsensus::weakestBorder(uint32_t region) const
 }
 
 void PartConsensus::merge(Border border) {
-  const auto [kept, removed] = border;
+  const uint32_t kept = border.a, removed = border.b;
   const size_t count = areas_.size();
   for (size_t other = 0; other < count; ++other) {
     separated_[kept * count + other] += separated_[removed * count + other];
