@@ -12,6 +12,7 @@
 #include <random>
 
 #include "core/vec3.h"
+#include "mesh/face_geometry.h"
 
 namespace asdfvk::bench {
 namespace {
@@ -20,16 +21,6 @@ using TriMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 /// Greatest angle between two faces whose common edge is flipped.
 constexpr double kMaxFlipRadians = 20 * std::numbers::pi / 180;
-
-double diagonalOf(const Mesh& mesh) {
-  Vec3d low = mesh.vertices.front(), high = low;
-  for (const Vec3d& vertex : mesh.vertices)
-    for (size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], vertex[axis]);
-      high[axis] = std::max(high[axis], vertex[axis]);
-    }
-  return length(high - low);
-}
 
 TriMesh toOpenMesh(const Mesh& mesh) {
   TriMesh result;
@@ -83,7 +74,7 @@ ChangedMesh unchanged(const Mesh& mesh) {
 ChangedMesh addNoise(const Mesh& mesh, double share) {
   ChangedMesh changed = unchanged(mesh);
   std::mt19937_64 random(1);
-  std::normal_distribution<double> offset(0, share * diagonalOf(mesh));
+  std::normal_distribution<double> offset(0, share * boundsOfFiniteVertices(mesh).diagonal());
   for (Vec3d& vertex : changed.mesh.vertices)
     for (size_t axis = 0; axis < 3; ++axis) vertex[axis] += offset(random);
   return changed;
@@ -157,7 +148,7 @@ ChangedMesh removeDiscs(const Mesh& mesh, uint32_t count, double radiusShare) {
   std::mt19937_64 random(1);
   std::vector<Vec3d> centres;
   for (uint32_t i = 0; i < count; ++i) centres.push_back(mesh.vertices[mesh.faces[random() % mesh.faces.size()][0]]);
-  const double radius = radiusShare * diagonalOf(mesh);
+  const double radius = radiusShare * boundsOfFiniteVertices(mesh).diagonal();
   for (uint32_t face = 0; face < mesh.faces.size(); ++face) {
     const auto isNear = [&](const Vec3d& centre) {
       return length(mesh.vertices[mesh.faces[face][0]] - centre) < radius;

@@ -15,9 +15,9 @@ struct ChangedMesh {
   std::vector<uint32_t> originalFaces;
 };
 
-[[nodiscard]] ChangedMesh unchanged(const Mesh& mesh);
-/// The changes are deterministic. Coordinates are in the unit of the mesh.
+// The changes are deterministic. Coordinates are in the unit of the mesh.
 
+[[nodiscard]] ChangedMesh unchanged(const Mesh& mesh);
 /// Moves each vertex by normally distributed offsets. share: standard deviation per axis, divided by the diagonal of
 /// the bounding box.
 [[nodiscard]] ChangedMesh addNoise(const Mesh& mesh, double share);

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/check.h"
 #include "core/parallel.h"
 
 namespace asdfvk {

@@ -15,7 +15,7 @@ namespace asdfvk {
 struct Division {
   Patches patches;
   PatchData data;
-  std::optional<PartMerging> merging;  ///< State before the first merge.
+  std::optional<PartMerging> merging;  ///< PartConsensus continues it to the last merge.
 };
 
 /// Merging of the patches of one division by the costs of several divisions: an average consensus of hierarchies

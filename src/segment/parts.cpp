@@ -153,26 +153,19 @@ double thresholdOf(const PartMerging& merging) {
   return std::sqrt(last * next);
 }
 
-/// The divisions after merging, each for itself.
-std::vector<PartMerging> mergeEach(std::span<const Division> divisions, const PartsOptions& options,
-                                   const MergeWeights& weights) {
-  std::vector<PartMerging> results;
-  for (const Division& division : divisions) results.push_back(*division.merging);
-  forEachTask(results.size(), [&](size_t i) {
-    if (options.partCount)
-      results[i].mergeToCount(*options.partCount);
-    else
-      results[i].mergeUpTo(weights.threshold / options.detail);
-  });
-  return results;
+void mergeParts(PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
+  if (options.partCount)
+    merging.mergeToCount(*options.partCount);
+  else
+    merging.mergeUpTo(weights.threshold / options.detail);
 }
 
 /// The threshold of the options. For a requested number of parts, the mean threshold of the divisions at this number.
-double thresholdOf(std::span<const PartMerging> results, const PartsOptions& options, const MergeWeights& weights) {
+double thresholdOf(std::span<const Division> divisions, const PartsOptions& options, const MergeWeights& weights) {
   if (!options.partCount) return weights.threshold / options.detail;
   double sum = 0;
-  for (const PartMerging& result : results) sum += std::log(std::max(thresholdOf(result), kLeastThreshold));
-  return std::exp(sum / static_cast<double>(results.size()));
+  for (const Division& division : divisions) sum += std::log(std::max(thresholdOf(*division.merging), kLeastThreshold));
+  return std::exp(sum / static_cast<double>(divisions.size()));
 }
 
 std::vector<uint32_t> labelsOf(const Patches& patches, std::span<const uint32_t> regions, uint32_t labelWithoutPatch) {
@@ -183,14 +176,13 @@ std::vector<uint32_t> labelsOf(const Patches& patches, std::span<const uint32_t>
 }
 
 /// Mean Rand index of the consensus with each division.
-double agreementOf(const PartConsensus& consensus, std::span<const Division> divisions,
-                   std::span<const PartMerging> results, std::span<const float> areas) {
+double agreementOf(const PartConsensus& consensus, std::span<const Division> divisions, std::span<const float> areas) {
   const std::vector<uint32_t> labels =
       labelsOf(divisions.back().patches, consensus.regionOfPatches(), consensus.regionCount());
   std::vector<double> indices(divisions.size());
   forEachTask(divisions.size(), [&](size_t i) {
-    indices[i] = randIndex(
-        labels, labelsOf(divisions[i].patches, results[i].regionOfPatches(), results[i].regionCount()), areas);
+    const auto& [patches, data, merging] = divisions[i];
+    indices[i] = randIndex(labels, labelsOf(patches, merging->regionOfPatches(), merging->regionCount()), areas);
   });
   return std::accumulate(indices.begin(), indices.end(), 0.0) / static_cast<double>(indices.size());
 }
@@ -318,16 +310,17 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   parts.meanSight = sums.all > 0 ? sums.seen / sums.all : 1;
   parts.isThinShell = parts.meanSight < kMaxWallSight && isWall(input, surface);
   const MergeWeights& weights = parts.isThinShell ? kShapeWeights : kSightWeights;
-  forEachTask(divisions.size(),
-              [&](size_t i) { divisions[i].merging.emplace(divisions[i].data, matrices[i], weights); });
-  const std::vector<PartMerging> results = mergeEach(divisions, dividing, weights);
-  const PartConsensus patchConsensus(surface, divisions, thresholdOf(results, dividing, weights));
+  forEachTask(divisions.size(), [&](size_t i) {
+    divisions[i].merging.emplace(divisions[i].data, matrices[i], weights);
+    mergeParts(*divisions[i].merging, dividing, weights);
+  });
+  const PartConsensus patchConsensus(surface, divisions, thresholdOf(divisions, dividing, weights));
   PartConsensus consensus = patchConsensus;
   if (dividing.partCount)
     consensus.mergeToCount(*dividing.partCount);
   else
     consensus.mergeUpTo(kMinStability);
-  parts.agreement = agreementOf(consensus, divisions, results, surface.areas);
+  parts.agreement = agreementOf(consensus, divisions, surface.areas);
   const bool mergesSmall = !options.partCount;
   if (mergesSmall) consensus.mergeSmallerThan(kMinPartArea);
   const uint32_t regionCount = consensus.regionCount();

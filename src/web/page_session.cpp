@@ -93,20 +93,20 @@ Json PageSession::open(const std::filesystem::path& file, const std::optional<st
           {"skipped", read.skipped}};
 }
 
-void PageSession::check(const Json& options, const RunControl& control) {
-  Opened& mesh = opened();
+Result PageSession::measure(const Json& options, const RunControl& control) {
   ComputationSettings settings = settingsOf(options);
   settings.options.keepsScene = true;
-  mesh.checked = mesh.scene.compute(CheckedOptions(settings.options), {}, control);
-  mesh.ofCheck = options;
+  return opened().scene.compute(CheckedOptions(settings.options), {}, control);
+}
+
+void PageSession::check(const Json& options, const RunControl& control) {
+  opened().checked = measure(options, control);
+  opened_->ofCheck = options;
 }
 
 void PageSession::compute(const Json& options, const RunControl& control) {
-  Opened& mesh = opened();
-  ComputationSettings settings = settingsOf(options);
-  settings.options.keepsScene = true;
-  mesh.computed = mesh.scene.compute(CheckedOptions(settings.options), {}, control);
-  mesh.ofComputation = options;
+  opened().computed = measure(options, control);
+  opened_->ofComputation = options;
 }
 
 Json PageSession::report() const {

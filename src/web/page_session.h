@@ -40,6 +40,7 @@ class PageSession {
   struct Opened;
 
   [[nodiscard]] Opened& opened() const;
+  [[nodiscard]] Result measure(const Json& options, const RunControl& control);
 
   SessionSettings settings_;
   Session session_;
